@@ -1,0 +1,113 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "fpm/kernel.hpp"
+#include "fpm/mirror.hpp"
+#include "fpm/particles.hpp"
+#include "fpm/stencil.hpp"
+#include "fpm/types.hpp"
+
+namespace fpm {
+
+/// How neighbourhoods are chosen.
+struct RowOptions {
+  Kernel kernel = Kernel::cubic_spline;
+  double support_radius = 0.0;  ///< [m] R > 0; 2.4 spacings is usual
+  double spacing = 0.0;         ///< [m] > 0; offsets within round-off of a multiple of half of it
+                                ///< are taken as that multiple, so that lattice rows share stencils
+  bool second = false;          ///< the rows must also carry second-gradient weights
+  double max_condition = 1e4;   ///< a row with a larger condition number of M or A is not accepted
+  double max_enlargement = 2.0;  ///< the first search widens R up to this factor for a poor row
+
+  /// Fewest neighbours (itself excluded) of an acceptable row.
+  template <int Dim>
+  int min_neighbours() const {
+    const int fit = Dim == 2 ? 5 : 9;
+    return second && fit > Dim + 2 ? fit : Dim + 2;
+  }
+};
+
+/// The reference configuration of every row: its neighbours and where they were, with what
+/// volumes, when the row was last searched. This is primary state: together with the initial
+/// particles it determines every weight, bit for bit.
+///
+/// Rows that were never re-searched refer to the initial particles and store neighbours only.
+template <int Dim>
+class Rows {
+ public:
+  Rows() = default;
+
+  /// First search, on the initial particles. A row with too few neighbours or an ill-conditioned
+  /// moment matrix gets a wider support.
+  /// @throws std::runtime_error naming the particle if no admissible support gives a valid row.
+  Rows(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts,
+       const RowOptions& options);
+
+  Index size() const { return static_cast<Index>(support_radius_.size()); }
+  const RowOptions& options() const { return options_; }
+
+  /// Neighbours of a row, itself excluded, ascending; indices >= size() are ghosts.
+  std::span<const Index> neighbours(Index row) const;
+
+  /// Whether the row was re-searched since the start.
+  bool searched(Index row) const { return slot_[static_cast<std::size_t>(row)] >= 0; }
+
+  /// Offsets and volumes of a row's neighbours in its reference configuration.
+  void geometry(Index row, RowGeometry<Dim>& geometry) const;
+
+  /// [m^Dim] Volume of each particle in its row's reference configuration, Vref.
+  const Eigen::VectorXd& reference_volume() const { return reference_volume_; }
+
+  /// Rebuilds the given rows on current positions and volumes (local re-search; paper section
+  /// 4.3). `excluded[b]` bars particle b from being picked up as a *new* neighbour (rigid plates).
+  /// A row that would end up with too few neighbours or ill-conditioned keeps its old reference.
+  /// @param position  [m] current positions
+  /// @param volume  [m^Dim] current volumes
+  /// @returns the rows that were rebuilt, ascending.
+  std::vector<Index> research(const std::vector<Index>& rows, const Field<Dim>& position,
+                              const Eigen::VectorXd& volume, const std::vector<char>& excluded);
+
+  /// Visits what a checkpoint must hold: visit(name, unit, vector).
+  template <class Visitor>
+  void for_each_field(Visitor&& visit) {
+    visit("row_offset", "-", row_offset_);
+    visit("neighbour", "-", neighbour_);
+    visit("support_radius", "m", support_radius_);
+    visit("reference_volume", "m^d", reference_volume_);
+    visit("searched_row", "-", searched_row_);
+    visit("searched_offset", "m", searched_offset_);
+    visit("searched_volume", "m^d", searched_volume_);
+  }
+
+  /// Rebuilds what follows from the visited fields; call after reading them.
+  /// @throws ShapeError if the fields contradict each other or refer to particles that do not
+  /// exist.
+  void restore(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts,
+               const RowOptions& options);
+
+ private:
+  bool accept(const RowGeometry<Dim>& geometry, RowWeights<Dim>& scratch) const;
+  Vector<Dim> snapped(Vector<Dim> offset) const;
+  void index_searched_rows();
+  void set_initial(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts);
+
+  RowOptions options_;
+  Field<Dim> initial_position_;     // ghosts included
+  Eigen::VectorXd initial_volume_;  // ghosts included
+  MirrorGhosts<Dim> ghosts_;
+  double round_off_ = 0.0;  // [m] of a difference of initial positions
+
+  std::vector<Index> row_offset_{0};  // CSR over all rows
+  std::vector<Index> neighbour_;
+  Eigen::VectorXd support_radius_;
+  Eigen::VectorXd reference_volume_;
+  std::vector<Index> searched_row_;      // ascending
+  std::vector<double> searched_offset_;  // Dim per neighbour of the searched rows, in their order
+  std::vector<double> searched_volume_;
+  std::vector<Index> slot_;  // per row: start in searched_volume_, or -1
+};
+
+}  // namespace fpm

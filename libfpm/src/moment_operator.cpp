@@ -1,0 +1,149 @@
+#include "fpm/moment_operator.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "operator_kernels.hpp"
+#include "segmented_rows.hpp"
+
+namespace fpm {
+namespace {
+
+// Adds V_a kappa_ab (T_a nu)_ab to the gradient weights; consistency.hpp says what nu is.
+template <int Dim>
+void add_consistency(const MirrorGhosts<Dim>& ghosts, const Field<Dim>& potential, Index row,
+                     std::span<const Index> neighbours, const RowGeometry<Dim>& geometry,
+                     RowWeights<Dim>& weights) {
+  const Index n = static_cast<Index>(potential.rows());
+  const Eigen::Index count = geometry.size();
+  Tensor<Dim> spread = Tensor<Dim>::Zero();
+  Tensor<Dim> fit = Tensor<Dim>::Zero();  // row J: sum kappa X (nu_b - nu_a)_J
+  Eigen::Matrix<double, Dim, Eigen::Dynamic> difference(Dim, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Index b = neighbours[static_cast<std::size_t>(k)];
+    Vector<Dim> other =
+        b < n ? Vector<Dim>(potential.row(b).transpose()) : ghosts.image(potential, b - n);
+    difference.col(k) = other - potential.row(row).transpose();
+    const auto x = geometry.offset.col(k);
+    spread += weights.kappa[k] * x * x.transpose();
+    fit += weights.kappa[k] * difference.col(k) * x.transpose();
+  }
+  const Tensor<Dim> slope = fit * spread.inverse();
+  for (Eigen::Index k = 0; k < count; ++k) {
+    weights.gradient.col(k) += geometry.own_volume * weights.kappa[k] *
+                               (difference.col(k) - slope * geometry.offset.col(k));
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const MirrorGhosts<Dim>& ghosts,
+                                    Channels channels, const Field<Dim>& potential)
+    : size_(rows.size()), channels_(channels), ghosts_(ghosts) {
+  if (potential.size() > 0) require_size("consistency potential", potential.rows(), size_);
+  detail::WeightedRows weighted;
+  weighted.channels = channel_count();
+  if (channels.pair) {
+    first_moment_.setZero(size_, Dim);
+    second_moment_.setZero(static_cast<Eigen::Index>(size_) * Dim * Dim);
+  }
+  RowGeometry<Dim> geometry;
+  RowWeights<Dim> weights;
+  for (Index a = 0; a < size_; ++a) {
+    const auto neighbours = rows.neighbours(a);
+    rows.geometry(a, geometry);
+    compute_weights(geometry, rows.options().kernel, channels.second, weights);
+    if (potential.size() > 0 && !rows.searched(a)) {
+      add_consistency(ghosts_, potential, a, neighbours, geometry, weights);
+    }
+    weighted.id.insert(weighted.id.end(), neighbours.begin(), neighbours.end());
+    weighted.offset.push_back(weighted.id.size());
+    const auto append = [&](const auto& column) {
+      weighted.weight.insert(weighted.weight.end(), column.data(), column.data() + column.size());
+    };
+    for (Eigen::Index k = 0; k < geometry.size(); ++k) {
+      append(Vector<Dim>(weights.gradient.col(k)));
+      if (channels.pair) {
+        const Vector<Dim> kappa_x = weights.kappa[k] * geometry.offset.col(k);
+        weighted.weight.push_back(weights.kappa[k]);
+        append(kappa_x);
+        first_moment_.row(a) += kappa_x.transpose();
+        Eigen::Map<Tensor<Dim>>(second_moment_.data() + a * Dim * Dim) +=
+            kappa_x * geometry.offset.col(k).transpose();
+      }
+      if (channels.second) {
+        append(Eigen::Matrix<double, second_gradient_size<Dim>, 1>(weights.second.col(k)));
+      }
+    }
+  }
+  // A gradient acts on differences, so its row has a self entry; the caller handles that of pairs.
+  std::vector<char> in_sum(static_cast<std::size_t>(channel_count()), 1);
+  if (channels.pair) std::fill_n(in_sum.begin() + Dim, 1 + Dim, char{0});
+  forward_ = detail::segment(weighted, block_rows);
+  transposed_ =
+      detail::segment(detail::transpose(weighted, size_ + ghosts_.size(), in_sum), block_rows);
+}
+
+template <int Dim>
+int MomentOperator<Dim>::stress_count() const {
+  return Dim * Dim + (channels_.pair ? 1 + Dim + 2 * Dim * Dim : 0) +
+         (channels_.second ? second_gradient_size<Dim> * Dim : 0);
+}
+
+template <int Dim>
+void MomentOperator<Dim>::extend(const double* field, double* extended) const {
+  for (int i = 0; i < Dim; ++i) {
+    std::copy_n(field + static_cast<Eigen::Index>(i) * size_, size_, extended + i * stride());
+    std::fill_n(extended + i * stride() + size_ + ghosts_.size(), padding, 0.0);
+  }
+  ghosts_.extend_vectors(extended, size_, stride());
+}
+
+template <int Dim>
+void MomentOperator<Dim>::extend_positions(const double* position, double* extended) const {
+  extend(position, extended);
+  ghosts_.extend_positions(extended, size_, stride());
+}
+
+template <int Dim>
+void MomentOperator<Dim>::gather(Index block, const double* extended, double* moments) const {
+  const auto b = static_cast<std::size_t>(block);
+  const auto* segments = forward_.segments.data();
+  const detail::KernelRows rows{segments + forward_.block_begin[b],
+                                segments + forward_.block_begin[b + 1], forward_.ids.data(),
+                                forward_.weights.data()};
+  detail::gather_kernel<Dim>(channels_)(rows, extended, stride(), block_first(block), moments,
+                                        block_stride);
+}
+
+template <int Dim>
+void MomentOperator<Dim>::scatter(const double* stress, const double* v, const double* x,
+                                  double* force) const {
+  const auto kernel = detail::scatter_kernel<Dim>(channels_);
+  const auto* segments = transposed_.segments.data();
+  const auto blocks = static_cast<Index>(transposed_.block_begin.size()) - 1;
+#pragma omp parallel for schedule(static)
+  for (Index block = 0; block < blocks; ++block) {
+    const auto b = static_cast<std::size_t>(block);
+    const detail::KernelRows rows{segments + transposed_.block_begin[b],
+                                  segments + transposed_.block_begin[b + 1], transposed_.ids.data(),
+                                  transposed_.weights.data()};
+    kernel(rows, stress, v, x, stride(), force);
+  }
+  ghosts_.fold_forces(force, size_, stride());
+}
+
+template <int Dim>
+double MomentOperator<Dim>::shared_share() const {
+  double shared = 0.0;
+  for (const auto& segment : forward_.segments) {
+    if (segment.shared) shared += segment.count;
+  }
+  return size_ == 0 ? 0.0 : shared / size_;
+}
+
+template class MomentOperator<2>;
+template class MomentOperator<3>;
+
+}  // namespace fpm

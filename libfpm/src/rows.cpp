@@ -1,0 +1,244 @@
+#include "fpm/rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "fpm/neighbour_search.hpp"
+
+namespace fpm {
+namespace {
+
+template <int Dim>
+Field<Dim> with_ghosts(const Field<Dim>& position, const MirrorGhosts<Dim>& ghosts) {
+  Field<Dim> extended(position.rows() + ghosts.size(), Dim);
+  extended.topRows(position.rows()) = position;
+  ghosts.extend_positions(extended.data(), position.rows(), extended.rows());
+  return extended;
+}
+
+template <int Dim>
+Eigen::VectorXd with_ghosts(const Eigen::VectorXd& volume, const MirrorGhosts<Dim>& ghosts) {
+  Eigen::VectorXd extended(volume.size() + ghosts.size());
+  extended.head(volume.size()) = volume;
+  for (Index g = 0; g < ghosts.size(); ++g) extended[volume.size() + g] = volume[ghosts.source(g)];
+  return extended;
+}
+
+}  // namespace
+
+template <int Dim>
+void Rows<Dim>::set_initial(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts) {
+  ghosts_ = ghosts;
+  initial_position_ = with_ghosts<Dim>(particles.position, ghosts);
+  initial_volume_ = with_ghosts<Dim>(particles.volume, ghosts);
+  const double extent =
+      initial_position_.size() == 0 ? 0.0 : initial_position_.cwiseAbs().maxCoeff();
+  round_off_ = 8.0 * std::numeric_limits<double>::epsilon() * extent;
+}
+
+template <int Dim>
+Rows<Dim>::Rows(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts,
+                const RowOptions& options)
+    : options_(options) {
+  require_size("particle volumes", particles.volume.size(), particles.size());
+  if (!(options.support_radius > 0.0)) {
+    throw std::invalid_argument("the support radius must be positive");
+  }
+  set_initial(particles, ghosts);
+  const Index n = particles.size();
+  support_radius_.setConstant(n, options.support_radius);
+  reference_volume_ = particles.volume;
+  slot_.assign(static_cast<std::size_t>(n), -1);
+
+  const NeighbourSearch<Dim> search(initial_position_);
+  std::vector<Index> found;
+  RowGeometry<Dim> row;
+  RowWeights<Dim> scratch;
+  for (Index a = 0; a < n; ++a) {
+    constexpr double growth = 1.05;
+    double radius = options.support_radius;
+    for (;; radius *= growth) {
+      if (radius > options.max_enlargement * options.support_radius) {
+        throw std::runtime_error("particle " + std::to_string(a) + " has no well-conditioned " +
+                                 "neighbourhood within " + std::to_string(options.max_enlargement) +
+                                 " support radii");
+      }
+      search.within(initial_position_.row(a).transpose(), radius, found);
+      std::erase(found, a);
+      neighbour_.resize(static_cast<std::size_t>(row_offset_.back()));
+      neighbour_.insert(neighbour_.end(), found.begin(), found.end());
+      row_offset_.push_back(static_cast<Index>(neighbour_.size()));
+      support_radius_[a] = radius;
+      geometry(a, row);
+      if (accept(row, scratch)) break;
+      row_offset_.pop_back();
+    }
+  }
+}
+
+template <int Dim>
+std::span<const Index> Rows<Dim>::neighbours(Index row) const {
+  const auto begin = static_cast<std::size_t>(row_offset_[static_cast<std::size_t>(row)]);
+  const auto end = static_cast<std::size_t>(row_offset_[static_cast<std::size_t>(row) + 1]);
+  return {neighbour_.data() + begin, end - begin};
+}
+
+// A lattice difference is known only to the round-off of the coordinates; taken as the multiple it
+// stands for, equal neighbourhoods get equal weights to the last bit.
+template <int Dim>
+Vector<Dim> Rows<Dim>::snapped(Vector<Dim> offset) const {
+  const double grid = 0.5 * options_.spacing;
+  if (grid <= 0.0) return offset;
+  for (int i = 0; i < Dim; ++i) {
+    const double lattice = std::round(offset[i] / grid) * grid;
+    if (std::abs(lattice - offset[i]) <= round_off_) offset[i] = lattice;
+  }
+  return offset;
+}
+
+template <int Dim>
+void Rows<Dim>::geometry(Index row, RowGeometry<Dim>& geometry) const {
+  const auto list = neighbours(row);
+  const auto count = static_cast<Eigen::Index>(list.size());
+  geometry.offset.resize(Dim, count);
+  geometry.volume.resize(count);
+  geometry.own_volume = reference_volume_[row];
+  geometry.support_radius = support_radius_[row];
+  const Index slot = slot_[static_cast<std::size_t>(row)];
+  for (Eigen::Index k = 0; k < count; ++k) {
+    if (slot >= 0) {
+      const auto at = static_cast<std::size_t>(slot + k);
+      for (int i = 0; i < Dim; ++i) geometry.offset(i, k) = searched_offset_[at * Dim + i];
+      geometry.volume[k] = searched_volume_[at];
+    } else {
+      const Index b = list[static_cast<std::size_t>(k)];
+      geometry.offset.col(k) =
+          snapped((initial_position_.row(b) - initial_position_.row(row)).transpose());
+      geometry.volume[k] = initial_volume_[b];
+    }
+  }
+}
+
+template <int Dim>
+bool Rows<Dim>::accept(const RowGeometry<Dim>& row, RowWeights<Dim>& scratch) const {
+  if (row.size() < options_.min_neighbours<Dim>()) return false;
+  compute_weights(row, options_.kernel, options_.second, scratch);
+  // Negated so that a NaN is refused.
+  return !(!(scratch.condition <= options_.max_condition) ||
+           !(scratch.second_condition <= options_.max_condition));
+}
+
+template <int Dim>
+std::vector<Index> Rows<Dim>::research(const std::vector<Index>& rows, const Field<Dim>& position,
+                                       const Eigen::VectorXd& volume,
+                                       const std::vector<char>& excluded) {
+  require_size("positions", position.rows(), size());
+  require_size("volumes", volume.size(), size());
+  require_size("excluded", static_cast<Eigen::Index>(excluded.size()), size());
+  const Field<Dim> now = with_ghosts<Dim>(position, ghosts_);
+  const Eigen::VectorXd volume_now = with_ghosts<Dim>(volume, ghosts_);
+  const NeighbourSearch<Dim> search(now);
+
+  std::vector<Index> rebuilt;
+  std::vector<std::vector<Index>> new_lists;
+  std::vector<RowGeometry<Dim>> new_geometry;
+  RowWeights<Dim> scratch;
+  for (const Index a : rows) {
+    const auto old = neighbours(a);
+    std::vector<Index> found;
+    search.within(now.row(a).transpose(), support_radius_[a], found);
+    std::erase_if(found, [&](Index b) {
+      const Index particle = b < size() ? b : ghosts_.source(b - size());
+      return b == a || (excluded[static_cast<std::size_t>(particle)] != 0 &&
+                        !std::binary_search(old.begin(), old.end(), b));
+    });
+    RowGeometry<Dim> row;
+    row.offset.resize(Dim, static_cast<Eigen::Index>(found.size()));
+    row.volume.resize(static_cast<Eigen::Index>(found.size()));
+    row.own_volume = volume_now[a];
+    row.support_radius = support_radius_[a];
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      row.offset.col(static_cast<Eigen::Index>(k)) = (now.row(found[k]) - now.row(a)).transpose();
+      row.volume[static_cast<Eigen::Index>(k)] = volume_now[found[k]];
+    }
+    if (!accept(row, scratch)) continue;
+    rebuilt.push_back(a);
+    new_lists.push_back(std::move(found));
+    new_geometry.push_back(std::move(row));
+  }
+  if (rebuilt.empty()) return rebuilt;
+
+  // Write all rows anew: old ones as they were, rebuilt ones from the lists above.
+  const Rows<Dim> old = *this;
+  row_offset_.assign(1, 0);
+  neighbour_.clear();
+  searched_row_.clear();
+  searched_offset_.clear();
+  searched_volume_.clear();
+  RowGeometry<Dim> kept;
+  std::size_t next = 0;
+  for (Index a = 0; a < size(); ++a) {
+    const bool is_new = next < rebuilt.size() && rebuilt[next] == a;
+    const auto list = is_new ? std::span<const Index>(new_lists[next]) : old.neighbours(a);
+    neighbour_.insert(neighbour_.end(), list.begin(), list.end());
+    row_offset_.push_back(static_cast<Index>(neighbour_.size()));
+    if (!is_new && !old.searched(a)) continue;
+    if (!is_new) old.geometry(a, kept);
+    const RowGeometry<Dim>& row = is_new ? new_geometry[next] : kept;
+    searched_row_.push_back(a);
+    searched_offset_.insert(searched_offset_.end(), row.offset.data(),
+                            row.offset.data() + row.offset.size());
+    searched_volume_.insert(searched_volume_.end(), row.volume.data(),
+                            row.volume.data() + row.volume.size());
+    reference_volume_[a] = row.own_volume;
+    if (is_new) ++next;
+  }
+  index_searched_rows();
+  return rebuilt;
+}
+
+template <int Dim>
+void Rows<Dim>::index_searched_rows() {
+  slot_.assign(static_cast<std::size_t>(size()), -1);
+  Index at = 0;
+  for (const Index a : searched_row_) {
+    if (a < 0 || a >= size()) {
+      throw ShapeError("re-searched row " + std::to_string(a) + " of " + std::to_string(size()));
+    }
+    slot_[static_cast<std::size_t>(a)] = at;
+    at += static_cast<Index>(neighbours(a).size());
+  }
+  require_size("volumes of re-searched rows", static_cast<Eigen::Index>(searched_volume_.size()),
+               at);
+  require_size("offsets of re-searched rows", static_cast<Eigen::Index>(searched_offset_.size()),
+               static_cast<Eigen::Index>(at) * Dim);
+}
+
+template <int Dim>
+void Rows<Dim>::restore(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts,
+                        const RowOptions& options) {
+  options_ = options;
+  set_initial(particles, ghosts);
+  const Eigen::Index n = particles.size();
+  require_size("support radii", support_radius_.size(), n);
+  require_size("reference volumes", reference_volume_.size(), n);
+  require_size("row offsets", static_cast<Eigen::Index>(row_offset_.size()), n + 1);
+  if (row_offset_.front() != 0 || !std::is_sorted(row_offset_.begin(), row_offset_.end())) {
+    throw ShapeError("row offsets must start at 0 and not decrease");
+  }
+  require_size("neighbours", static_cast<Eigen::Index>(neighbour_.size()), row_offset_.back());
+  for (const Index b : neighbour_) {
+    if (b < 0 || b >= n + ghosts.size()) {
+      throw ShapeError("neighbour " + std::to_string(b) + " of " +
+                       std::to_string(n + ghosts.size()) + " particles and ghosts");
+    }
+  }
+  index_searched_rows();
+}
+
+template class Rows<2>;
+template class Rows<3>;
+
+}  // namespace fpm
