@@ -1,0 +1,123 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "jfnk/preconditioner.hpp"
+#include "jfnk/residual.hpp"
+
+namespace jfnk {
+
+/// How a linear solve ended. In every case x holds the best iterate of the Krylov space.
+enum class KrylovStatus {
+  converged,        ///< ||b - A x|| met the tolerance
+  max_iterations,   ///< the iteration cap was met first
+  stagnated,        ///< a whole restart cycle reduced the residual by less than 0.1 %
+  breakdown,        ///< the Krylov space is exhausted (singular A) above the tolerance
+  operator_failed,  ///< A could not be applied, or gave NaN; x is of the iterations before
+  stopped           ///< A asked to stop; x is of the iterations before
+};
+
+/// Size and end of a linear solve.
+struct GmresOptions {
+  /// Columns kept before a restart; memory is restart + 1 vectors (twice that if flexible).
+  /// Range [1, inf); Saad & Schultz 1986.
+  int restart = 60;
+  /// Upper bound on applications of A. Range [1, inf).
+  int max_iterations = 60;
+  /// Stop when ||b - A x|| <= relative_tolerance ||b||. Range [0, 1).
+  double relative_tolerance = 1e-8;
+  /// Stop when ||b - A x|| <= absolute_tolerance. Unit of b, range [0, inf).
+  double absolute_tolerance = 0.0;
+  /// Store the preconditioned vectors so that P may vary from call to call (Saad 1993); otherwise
+  /// P is applied once more at the end of each cycle.
+  bool flexible = false;
+};
+
+/// All that is wrong with `options`, one sentence each; empty if usable.
+[[nodiscard]] std::vector<std::string> validate(const GmresOptions& options);
+
+/// Result of a linear solve.
+struct GmresResult {
+  KrylovStatus status = KrylovStatus::converged;
+  int iterations = 0;              ///< columns built, over all cycles
+  double residual_norm = 0.0;      ///< ||b - A x|| by the Arnoldi recurrence
+  double relative_residual = 0.0;  ///< the same over ||b||; 0 if b = 0
+};
+
+/// Non-owning view of a linear operator `op(v, Av)` that returns void, bool or Evaluation.
+class OperatorRef {
+ public:
+  template <class Op>
+  requires(!std::same_as<std::remove_cv_t<Op>, OperatorRef> &&
+           Residual<Op>) explicit OperatorRef(Op& op)
+      : object_(const_cast<void*>(static_cast<const void*>(std::addressof(op)))),
+        apply_([](void* o, const Vector& v, Vector& Av) {
+          return detail::outcome_of([&] { return (*static_cast<Op*>(o))(v, Av); });
+        }) {}
+
+  /// A v into Av.
+  Evaluation operator()(const Vector& v, Vector& Av) const { return apply_(object_, v, Av); }
+
+ private:
+  void* object_;
+  Evaluation (*apply_)(void*, const Vector&, Vector&);
+};
+
+/// Right-preconditioned restarted GMRES with a workspace that is allocated once.
+///
+/// Arnoldi by modified Gram-Schmidt, repeated where cancellation asks for it; least squares by
+/// Givens rotations. The residual after a restart comes from the Arnoldi relation, so A is applied
+/// `iterations` times and never more (once more if the first guess is not zero).
+class Gmres {
+ public:
+  /// Allocates for n unknowns; does nothing if the sizes are those of the last call.
+  void resize(Eigen::Index n, const GmresOptions& options, bool preconditioned);
+
+  /// Reduces ||b - A x|| from the given x. No allocation if `resize` was called before.
+  /// @param b  right-hand side, n; must be finite
+  /// @param[in,out] x  first guess and result, n
+  /// @throws std::invalid_argument if sizes disagree or `options` are not valid
+  GmresResult solve(const OperatorRef& A, const Vector& b, Vector& x, const GmresOptions& options,
+                    const PreconditionerRef& P = {}, const InnerProductRef& product = {});
+
+  /// Applications of the preconditioner by the last `solve`.
+  [[nodiscard]] int preconditioner_applications() const { return preconditioner_applications_; }
+
+ private:
+  struct Cycle {
+    int columns = 0;
+    bool ended = false;
+    KrylovStatus status = KrylovStatus::max_iterations;
+  };
+
+  Cycle run_cycle(const OperatorRef& A, const PreconditionerRef& P, const InnerProductRef& product,
+                  const GmresOptions& options, int allowed, double target);
+  double orthogonalise(int k, const InnerProductRef& product);
+  void rotate_column(int k, double subdiagonal);
+  void add_correction(int columns, const PreconditionerRef& P, bool flexible, Vector& x);
+  void residual_from_recurrence(int columns);
+
+  std::vector<Vector> basis_;
+  std::vector<Vector> preconditioned_;
+  Vector work_;
+  Vector direction_;
+  Eigen::MatrixXd triangle_;
+  Eigen::VectorXd cosines_;
+  Eigen::VectorXd sines_;
+  Eigen::VectorXd rhs_;
+  Eigen::VectorXd coefficients_;
+  double residual_norm_ = 0.0;
+  int preconditioner_applications_ = 0;
+};
+
+/// Solves A x = b once; allocates its own workspace. See `Gmres::solve`.
+template <class Op, class P = Identity>
+GmresResult gmres(Op&& A, const Vector& b, Vector& x, const GmresOptions& options = {},
+                  P&& preconditioner = {}) {
+  Gmres solver;
+  return solver.solve(OperatorRef(A), b, x, options, PreconditionerRef(preconditioner));
+}
+
+}  // namespace jfnk

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <concepts>
+#include <memory>
+
+#include "jfnk/options.hpp"
+#include "jfnk/preconditioner.hpp"
+#include "jfnk/report.hpp"
+#include "jfnk/residual.hpp"
+
+namespace jfnk {
+
+/// Any callable `(const Iteration&)` that returns void, or bool: false stops the solve.
+template <class O>
+concept Observer = requires(O& o, const Iteration& i) {
+  o(i);
+  requires std::is_void_v<decltype(o(i))> || std::same_as<decltype(o(i)), bool>;
+};
+
+/// Sees nothing.
+struct NoObserver {
+  void operator()(const Iteration&) const {}
+};
+
+/// Non-owning, type-erased view of an observer.
+class ObserverRef {
+ public:
+  template <class O>
+  requires(!std::same_as<std::remove_cv_t<O>, ObserverRef> &&
+           Observer<O>) explicit ObserverRef(O& o)
+      : object_(const_cast<void*>(static_cast<const void*>(std::addressof(o)))),
+        call_([](void* p, const Iteration& i) {
+          if constexpr (std::is_void_v<decltype(std::declval<O&>()(i))>) {
+            (*static_cast<O*>(p))(i);
+            return true;
+          } else {
+            return (*static_cast<O*>(p))(i);
+          }
+        }) {}
+
+  /// False if the observer asks to stop.
+  bool operator()(const Iteration& i) const { return call_(object_, i); }
+
+ private:
+  void* object_;
+  bool (*call_)(void*, const Iteration&);
+};
+
+/// Solves F(u) = 0, keeping its memory from one solve to the next.
+///
+/// Nothing else is kept: a second solve gives bit for bit what a new Solver would. Distinct solvers
+/// may run in distinct threads. No allocation between the first and the last evaluation.
+class Solver {
+ public:
+  /// @throws std::invalid_argument with every message of `validate` if options are not usable
+  explicit Solver(const Options& options = {});
+  ~Solver();
+  Solver(Solver&&) noexcept;
+  Solver& operator=(Solver&&) noexcept;
+
+  /// The choices in force.
+  [[nodiscard]] const Options& options() const;
+  /// Replaces them. @throws std::invalid_argument as the constructor
+  void set_options(const Options& options);
+
+  /// Finds u with F(u) = 0.
+  ///
+  /// Exceptions of the residual, preconditioner or observer pass through; u is then unchanged.
+  /// @param F  residual; see the concepts in residual.hpp for what it may offer
+  /// @param[in,out] u  first guess; on return the solution or the best iterate (see Status)
+  /// @param preconditioner  approximate inverse of the Jacobian
+  /// @param observer  called after each nonlinear iteration
+  /// @return valid until the next solve of this object
+  /// @throws std::invalid_argument if u is empty or the residual resizes its output
+  template <Residual F, Preconditioner P = Identity, Observer O = NoObserver>
+  const Report& solve(F&& residual, Vector& u, P&& preconditioner = {}, O&& observer = {}) {
+    return solve_erased(ResidualRef(residual), u, PreconditionerRef(preconditioner),
+                        ObserverRef(observer));
+  }
+
+ private:
+  const Report& solve_erased(const ResidualRef& residual, Vector& u,
+                             const PreconditionerRef& preconditioner, const ObserverRef& observer);
+
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
+
+/// Finds u with F(u) = 0 once. See `Solver::solve`.
+template <Residual F, Preconditioner P = Identity, Observer O = NoObserver>
+[[nodiscard]] Report solve(F&& residual, Vector& u, const Options& options = {},
+                           P&& preconditioner = {}, O&& observer = {}) {
+  Solver solver(options);
+  return solver.solve(residual, u, preconditioner, observer);
+}
+
+}  // namespace jfnk

@@ -1,0 +1,248 @@
+#include "jfnk/gmres.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace jfnk {
+namespace {
+
+constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
+
+// One Gram-Schmidt sweep leaves an error of rounding_unit / ratio in the orthogonality when the
+// vector shrinks by `ratio`; below this ratio (2e-13) the sweep is repeated.
+constexpr double reorthogonalise_below = 1e-3;
+
+// After the second sweep what remains of a vector inside the space is a few rounding units of it.
+constexpr double breakdown_ratio = 100.0 * rounding_unit;
+
+// A cycle that keeps more than this of the residual is taken for stagnation.
+constexpr double stagnation_ratio = 0.999;
+
+bool all_zero(const Vector& x) {
+  return (x.array() == 0.0).all();
+}
+
+}  // namespace
+
+std::vector<std::string> validate(const GmresOptions& options) {
+  std::vector<std::string> messages;
+  if (options.restart < 1) messages.push_back("restart must be at least 1");
+  if (options.max_iterations < 1) messages.push_back("max_iterations must be at least 1");
+  if (!(options.relative_tolerance >= 0.0 && options.relative_tolerance < 1.0)) {
+    messages.push_back("relative_tolerance must be in [0, 1)");
+  }
+  if (!(options.absolute_tolerance >= 0.0 && std::isfinite(options.absolute_tolerance))) {
+    messages.push_back("absolute_tolerance must be finite and not negative");
+  }
+  return messages;
+}
+
+void Gmres::resize(Eigen::Index n, const GmresOptions& options, bool preconditioned) {
+  const auto columns = static_cast<std::size_t>(
+      std::min<Eigen::Index>({n, options.restart, options.max_iterations}));
+  if (basis_.size() != columns + 1) basis_.resize(columns + 1);
+  for (Vector& v : basis_) v.resize(n);
+  preconditioned_.resize(options.flexible && preconditioned ? columns : 0);
+  for (Vector& z : preconditioned_) z.resize(n);
+  work_.resize(n);
+  direction_.resize(preconditioned ? n : 0);
+  const auto m = static_cast<Eigen::Index>(columns);
+  triangle_.resize(m + 1, m);
+  cosines_.resize(m);
+  sines_.resize(m);
+  rhs_.resize(m + 1);
+  coefficients_.resize(m + 1);
+}
+
+GmresResult Gmres::solve(const OperatorRef& A, const Vector& b, Vector& x,
+                         const GmresOptions& options, const PreconditionerRef& P,
+                         const InnerProductRef& product) {
+  if (b.size() != x.size()) {
+    throw std::invalid_argument("jfnk::Gmres: b has size " + std::to_string(b.size()) +
+                                ", x has size " + std::to_string(x.size()));
+  }
+  if (const auto messages = validate(options); !messages.empty()) {
+    throw std::invalid_argument("jfnk::Gmres: " + messages.front());
+  }
+  resize(b.size(), options, !P.is_identity());
+  preconditioner_applications_ = 0;
+
+  GmresResult result;
+  const double b_norm = product.norm(b);
+  const double target = std::max(options.absolute_tolerance, options.relative_tolerance * b_norm);
+  Vector& r = basis_.front();
+  const bool zero_guess = all_zero(x);
+  Evaluation first = Evaluation::ok;
+  if (zero_guess) {
+    r = b;
+  } else {
+    first = A(x, work_);
+    r = b - work_;
+  }
+  residual_norm_ = product.norm(r);
+  if (first != Evaluation::ok || !std::isfinite(residual_norm_)) {
+    result.status =
+        first == Evaluation::stop ? KrylovStatus::stopped : KrylovStatus::operator_failed;
+    result.residual_norm = residual_norm_;
+    return result;
+  }
+
+  result.status = KrylovStatus::max_iterations;
+  if (residual_norm_ <= target || residual_norm_ == 0.0) result.status = KrylovStatus::converged;
+  bool ended = result.status == KrylovStatus::converged;
+  while (!ended && result.iterations < options.max_iterations) {
+    const double before = residual_norm_;
+    const Cycle cycle =
+        run_cycle(A, P, product, options, options.max_iterations - result.iterations, target);
+    result.iterations += cycle.columns;
+    add_correction(cycle.columns, P, options.flexible, x);
+    result.status = cycle.status;
+    ended = cycle.ended;
+    if (!ended && residual_norm_ > stagnation_ratio * before) {
+      result.status = KrylovStatus::stagnated;
+      ended = true;
+    }
+    if (!ended && result.iterations < options.max_iterations) {
+      residual_from_recurrence(cycle.columns);
+    }
+  }
+  result.residual_norm = residual_norm_;
+  result.relative_residual = b_norm > 0.0 ? residual_norm_ / b_norm : 0.0;
+  return result;
+}
+
+// Builds columns from basis_[0] = r until the target, the restart length, the cap or a failure.
+Gmres::Cycle Gmres::run_cycle(const OperatorRef& A, const PreconditionerRef& P,
+                              const InnerProductRef& product, const GmresOptions& options,
+                              int allowed, double target) {
+  Cycle cycle;
+  const int columns = std::min(allowed, static_cast<int>(triangle_.cols()));
+  basis_[0] /= residual_norm_;
+  rhs_.setZero();
+  rhs_[0] = residual_norm_;
+  for (int k = 0; k < columns; ++k) {
+    const auto column = static_cast<std::size_t>(k);
+    Vector& w = basis_[column + 1];
+    const Vector* input = &basis_[column];
+    if (!P.is_identity()) {
+      Vector& z = options.flexible ? preconditioned_[column] : direction_;
+      P.apply(basis_[column], z);
+      ++preconditioner_applications_;
+      input = &z;
+    }
+    const Evaluation outcome = A(*input, w);
+    const double before = outcome == Evaluation::ok ? product.norm(w) : 0.0;
+    if (outcome != Evaluation::ok || !std::isfinite(before)) {
+      cycle.ended = true;
+      cycle.status =
+          outcome == Evaluation::stop ? KrylovStatus::stopped : KrylovStatus::operator_failed;
+      return cycle;
+    }
+    const double after = orthogonalise(k, product);
+    const bool exhausted = after <= breakdown_ratio * before;
+    rotate_column(k, exhausted ? 0.0 : after);
+    cycle.columns = k + 1;
+    residual_norm_ = std::abs(rhs_[k + 1]);
+    if (residual_norm_ <= target || exhausted) {
+      cycle.ended = true;
+      const double rest = 10.0 * rounding_unit * rhs_.head(k + 1).norm();
+      cycle.status = residual_norm_ <= std::max(target, rest) ? KrylovStatus::converged
+                                                              : KrylovStatus::breakdown;
+      return cycle;
+    }
+    w /= after;
+  }
+  return cycle;
+}
+
+// Modified Gram-Schmidt of basis_[k+1] against the columns before it; coefficients to triangle_.
+double Gmres::orthogonalise(int k, const InnerProductRef& product) {
+  Vector& w = basis_[static_cast<std::size_t>(k) + 1];
+  double before = product.norm(w);
+  double after = before;
+  triangle_.col(k).setZero();
+  for (int sweep = 0; sweep < 2; ++sweep) {
+    for (int j = 0; j <= k; ++j) {
+      const Vector& v = basis_[static_cast<std::size_t>(j)];
+      const double h = product.dot(v, w);
+      w -= h * v;
+      triangle_(j, k) += h;
+    }
+    after = product.norm(w);
+    if (after >= reorthogonalise_below * before) break;
+    before = after;
+  }
+  return after;
+}
+
+// Brings the new column of the Hessenberg matrix to triangular form by Givens rotations.
+void Gmres::rotate_column(int k, double subdiagonal) {
+  for (int j = 0; j < k; ++j) {
+    const double upper = triangle_(j, k);
+    const double lower = triangle_(j + 1, k);
+    triangle_(j, k) = cosines_[j] * upper + sines_[j] * lower;
+    triangle_(j + 1, k) = cosines_[j] * lower - sines_[j] * upper;
+  }
+  const double scale = triangle_.col(k).head(k + 1).cwiseAbs().maxCoeff();
+  const double diagonal = triangle_(k, k);
+  const double length = std::hypot(diagonal, subdiagonal);
+  if (length <= breakdown_ratio * scale || length == 0.0) {
+    // A maps this direction into the span of the others: it cannot lower the residual.
+    triangle_(k, k) = 0.0;
+    cosines_[k] = 0.0;
+    sines_[k] = 1.0;
+    rhs_[k + 1] = -rhs_[k];
+    rhs_[k] = 0.0;
+    return;
+  }
+  cosines_[k] = diagonal / length;
+  sines_[k] = subdiagonal / length;
+  triangle_(k, k) = length;
+  rhs_[k + 1] = -sines_[k] * rhs_[k];
+  rhs_[k] *= cosines_[k];
+}
+
+// x += P V y (or Z y) with the triangular system solved backwards; null columns get no weight.
+void Gmres::add_correction(int columns, const PreconditionerRef& P, bool flexible, Vector& x) {
+  if (columns == 0) return;
+  for (int i = columns - 1; i >= 0; --i) {
+    double sum = rhs_[i];
+    for (int j = i + 1; j < columns; ++j) sum -= triangle_(i, j) * coefficients_[j];
+    coefficients_[i] = triangle_(i, i) == 0.0 ? 0.0 : sum / triangle_(i, i);
+  }
+  const bool stored = flexible && !P.is_identity();
+  if (stored || P.is_identity()) {
+    const std::vector<Vector>& directions = stored ? preconditioned_ : basis_;
+    for (int j = 0; j < columns; ++j) {
+      x += coefficients_[j] * directions[static_cast<std::size_t>(j)];
+    }
+    return;
+  }
+  work_.setZero();
+  for (int j = 0; j < columns; ++j) {
+    work_ += coefficients_[j] * basis_[static_cast<std::size_t>(j)];
+  }
+  P.apply(work_, direction_);
+  ++preconditioner_applications_;
+  x += direction_;
+}
+
+// r = V Q^T (0, ..., 0, rhs[m]): the Arnoldi relation gives the new residual without applying A.
+void Gmres::residual_from_recurrence(int columns) {
+  coefficients_.setZero();
+  coefficients_[columns] = rhs_[columns];
+  for (int j = columns - 1; j >= 0; --j) {
+    const double upper = coefficients_[j];
+    const double lower = coefficients_[j + 1];
+    coefficients_[j] = cosines_[j] * upper - sines_[j] * lower;
+    coefficients_[j + 1] = sines_[j] * upper + cosines_[j] * lower;
+  }
+  work_.setZero();
+  for (int j = 0; j <= columns; ++j) {
+    work_ += coefficients_[j] * basis_[static_cast<std::size_t>(j)];
+  }
+  basis_[0].swap(work_);
+}
+
+}  // namespace jfnk

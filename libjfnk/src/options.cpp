@@ -1,0 +1,133 @@
+#include "jfnk/options.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace jfnk {
+namespace {
+
+class Checker {
+ public:
+  void require(bool good, const char* name, const char* range, double value) {
+    if (!good) {
+      messages_.push_back(std::string(name) + " = " + number(value) + " must be " + range);
+    }
+  }
+  void at_least(int value, int low, const char* name) {
+    const std::string range = "at least " + std::to_string(low);
+    require(value >= low, name, range.c_str(), value);
+  }
+  void fraction(double value, const char* name) {
+    require(value > 0.0 && value < 1.0, name, "in (0, 1)", value);
+  }
+  void half_open(double value, const char* name) {
+    require(value >= 0.0 && value < 1.0, name, "in [0, 1)", value);
+  }
+  void up_to_one(double value, const char* name) {
+    require(value > 0.0 && value <= 1.0, name, "in (0, 1]", value);
+  }
+  void not_negative(double value, const char* name) {
+    require(value >= 0.0 && std::isfinite(value), name, "finite and not negative", value);
+  }
+  [[nodiscard]] std::vector<std::string> take() { return std::move(messages_); }
+  void add(std::string message) { messages_.push_back(std::move(message)); }
+
+ private:
+  static std::string number(double value) {
+    std::string text = std::to_string(value);
+    return value == std::floor(value) ? text.substr(0, text.find('.')) : text;
+  }
+  std::vector<std::string> messages_;
+};
+
+void check_krylov(const Krylov& k, Checker& check) {
+  check.at_least(k.restart, 1, "krylov.restart");
+  check.at_least(k.max_iterations, 1, "krylov.max_iterations");
+  check.fraction(k.forcing.initial, "krylov.forcing.initial");
+  check.up_to_one(k.forcing.gamma, "krylov.forcing.gamma");
+  check.require(k.forcing.alpha > 1.0 && k.forcing.alpha <= 2.0, "krylov.forcing.alpha",
+                "in (1, 2]", k.forcing.alpha);
+  check.fraction(k.forcing.maximum, "krylov.forcing.maximum");
+  check.half_open(k.forcing.end_game, "krylov.forcing.end_game");
+}
+
+void check_globalisation(const Globalisation& g, Checker& check) {
+  check.fraction(g.factor, "globalisation.factor");
+  check.fraction(g.domain_factor, "globalisation.domain_factor");
+  check.at_least(g.max_cuts, 0, "globalisation.max_cuts");
+  check.half_open(g.sufficient_decrease, "globalisation.sufficient_decrease");
+}
+
+void check_jacobian(const Jacobian& j, Checker& check) {
+  check.fraction(j.noise, "jacobian.noise");
+  check.not_negative(j.length_scale, "jacobian.length_scale");
+  check.at_least(j.max_attempts, 1, "jacobian.max_attempts");
+  if (j.step == Jacobian::Step::length_scale && !(j.length_scale > 0.0)) {
+    check.add("jacobian.length_scale must be positive when jacobian.step is length_scale");
+  }
+}
+
+void check_multisecant(const Multisecant& m, Checker& check) {
+  check.at_least(m.memory, 1, "multisecant.memory");
+  check.at_least(m.patience, 1, "multisecant.patience");
+  check.up_to_one(m.progress, "multisecant.progress");
+  check.require(m.rejection > 1.0, "multisecant.rejection", "above 1", m.rejection);
+  check.up_to_one(m.mixing, "multisecant.mixing");
+  check.require(m.max_condition > 1.0 && m.max_condition <= 1e15, "multisecant.max_condition",
+                "in (1, 1e15]", m.max_condition);
+  check.at_least(m.max_cuts, 0, "multisecant.max_cuts");
+}
+
+}  // namespace
+
+std::vector<std::string> validate(const Options& options) {
+  Checker check;
+  check.half_open(options.tolerances.relative, "tolerances.relative");
+  check.not_negative(options.tolerances.absolute, "tolerances.absolute");
+  check.half_open(options.tolerances.step, "tolerances.step");
+  check.at_least(options.max_iterations, 1, "max_iterations");
+  check.at_least(options.max_evaluations, 1, "max_evaluations");
+  check_krylov(options.krylov, check);
+  check_globalisation(options.globalisation, check);
+  check_jacobian(options.jacobian, check);
+  check_multisecant(options.multisecant, check);
+  check.at_least(options.hybrid.rounds, 1, "hybrid.rounds");
+  check.at_least(options.hybrid.newton_steps, 1, "hybrid.newton_steps");
+  check.at_least(options.hybrid.final_newton_steps, 0, "hybrid.final_newton_steps");
+  return check.take();
+}
+
+Options appendix_a(double residual_tolerance, double step_tolerance, int m_max) {
+  if (m_max < 20 || m_max > 1000) {
+    throw std::invalid_argument("jfnk::appendix_a: m_max = " + std::to_string(m_max) +
+                                " must be between 20 and 1000");
+  }
+  Options options;
+  options.tolerances.relative = residual_tolerance;
+  options.tolerances.step = step_tolerance;
+  options.krylov.restart = m_max;
+  options.krylov.max_iterations = m_max;
+  options.krylov.forcing.rule = Forcing::Rule::constant;
+  options.krylov.forcing.initial = 0.01;
+  options.krylov.forcing.end_game = 0.0;
+  options.globalisation.factor = 0.8;
+  // Departure: the paper cuts without end; 0.8^100 = 2e-10 is beyond any useful step.
+  options.globalisation.max_cuts = 100;
+  options.globalisation.domain_factor = 0.8;
+  options.globalisation.sufficient_decrease = 0.0;
+  options.jacobian.source = Jacobian::Source::finite_difference;
+  options.jacobian.step = Jacobian::Step::paper;
+  return options;
+}
+
+Options hybrid() {
+  Options options;
+  options.method = Method::hybrid;
+  options.krylov.restart = 60;
+  options.krylov.max_iterations = 60;
+  options.krylov.forcing.rule = Forcing::Rule::constant;
+  options.krylov.forcing.initial = 0.3;
+  return options;
+}
+
+}  // namespace jfnk

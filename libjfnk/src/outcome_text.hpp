@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "jfnk/options.hpp"
+#include "jfnk/report.hpp"
+#include "jfnk/residual.hpp"
+
+namespace jfnk::detail {
+
+/// Index of the first NaN or infinity, -1 if there is none.
+[[nodiscard]] Eigen::Index first_not_finite(const Vector& v);
+
+/// One sentence on why the solve ended, with its numbers, and what to try if it failed.
+[[nodiscard]] std::string reason(const Report& report, const Options& options);
+
+}  // namespace jfnk::detail

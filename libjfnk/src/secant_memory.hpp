@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "jfnk/residual.hpp"
+
+namespace jfnk::detail {
+
+/// The last pairs (du, dr) of a residual, with dR = Q R updated as pairs come and go.
+///
+/// Pairs are stored divided by ||dr||, so that the diagonal of R shows how much each column adds to
+/// the ones before it, whatever the scale of the residual was at the time.
+class SecantMemory {
+ public:
+  /// Allocates for n unknowns and `capacity` pairs, and forgets all pairs.
+  void resize(Eigen::Index n, int capacity);
+  /// Forgets all pairs.
+  void clear();
+  /// Pairs held.
+  [[nodiscard]] int size() const { return size_; }
+
+  /// Adds a pair, dropping the oldest ones for room and until max |R_ii| / min |R_ii| is at most
+  /// `max_condition`. A pair with dr = 0 or a NaN is ignored.
+  /// Cost: 2 n size() flops twice, and 6 n size() for each pair dropped. No allocation.
+  void add(const Vector& du, const Vector& dr, double max_condition,
+           const InnerProductRef& product);
+
+  /// gamma = argmin ||r - dR gamma||; step = -dU gamma, remainder = r - dR gamma.
+  /// Cost: 6 n size() flops. No allocation.
+  void project(const Vector& r, Vector& step, Vector& remainder, const InnerProductRef& product);
+
+  /// Orthonormal column i of Q.
+  [[nodiscard]] const Vector& q(int i) const { return q_[static_cast<std::size_t>(i)]; }
+
+ private:
+  double orthogonalise(const InnerProductRef& product);
+  [[nodiscard]] bool well_conditioned(double diagonal, double max_condition) const;
+  void drop_oldest();
+  void rotate_columns();
+  Vector& du(int i) { return du_[static_cast<std::size_t>((first_ + i) % capacity_)]; }
+
+  int capacity_ = 0;
+  int size_ = 0;
+  int first_ = 0;           // ring position of the oldest du
+  std::vector<Vector> du_;  // ring
+  std::vector<Vector> q_;   // in order, oldest first
+  Eigen::MatrixXd r_;
+  Vector work_;
+  Eigen::VectorXd column_;  // coefficients of the newest column
+  Eigen::VectorXd gamma_;
+  Eigen::VectorXd cosines_;
+  Eigen::VectorXd sines_;
+};
+
+}  // namespace jfnk::detail
