@@ -1,0 +1,49 @@
+#pragma once
+
+#include <concepts>
+#include <limits>
+
+#include "constitutive/cone.hpp"
+#include "constitutive/elastic.hpp"
+
+namespace constitutive {
+
+/// Pressure-independent perfect plasticity, sqrt(J2) = strength.
+///
+/// With strength = c this equals Tresca's criterion of undrained shear strength c (phi = 0) at
+/// collapse in plane strain; in three dimensions it is the von Mises cylinder of shear strength c.
+struct VonMises {
+  ElasticModuli moduli;
+  double strength = 0;  ///< Shear strength [Pa], > 0.
+};
+
+/// Drucker-Prager, non-associated and perfectly plastic, with apex and dilation cut-off.
+struct DruckerPrager {
+  ElasticModuli moduli;
+  Cone cone;  ///< By `plane_strain_cone` or `compression_cone`.
+  /// No dilation (beta = 0) in a step that begins with plastic_volume_strain >= this [-]; off at
+  /// infinity. Being judged at the beginning of the step, it may be overshot by one step's
+  /// dilation.
+  double dilation_cutoff = std::numeric_limits<double>::infinity();
+};
+
+/// The cylinder of `VonMises`, whatever the plastic volume strain.
+inline Cone yield_cone(const VonMises& m, double /*plastic_volume_strain*/) {
+  return {.alpha = 0, .beta = 0, .strength = m.strength};
+}
+
+/// The cone of `DruckerPrager` in a step that begins with this plastic volume strain.
+inline Cone yield_cone(const DruckerPrager& m, double plastic_volume_strain) {
+  Cone cone = m.cone;
+  if (plastic_volume_strain >= m.dilation_cutoff) cone.beta = 0;
+  return cone;
+}
+
+/// A material whose yield surface is a cone in (sqrt(J2), p) and whose elasticity is isotropic.
+template <class M>
+concept ConeMaterial = requires(const M& m, double plastic_volume_strain) {
+  { m.moduli } -> std::convertible_to<const ElasticModuli&>;
+  { yield_cone(m, plastic_volume_strain) } -> std::same_as<Cone>;
+};
+
+}  // namespace constitutive

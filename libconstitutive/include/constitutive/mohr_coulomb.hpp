@@ -1,0 +1,172 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "constitutive/elastic.hpp"
+#include "constitutive/spectral.hpp"
+#include "constitutive/state.hpp"
+
+namespace constitutive {
+
+/// Mohr-Coulomb with edges and apex, non-associated and perfectly plastic; plane strain and 3D.
+///
+/// f = (1 + sin phi) sigma_1 - (1 - sin phi) sigma_3 - 2 c cos phi, sigma_1 >= sigma_2 >= sigma_3,
+/// tension positive; the potential has psi for phi. phi = 0 is Tresca's prism (no apex).
+struct MohrCoulomb {
+  ElasticModuli moduli;
+  double cohesion = 0;  ///< c [Pa].
+  double sin_friction = 0;
+  double cos_friction = 1;
+  double sin_dilation = 0;
+  /// No dilation (psi = 0) in a step that begins with plastic_volume_strain >= this [-].
+  double dilation_cutoff = std::numeric_limits<double>::infinity();
+};
+
+namespace detail {
+
+/// Part of the Mohr-Coulomb surface a stress lies on.
+enum class MohrCoulombRegime : std::uint8_t {
+  elastic,
+  plane,             ///< sigma_1 > sigma_2 > sigma_3.
+  compression_edge,  ///< sigma_1 = sigma_2 > sigma_3.
+  extension_edge,    ///< sigma_1 > sigma_2 = sigma_3.
+  apex,
+};
+
+/// Return in principal stress space: stress, and its derivative by the trial.
+struct PrincipalReturn {
+  MohrCoulombRegime regime = MohrCoulombRegime::elastic;
+  Eigen::Vector3d stress;
+  Eigen::Matrix3d jacobian;
+};
+
+/// D b for b = (1 + s, 0, -(1 - s)) placed at rows `major` and `minor`: 2 mu b + 2 lambda s.
+inline Eigen::Vector3d principal_flow(const ElasticModuli& m, double sine, int major, int minor) {
+  Eigen::Vector3d flow = Eigen::Vector3d::Constant(2 * m.lame * sine);
+  flow[major] += 2 * m.shear * (1 + sine);
+  flow[minor] -= 2 * m.shear * (1 - sine);
+  return flow;
+}
+
+/// Gradient a = (1 + s) e_major - (1 - s) e_minor of a yield plane.
+inline Eigen::Vector3d plane_gradient(double sine, int major, int minor) {
+  Eigen::Vector3d a = Eigen::Vector3d::Zero();
+  a[major] = 1 + sine;
+  a[minor] = -(1 - sine);
+  return a;
+}
+
+/// Return to the edge between the main plane and the plane of rows `major`, `minor`.
+///
+/// Koiter: two multipliers from the 2 x 2 system G = A^T D B, which is [[g, h], [h, g]] by
+/// symmetry. False if a multiplier is negative or the point lies beyond the apex.
+inline bool return_to_edge(const MohrCoulomb& m, double sin_psi, const Eigen::Vector3d& trial,
+                           int major, int minor, PrincipalReturn& r) {
+  const Eigen::Vector3d a1 = plane_gradient(m.sin_friction, 0, 2);
+  const Eigen::Vector3d a2 = plane_gradient(m.sin_friction, major, minor);
+  const Eigen::Vector3d flow1 = principal_flow(m.moduli, sin_psi, 0, 2);
+  const Eigen::Vector3d flow2 = principal_flow(m.moduli, sin_psi, major, minor);
+  const double strength = 2 * m.cohesion * m.cos_friction;
+  const double f1 = a1.dot(trial) - strength, f2 = a2.dot(trial) - strength;
+  const double g = a1.dot(flow1), h = a1.dot(flow2);
+  const double mean = (f1 + f2) / (g + h) / 2, half = (f1 - f2) / (g - h) / 2;
+  r.stress = trial - (mean + half) * flow1 - (mean - half) * flow2;
+  // The two rows that are equal on this edge: make them so to the last bit.
+  const int first = major == 0 ? 1 : 0, second = first + 1;
+  r.stress[first] = r.stress[second] = (r.stress[first] + r.stress[second]) / 2;
+  const Eigen::Vector3d sum = (flow1 + flow2) / (g + h) / 2,
+                        difference = (flow1 - flow2) / (g - h) / 2;
+  r.jacobian = Eigen::Matrix3d::Identity() - sum * (a1 + a2).transpose() -
+               difference * (a1 - a2).transpose();
+  r.regime = major == 0 ? MohrCoulombRegime::extension_edge : MohrCoulombRegime::compression_edge;
+  return m.sin_friction == 0 || r.stress[0] >= r.stress[2];
+}
+
+/// Return of sorted principal trial stresses (falling order) to the surface.
+///
+/// The surface and the potential consist of planes and the elasticity is linear, so every regime is
+/// closed form. Regimes are tried from the plane to the apex; the order of the returned principal
+/// stresses decides.
+inline PrincipalReturn return_principal(const MohrCoulomb& m, double sin_psi,
+                                        const Eigen::Vector3d& trial) {
+  PrincipalReturn r;
+  r.stress = trial;
+  r.jacobian.setIdentity();
+  const Eigen::Vector3d a = plane_gradient(m.sin_friction, 0, 2);
+  const double strength = 2 * m.cohesion * m.cos_friction;
+  const double f = a.dot(trial) - strength;
+  if (f <= yield_round_off * (a.cwiseAbs().dot(trial.cwiseAbs()) + strength)) return r;
+
+  const Eigen::Vector3d flow = principal_flow(m.moduli, sin_psi, 0, 2);
+  const double stiffness = a.dot(flow);
+  r.stress = trial - f / stiffness * flow;
+  const bool compression_side = r.stress[1] > r.stress[0];
+  const bool extension_side = r.stress[2] > r.stress[1];
+  if (!compression_side && !extension_side) {
+    r.regime = MohrCoulombRegime::plane;
+    r.jacobian = Eigen::Matrix3d::Identity() - flow / stiffness * a.transpose();
+    return r;
+  }
+  if (compression_side && return_to_edge(m, sin_psi, trial, 1, 2, r)) return r;
+  if (extension_side && return_to_edge(m, sin_psi, trial, 0, 1, r)) return r;
+  r.regime = MohrCoulombRegime::apex;
+  r.stress.setConstant(m.cohesion * m.cos_friction / m.sin_friction);
+  r.jacobian.setZero();
+  return r;
+}
+
+template <int Dim>
+double sine_of_dilation(const MohrCoulomb& m, const PointState<Dim>& s0) {
+  return s0.plastic_volume_strain >= m.dilation_cutoff ? 0 : m.sin_dilation;
+}
+
+}  // namespace detail
+
+/// Stress update of `MohrCoulomb` from the elastic trial stress, in principal stress space.
+///
+/// An admissible trial is returned bit for bit. `s0` and `s1` may be the same object. No
+/// allocation.
+/// @param trial  [Pa] elastic trial stress  @param s0  begin  @param[out] s1  end of the step
+template <int Dim>
+UpdateOutcome update(const MohrCoulomb& material,
+                     const std::type_identity_t<StressVector<Dim>>& trial,
+                     const PointState<Dim>& s0, PointState<Dim>& s1) {
+  const double sin_psi = detail::sine_of_dilation(material, s0);
+  s1 = s0;
+  if (!std::isfinite(j2(trial)) || !std::isfinite(trace(trial))) {
+    return {UpdateStatus::failed, false};
+  }
+  const Spectrum x = spectrum(trial);
+  const detail::PrincipalReturn r = detail::return_principal(material, sin_psi, x.values);
+  if (r.regime == detail::MohrCoulombRegime::elastic) {
+    s1.stress = trial;
+    return {UpdateStatus::ok, false};
+  }
+  s1.stress = recompose<Dim>(r.stress, x.directions);
+  const Eigen::Vector3d removed = x.values - r.stress;
+  const double p = removed.mean();
+  const double sqrt_j2 = std::sqrt((removed.array() - p).square().sum() / 2);
+  s1.plastic_strain += equivalent_elastic_strain(material.moduli, p, sqrt_j2);
+  s1.plastic_volume_strain += p / material.moduli.bulk;
+  const bool apex = r.regime == detail::MohrCoulombRegime::apex;
+  return {apex ? UpdateStatus::apex : UpdateStatus::ok, true};
+}
+
+/// d(stress)/d(trial stress) of `update` at a finite trial, the spin of the principal axes
+/// included.
+template <int Dim>
+TangentMatrix<Dim> trial_tangent(const MohrCoulomb& material,
+                                 const std::type_identity_t<StressVector<Dim>>& trial,
+                                 const PointState<Dim>& s0) {
+  const Spectrum x = spectrum(trial);
+  const detail::PrincipalReturn r =
+      detail::return_principal(material, detail::sine_of_dilation(material, s0), x.values);
+  if (r.regime == detail::MohrCoulombRegime::elastic) return TangentMatrix<Dim>::Identity();
+  return isotropic_function_derivative<Dim>(x, r.stress, r.jacobian);
+}
+
+}  // namespace constitutive
