@@ -1,0 +1,14 @@
+#pragma once
+
+// Everything of the library.
+#include "fpm/consistency.hpp"
+#include "fpm/hourglass.hpp"
+#include "fpm/kernel.hpp"
+#include "fpm/mirror.hpp"
+#include "fpm/moment_operator.hpp"
+#include "fpm/neighbour_search.hpp"
+#include "fpm/particles.hpp"
+#include "fpm/rows.hpp"
+#include "fpm/stencil.hpp"
+#include "fpm/subpoints.hpp"
+#include "fpm/types.hpp"

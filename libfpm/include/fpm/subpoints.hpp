@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "fpm/types.hpp"
+
+namespace fpm {
+
+/// Four sub-points of a plane particle, (+-h/4, +-h/4) around it in its reference configuration
+/// with h = sqrt(Vref), each standing for a quarter of the volume. The Taylor field
+/// F_k = F + H xi_k lets them see the deformation modes that one point per particle misses.
+/// Departure: not in Chen, Huang & Lyamin 2020.
+inline constexpr std::size_t subpoint_count = 4;
+
+/// Second gradient of the motion, d2x / dX dX, columns XX, XY, YY.
+using SecondGradient = Eigen::Matrix<double, 2, 3>;
+
+/// Volume shares of the sub-points.
+inline constexpr std::array<double, subpoint_count> subpoint_weights{0.25, 0.25, 0.25, 0.25};
+
+/// Position of sub-point k relative to its particle [m].
+inline Vector<2> subpoint_offset(std::size_t k, double reference_volume) {
+  const double quarter = 0.25 * std::sqrt(reference_volume);
+  return {(k & 1U) != 0 ? quarter : -quarter, (k & 2U) != 0 ? quarter : -quarter};
+}
+
+/// H xi: change of the deformation gradient from the particle to the sub-point.
+inline Tensor<2> second_gradient_at(const SecondGradient& h, const Vector<2>& xi) {
+  Tensor<2> change;
+  change.col(0) = h.col(0) * xi[0] + h.col(1) * xi[1];
+  change.col(1) = h.col(1) * xi[0] + h.col(2) * xi[1];
+  return change;
+}
+
+/// Adds the stress conjugate to H of a sub-point's nominal stress P_k (already times its volume):
+/// the transpose of `second_gradient_at`.
+inline void add_second_stress(const Tensor<2>& nominal, const Vector<2>& xi, SecondGradient& t) {
+  t.col(0) += nominal.col(0) * xi[0];
+  t.col(1) += nominal.col(0) * xi[1] + nominal.col(1) * xi[0];
+  t.col(2) += nominal.col(1) * xi[1];
+}
+
+}  // namespace fpm
