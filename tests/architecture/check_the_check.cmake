@@ -13,7 +13,8 @@ function(make_clean_tree)
   file(WRITE ${WORK}/libconstitutive/include/constitutive/serialization.hpp
        "#include <boost/serialization/nvp.hpp>\n")
   file(WRITE ${WORK}/libfpm/src/neighbour_search.cpp
-       "#include <flann/flann.hpp>\nvoid exit_ball(); void on_exit (int);\n")
+       "#include <flann/flann.hpp>\n#include <cstdio>\n"
+       "void exit_ball(); void on_exit (int); void f() { std::snprintf(nullptr, 0, \"\"); }\n")
   file(WRITE ${WORK}/apps/wiring/checkpoint.cpp
        "#include <H5Cpp.h>\n#include <toml++/toml.h>\n#include <spdlog/spdlog.h>\n"
        "#include \"fpm/kernel.hpp\"\n#include \"jfnk/gmres.hpp\"\nusing namespace std;\n")
@@ -61,11 +62,16 @@ plant(${in_fpm} "#include \"private.hpp\"" "a library may not include private.hp
 # They neither print, nor read files, nor exit.
 plant(${in_jfnk} "#include <iostream>\n" "a library may not include iostream")
 plant(${in_jfnk} "#include <fstream>\n" "a library may not include fstream")
-plant(${in_jfnk} "#include <cstdio>\n" "a library may not include cstdio")
-plant(${in_jfnk} "auto& f() { return std::cout; }" "a library may not print or exit (std::cout)")
-plant(${in_jfnk} "void f() { std::printf (\"\"); }" "a library may not print or exit (printf)")
-plant(${in_jfnk} "void f() { std::exit(1); }" "a library may not print or exit (exit)")
-plant(${in_jfnk} "void f() { std::abort(); }" "a library may not print or exit (abort)")
+plant(${in_jfnk} "auto& f() { return std::cout; }"
+      "a library may not print, read files or exit (std::cout)")
+plant(${in_jfnk} "void f() { std::printf (\"\"); }"
+      "a library may not print, read files or exit (printf)")
+plant(${in_jfnk} "auto f() { return fopen(\"a\", \"r\"); }"
+      "a library may not print, read files or exit (fopen)")
+plant(${in_jfnk} "void f() { std::exit(1); }"
+      "a library may not print, read files or exit (exit)")
+plant(${in_jfnk} "void f() { std::abort(); }"
+      "a library may not print, read files or exit (abort)")
 
 # Each package has its place among the programs.
 plant(apps/run/main.cpp "#include <H5Cpp.h>" "only apps/wiring may include H5Cpp.h")
