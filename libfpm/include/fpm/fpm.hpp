@@ -8,6 +8,7 @@
 #include "fpm/moment_operator.hpp"
 #include "fpm/neighbour_search.hpp"
 #include "fpm/particles.hpp"
+#include "fpm/points.hpp"
 #include "fpm/rows.hpp"
 #include "fpm/stencil.hpp"
 #include "fpm/subpoints.hpp"
