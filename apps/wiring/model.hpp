@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "constitutive/material.hpp"
+#include "fpm/hourglass.hpp"
+#include "fpm/mirror.hpp"
+#include "fpm/particles.hpp"
+#include "fpm/rows.hpp"
+#include "wiring/scene.hpp"
+#include "wiring/state.hpp"
+
+namespace wiring {
+
+/// A scene turned into particles, materials, constraints and loads: everything that stays the same
+/// during a run. Vectors over unknowns are component-major (all x, then all y, ...), length n Dim.
+template <int Dim>
+struct Model {
+  fpm::ParticleSet<Dim> particles;
+  fpm::MirrorGhosts<Dim> ghosts;
+  fpm::RowOptions row_options;
+  fpm::Channels channels;
+  StateLayout layout;
+  bool consistency = false;
+  fpm::Field<Dim> area_vector;  // boundary area of each particle, with the correction only
+
+  std::vector<constitutive::Material> materials;
+  std::vector<double> youngs_modulus;  // of each material [Pa]
+  std::vector<std::uint8_t> material;  // of each particle
+  Eigen::VectorXd mass;                // [kg] of each particle
+
+  HourglassControl control = HourglassControl::none;
+  fpm::PairControlOptions pair_control;
+  double viscosity = 0.0;  // theta per step, of the paper's viscosity
+
+  std::vector<char> prescribed;       // per unknown: displacement is given
+  Eigen::VectorXd drive;              // [m] prescribed displacement at load parameter 1
+  std::vector<char> driven_particle;  // moved by the drive: the rigid plate
+  Eigen::VectorXd measure;            // per unknown: weight of its reaction in the reported load
+  Eigen::VectorXd constant_load;      // [N/m or N] dead loads that act from the start
+  Eigen::VectorXd scaled_load;        // [N/m or N] dead loads at load parameter 1
+  double spacing = 0.0;               // [m]
+
+  Eigen::Index size() const { return particles.position.rows(); }
+  Eigen::Index unknowns() const { return size() * Dim; }
+};
+
+/// Builds the model of a checked scene.
+/// @throws std::runtime_error if the particle set admits no valid neighbourhoods.
+template <int Dim>
+Model<Dim> build_model(const Scene& scene);
+
+/// The state before the first step: initial search, initial stress.
+template <int Dim>
+State<Dim> initial_state(const Model<Dim>& model, const Scene& scene);
+
+}  // namespace wiring
