@@ -1,6 +1,8 @@
 #pragma once
 
 // Everything of the library.
+#include "fpm/boundary.hpp"
+#include "fpm/boundary_loads.hpp"
 #include "fpm/consistency.hpp"
 #include "fpm/hourglass.hpp"
 #include "fpm/kernel.hpp"
@@ -13,3 +15,4 @@
 #include "fpm/stencil.hpp"
 #include "fpm/subpoints.hpp"
 #include "fpm/types.hpp"
+#include "fpm/viscosity.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include "fpm/mirror.hpp"
@@ -9,13 +10,14 @@
 
 namespace fpm {
 
-/// A nodal field to read, n x Dim: a Field, or a Map over a solver's vector. No copy is made.
+/// A nodal field to read, n x Dim: a Field, or a Map over a solver's vector. No copy is made. (The
+/// identity keeps it out of template argument deduction, so that either may be passed.)
 template <int Dim>
-using FieldView = Eigen::Ref<const Field<Dim>>;
+using FieldView = std::type_identity_t<Eigen::Ref<const Field<Dim>>>;
 
 /// A nodal field to add to, likewise.
 template <int Dim>
-using FieldTarget = Eigen::Ref<Field<Dim>>;
+using FieldTarget = std::type_identity_t<Eigen::Ref<Field<Dim>>>;
 
 /// Corrected value and gradient operators at points that need not be particles, such as those of a
 /// boundary (Chen, Huang & Lyamin 2020, Eq. 1-2 and 5-10): with q_b, p_b as in a row,
