@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+#include "jfnk/jfnk.hpp"
+#include "problems.hpp"
+
+// Eigen allocates by malloc, the rest by operator new: the linker wraps the one (--wrap=malloc),
+// this file replaces the other.
+namespace {
+std::size_t allocations = 0;
+}
+
+extern "C" {
+void* __real_malloc(std::size_t size);
+void* __wrap_malloc(std::size_t size) {
+  ++allocations;
+  return __real_malloc(size);
+}
+}
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = __real_malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace {
+
+using jfnk::Method;
+using jfnk::Options;
+using jfnk::Solver;
+using jfnk::Vector;
+
+/// Bratu without allocations, noting the count at its first and its latest evaluation.
+struct Watching {
+  int m;
+  std::size_t first = 0;
+  std::size_t last = 0;
+  bool started = false;
+  void operator()(const Vector& u, Vector& r) {
+    if (!started) first = allocations;
+    started = true;
+    for (int i = 0; i < m; ++i) {
+      r[i] = 2.0 * u[i] - (i > 0 ? u[i - 1] : 0.0) - (i + 1 < m ? u[i + 1] : 0.0) -
+             0.01 * std::exp(u[i]);
+    }
+    last = allocations;
+  }
+};
+
+struct Halving {
+  void apply(const Vector& r, Vector& z) const { z = 0.5 * r; }
+};
+
+TEST(Allocation, CounterSeesEigenAndNew) {
+  const std::size_t before = allocations;
+  const Vector v = Vector::Ones(100);
+  EXPECT_GT(allocations, before);
+  const std::size_t between = allocations;
+  delete new int(static_cast<int>(v[0]));
+  EXPECT_GT(allocations, between);
+}
+
+TEST(Allocation, NoneBetweenTheFirstAndTheLastEvaluation) {
+  for (const Method method : {Method::newton_krylov, Method::multisecant, Method::hybrid}) {
+    for (const bool flexible : {false, true}) {
+      Options options;
+      options.method = method;
+      options.krylov.flexible = flexible;
+      options.krylov.restart = 10;
+      options.multisecant.memory = 4;
+      options.hybrid.rounds = 2;
+      options.max_evaluations = 400;
+      Watching F{40};
+      Vector u = Vector::Zero(40);
+      const auto report = jfnk::solve(F, u, options, Halving{});
+      EXPECT_GT(report.counts.total(), 20);
+      EXPECT_EQ(F.last - F.first, 0u) << jfnk::to_string(report.status);
+    }
+  }
+}
+
+TEST(Allocation, SecondSolveOfASolverNeedsOnlyItsReason) {
+  Options options;
+  Solver solver(options);
+  Watching F{40};
+  Vector u = Vector::Zero(40);
+  ASSERT_TRUE(solver.solve(F, u, Halving{}).converged());
+  u.setZero();
+  F.started = false;
+  const std::size_t before = allocations;
+  ASSERT_TRUE(solver.solve(F, u, Halving{}).converged());
+  EXPECT_EQ(F.last - before, 0u);
+}
+
+}  // namespace

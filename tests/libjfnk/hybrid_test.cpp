@@ -1,0 +1,195 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "jfnk/jfnk.hpp"
+#include "problems.hpp"
+
+namespace {
+
+using jfnk::Method;
+using jfnk::Options;
+using jfnk::Phase;
+using jfnk::Report;
+using jfnk::solve;
+using jfnk::Solver;
+using jfnk::Status;
+using jfnk::Vector;
+using jfnk_test::CholeskyPreconditioner;
+using jfnk_test::PlasticTruss;
+
+/// Totals of a truss of 30 x 30 cells pushed beyond its collapse in 20 steps.
+struct Push {
+  int failures = 0;
+  int evaluations = 0;
+  int rescues = 0;
+  int yielded = 0;
+};
+
+Push push_truss(Options options) {
+  constexpr double yield = 1e-3;
+  PlasticTruss truss(30, 30, yield);
+  const CholeskyPreconditioner P(truss.elastic_stiffness());
+  options.tolerances.relative = 1e-3;
+  options.jacobian.length_scale = yield;
+  options.max_evaluations = 3000;
+  options.max_iterations = 3000;
+  Solver solver(options);
+  Push total;
+  Vector u = Vector::Zero(truss.size());
+  Vector increment = u;
+  for (int step = 1; step <= 20; ++step) {
+    truss.push(step * 0.005);
+    const Vector before = u;
+    u += increment;
+    const Report& report = solver.solve(truss, u, P);
+    if (!report.converged()) ++total.failures;
+    total.evaluations += report.counts.total();
+    total.rescues += report.newton_iterations;
+    total.yielded = truss.accept(u);
+    increment = u - before;
+  }
+  return total;
+}
+
+TEST(Hybrid, RescuesPlasticStepsThatMultisecantAloneCannotSolve) {
+  Options alone = jfnk::hybrid();
+  alone.method = Method::multisecant;
+  const Push multisecant = push_truss(alone);
+  const Push hybrid = push_truss(jfnk::hybrid());
+  EXPECT_GT(multisecant.failures, 0);
+  EXPECT_EQ(hybrid.failures, 0);
+  EXPECT_GT(hybrid.rescues, 0);
+  EXPECT_GT(hybrid.yielded, 400);  // the steps are plastic: 480 of 3540 bars yield in the last
+}
+
+TEST(Hybrid, NeedsFewerEvaluationsThanNewtonOnPlasticity) {
+  Options newton = jfnk::hybrid();
+  newton.method = Method::newton_krylov;
+  const Push alone = push_truss(newton);
+  const Push hybrid = push_truss(jfnk::hybrid());
+  EXPECT_EQ(alone.failures, 0);
+  EXPECT_LT(hybrid.evaluations, alone.evaluations);
+}
+
+TEST(Hybrid, FollowsItsScheduleAndThenGivesUp) {
+  // No root; the multisecant phases lose patience, Newton creeps to the minimum at 0.
+  const auto F = [](const Vector& u, Vector& r) { r = u.array().square() + 1.0; };
+  Options options = jfnk::hybrid();
+  Vector u = Vector::LinSpaced(4, 0.5, 2.0);
+  const Report report = solve(F, u, options);
+  EXPECT_FALSE(report.converged());
+  int in_a_row = 0;
+  for (const auto& line : report.history) {
+    in_a_row = line.phase == Phase::newton ? in_a_row + 1 : 0;
+    EXPECT_LE(in_a_row, options.hybrid.newton_steps + options.hybrid.final_newton_steps);
+  }
+  double lowest = report.history.front().residual_norm;
+  for (const auto& line : report.history) lowest = std::min(lowest, line.residual_norm);
+  EXPECT_EQ(report.residual_norm, lowest);
+}
+
+// With full memory type-II Anderson is GMRES on a linear problem (Walker & Ni 2011), one
+// evaluation ahead; n + 1 iterations reach the root.
+TEST(Multisecant, SolvesALinearProblemInAtMostNPlusOneIterations) {
+  constexpr int n = 12;
+  const auto F = [](const Vector& u, Vector& r) {
+    for (int i = 0; i < n; ++i) {
+      r[i] = (1.0 + 0.1 * i) * u[i] + 0.3 * u[(i + 1) % n] - 1.0;
+    }
+  };
+  Options options;
+  options.method = Method::multisecant;
+  options.tolerances.relative = 1e-10;
+  Vector u = Vector::Zero(n);
+  const Report report = solve(F, u, options);
+  EXPECT_TRUE(report.converged()) << report.reason;
+  EXPECT_LE(report.multisecant_iterations, n + 1);
+  EXPECT_EQ(report.counts.total(), 1 + report.multisecant_iterations);
+}
+
+TEST(Multisecant, FirstStepIsThePlainPreconditionedOne) {
+  const jfnk_test::Bratu bratu(8, 4.0);
+  const CholeskyPreconditioner P(jfnk_test::laplacian(8));
+  std::vector<Vector> points;
+  const auto F = [&](const Vector& u, Vector& r) {
+    points.push_back(u);
+    bratu(u, r);
+  };
+  Options options;
+  options.method = Method::multisecant;
+  Vector u = Vector::Constant(64, 0.1);
+  ASSERT_TRUE(solve(F, u, options, P).converged());
+  Vector r(64);
+  Vector z(64);
+  bratu(points[0], r);
+  P.apply(r, z);
+  EXPECT_LE((points[1] - (points[0] - z)).norm(), 1e-15 * points[0].norm());
+}
+
+TEST(Multisecant, BeatsThePlainPreconditionedIteration) {
+  const jfnk_test::Bratu bratu(16, 6.0);
+  const CholeskyPreconditioner P(jfnk_test::laplacian(16));
+  Options options;
+  options.method = Method::multisecant;
+  options.tolerances.relative = 1e-8;
+  Vector u = Vector::Zero(256);
+  const Report with = solve(bratu, u, options, P);
+  ASSERT_TRUE(with.converged());
+  Vector plain = Vector::Zero(256);
+  Vector r(256);
+  Vector z(256);
+  int evaluations = 0;
+  do {
+    bratu(plain, r);
+    ++evaluations;
+    P.apply(r, z);
+    plain -= z;
+  } while (r.norm() > 1e-8 * with.initial_residual_norm && evaluations < 1000);
+  EXPECT_LT(2 * with.counts.total(), evaluations);
+}
+
+TEST(Multisecant, LeavesAPointFarAboveTheBest) {
+  // Plain steps overshoot by 1e3; the pair of the rejected point still turns the next step.
+  const auto F = [](const Vector& u, Vector& r) {
+    r = 1000.0 * u + (u.array().cube() - 1.0).matrix();
+  };
+  Options options;
+  options.method = Method::multisecant;
+  options.tolerances.relative = 1e-9;
+  Vector u = Vector::Zero(3);
+  const Report report = solve(F, u, options);
+  EXPECT_TRUE(report.converged()) << report.reason;
+  EXPECT_GT(report.history[1].residual_norm, 30.0 * report.history[0].residual_norm);
+  EXPECT_EQ(report.history[1].best_residual_norm, report.history[0].residual_norm);
+}
+
+TEST(Multisecant, LosesPatienceAfterTheEvaluationsStated) {
+  // |F| cannot fall below 1, which is where it starts.
+  const auto F = [](const Vector& u, Vector& r) { r[0] = 1.0 + std::abs(std::sin(u[0])); };
+  Options options;
+  options.method = Method::multisecant;
+  options.multisecant.patience = 7;
+  Vector u = Vector::Zero(1);
+  const Report report = solve(F, u, options);
+  EXPECT_EQ(report.status, Status::multisecant_stalled);
+  EXPECT_EQ(report.counts.total(), 1 + 7);
+  EXPECT_EQ(u[0], 0.0);
+}
+
+TEST(Multisecant, EndsAtItsIterationLimit) {
+  const jfnk_test::Bratu bratu(8, 4.0);
+  const CholeskyPreconditioner P(jfnk_test::laplacian(8));
+  Options options;
+  options.method = Method::multisecant;
+  options.max_iterations = 2;
+  options.tolerances.relative = 1e-12;
+  Vector u = Vector::Zero(64);
+  const Report report = solve(bratu, u, options, P);
+  EXPECT_EQ(report.status, Status::max_iterations);
+  EXPECT_EQ(report.multisecant_iterations, 2);
+  EXPECT_LT(report.residual_norm, report.initial_residual_norm);
+}
+
+}  // namespace

@@ -1,0 +1,91 @@
+#include "jfnk/options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "jfnk/solver.hpp"
+
+namespace {
+
+using jfnk::Options;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Bad {
+  const char* field;
+  std::function<void(Options&)> spoil;
+};
+
+const Bad bad_options[] = {
+    {"tolerances.relative", [](Options& o) { o.tolerances.relative = 1.0; }},
+    {"tolerances.relative", [](Options& o) { o.tolerances.relative = nan; }},
+    {"tolerances.absolute", [](Options& o) { o.tolerances.absolute = -1.0; }},
+    {"tolerances.absolute", [](Options& o) { o.tolerances.absolute = infinity; }},
+    {"tolerances.step", [](Options& o) { o.tolerances.step = -0.1; }},
+    {"max_iterations", [](Options& o) { o.max_iterations = 0; }},
+    {"max_evaluations", [](Options& o) { o.max_evaluations = 0; }},
+    {"krylov.restart", [](Options& o) { o.krylov.restart = 0; }},
+    {"krylov.max_iterations", [](Options& o) { o.krylov.max_iterations = -3; }},
+    {"krylov.forcing.initial", [](Options& o) { o.krylov.forcing.initial = 0.0; }},
+    {"krylov.forcing.gamma", [](Options& o) { o.krylov.forcing.gamma = 1.5; }},
+    {"krylov.forcing.alpha", [](Options& o) { o.krylov.forcing.alpha = 1.0; }},
+    {"krylov.forcing.maximum", [](Options& o) { o.krylov.forcing.maximum = 1.0; }},
+    {"krylov.forcing.end_game", [](Options& o) { o.krylov.forcing.end_game = nan; }},
+    {"globalisation.factor", [](Options& o) { o.globalisation.factor = 1.0; }},
+    {"globalisation.domain_factor", [](Options& o) { o.globalisation.domain_factor = 0.0; }},
+    {"globalisation.max_cuts", [](Options& o) { o.globalisation.max_cuts = -1; }},
+    {"globalisation.sufficient_decrease",
+     [](Options& o) { o.globalisation.sufficient_decrease = 1.0; }},
+    {"jacobian.noise", [](Options& o) { o.jacobian.noise = 0.0; }},
+    {"jacobian.length_scale", [](Options& o) { o.jacobian.length_scale = -1.0; }},
+    {"jacobian.length_scale",
+     [](Options& o) { o.jacobian.step = jfnk::Jacobian::Step::length_scale; }},
+    {"jacobian.max_attempts", [](Options& o) { o.jacobian.max_attempts = 0; }},
+    {"multisecant.memory", [](Options& o) { o.multisecant.memory = 0; }},
+    {"multisecant.patience", [](Options& o) { o.multisecant.patience = 0; }},
+    {"multisecant.progress", [](Options& o) { o.multisecant.progress = 1.1; }},
+    {"multisecant.rejection", [](Options& o) { o.multisecant.rejection = 1.0; }},
+    {"multisecant.mixing", [](Options& o) { o.multisecant.mixing = 0.0; }},
+    {"multisecant.max_condition", [](Options& o) { o.multisecant.max_condition = 1e16; }},
+    {"multisecant.max_cuts", [](Options& o) { o.multisecant.max_cuts = -1; }},
+    {"hybrid.rounds", [](Options& o) { o.hybrid.rounds = 0; }},
+    {"hybrid.newton_steps", [](Options& o) { o.hybrid.newton_steps = 0; }},
+    {"hybrid.final_newton_steps", [](Options& o) { o.hybrid.final_newton_steps = -1; }},
+};
+
+TEST(Options, PresetsAndDefaultsAreValid) {
+  EXPECT_TRUE(jfnk::validate(Options{}).empty());
+  EXPECT_TRUE(jfnk::validate(jfnk::appendix_a()).empty());
+  EXPECT_TRUE(jfnk::validate(jfnk::hybrid()).empty());
+}
+
+TEST(Options, EachBadValueGivesOneMessageThatNamesIt) {
+  for (const Bad& bad : bad_options) {
+    Options options;
+    bad.spoil(options);
+    const auto messages = jfnk::validate(options);
+    ASSERT_EQ(messages.size(), 1u) << bad.field;
+    EXPECT_EQ(messages.front().rfind(bad.field, 0), 0u) << messages.front();
+    EXPECT_NE(messages.front().find("must be"), std::string::npos) << messages.front();
+  }
+}
+
+TEST(Options, SolverRefusesThemWithAllMessages) {
+  Options options;
+  options.max_evaluations = -5;
+  options.tolerances.relative = 2.0;
+  try {
+    const jfnk::Solver solver(options);
+    FAIL() << "invalid options were accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "jfnk::Options: tolerances.relative = 2 must be in [0, 1);"
+                 " max_evaluations = -5 must be at least 1");
+  }
+}
+
+}  // namespace

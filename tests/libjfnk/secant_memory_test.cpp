@@ -1,0 +1,141 @@
+#include "secant_memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <limits>
+#include <random>
+
+namespace {
+
+using jfnk::InnerProductRef;
+using jfnk::Vector;
+using jfnk::detail::SecantMemory;
+
+constexpr double loose_condition = 1e8;
+constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
+const InnerProductRef euclidean;
+
+class Randoms {
+ public:
+  Vector vector(int n) {
+    return Vector::NullaryExpr(n, [this](Eigen::Index) { return normal_(generator_); });
+  }
+
+ private:
+  std::mt19937 generator_{7};
+  std::normal_distribution<double> normal_;
+};
+
+/// Largest entry of Q^T Q - I.
+double orthogonality_error(const SecantMemory& memory) {
+  double worst = 0.0;
+  for (int i = 0; i < memory.size(); ++i) {
+    for (int j = 0; j <= i; ++j) {
+      worst = std::max(worst, std::abs(memory.q(i).dot(memory.q(j)) - (i == j ? 1.0 : 0.0)));
+    }
+  }
+  return worst;
+}
+
+TEST(SecantMemory, ProjectionIsTheLeastSquaresSolutionOfTheLastPairs) {
+  constexpr int n = 30;
+  constexpr int capacity = 6;
+  Randoms random;
+  SecantMemory memory;
+  memory.resize(n, capacity);
+  std::vector<Vector> dus;
+  std::vector<Vector> drs;
+  for (int k = 0; k < 25; ++k) {
+    dus.push_back(random.vector(n));
+    drs.push_back(std::pow(10.0, -k) * random.vector(n));
+    memory.add(dus.back(), drs.back(), loose_condition, euclidean);
+    const int kept = std::min(k + 1, capacity);
+    ASSERT_EQ(memory.size(), kept);
+    Eigen::MatrixXd dU(n, kept);
+    Eigen::MatrixXd dR(n, kept);
+    for (int j = 0; j < kept; ++j) {
+      const auto at = static_cast<std::size_t>(k + 1 - kept + j);
+      dU.col(j) = dus[at] / drs[at].norm();
+      dR.col(j) = drs[at] / drs[at].norm();
+    }
+    const Vector r = random.vector(n);
+    const Vector gamma = dR.householderQr().solve(r);
+    Vector step(n);
+    Vector remainder(n);
+    memory.project(r, step, remainder, euclidean);
+    // Random columns have a condition number of a few; 1e4 units cover 25 updates of 30 rows.
+    EXPECT_LE((step + dU * gamma).norm(), 1e4 * rounding_unit * dU.norm() * gamma.norm()) << k;
+    EXPECT_LE((remainder - (r - dR * gamma)).norm(), 1e4 * rounding_unit * r.norm()) << k;
+  }
+}
+
+TEST(SecantMemory, StaysOrthogonalThroughAThousandUpdates) {
+  constexpr int n = 600;  // more than two blocks of rows
+  constexpr int updates = 1000;
+  Randoms random;
+  SecantMemory memory;
+  memory.resize(n, 10);
+  Vector drift = random.vector(n);
+  for (int k = 0; k < updates; ++k) {
+    drift += 0.05 * random.vector(n);  // successive columns nearly parallel
+    memory.add(drift, drift, loose_condition, euclidean);
+  }
+  ASSERT_EQ(memory.size(), 10);
+  // A column lives for 10 updates, each with up to 10 rotations of a few units.
+  EXPECT_LE(orthogonality_error(memory), 10 * 10 * 4 * rounding_unit);
+}
+
+TEST(SecantMemory, EmptyMemoryLeavesTheResidual) {
+  SecantMemory memory;
+  memory.resize(3, 2);
+  const Vector r = Vector::Ones(3);
+  Vector step(3);
+  Vector remainder(3);
+  memory.project(r, step, remainder, euclidean);
+  EXPECT_EQ(step.norm(), 0.0);
+  EXPECT_TRUE((remainder.array() == r.array()).all());
+}
+
+TEST(SecantMemory, DropsOldPairsThatMakeTheColumnsDependent) {
+  Randoms random;
+  SecantMemory memory;
+  memory.resize(20, 5);
+  const Vector first = random.vector(20);
+  const Vector second = random.vector(20);
+  memory.add(first, first, loose_condition, euclidean);
+  memory.add(second, second, loose_condition, euclidean);
+  const Vector repeated = second + 1e-12 * first;
+  memory.add(repeated, 2.0 * repeated, loose_condition, euclidean);
+  EXPECT_EQ(memory.size(), 1);
+  Vector step(20);
+  Vector remainder(20);
+  memory.project(repeated, step, remainder, euclidean);
+  EXPECT_LE((step + 0.5 * repeated).norm(), 1e-12 * repeated.norm());
+}
+
+TEST(SecantMemory, IgnoresPairsWithoutADifference) {
+  SecantMemory memory;
+  memory.resize(4, 3);
+  memory.add(Vector::Ones(4), Vector::Zero(4), loose_condition, euclidean);
+  memory.add(Vector::Ones(4), Vector::Constant(4, std::numeric_limits<double>::quiet_NaN()),
+             loose_condition, euclidean);
+  EXPECT_EQ(memory.size(), 0);
+}
+
+TEST(SecantMemory, HoldsNoMorePairsThanUnknowns) {
+  Randoms random;
+  SecantMemory memory;
+  memory.resize(3, 20);
+  for (int k = 0; k < 10; ++k) {
+    memory.add(random.vector(3), random.vector(3), loose_condition, euclidean);
+  }
+  EXPECT_LE(memory.size(), 3);
+  const Vector r = random.vector(3);
+  Vector step(3);
+  Vector remainder(3);
+  memory.project(r, step, remainder, euclidean);
+  EXPECT_TRUE(step.allFinite());
+}
+
+}  // namespace
