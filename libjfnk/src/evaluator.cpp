@@ -102,7 +102,8 @@ double Evaluator::difference_step(double v_norm) const {
       return j.noise * j.length_scale * std::sqrt(n) / v_norm;
     case Jacobian::Step::paper:
       // Departure: read with b for the paper's "computer precision" c, whose own size would leave
-      // no digit of the difference, and with 1 for ||u|| = 0, where the formula gives no step.
+      // no digit of the difference, and with 1 for ||u|| = 0, where the formula gives no
+      // step: doc/appendix_a.md.
       return (1.0 + v_norm) * j.noise * (base_u_norm_ > 0.0 ? base_u_norm_ : 1.0);
     default:
       return j.noise * std::sqrt(1.0 + base_u_norm_) / v_norm;

@@ -111,7 +111,8 @@ Options appendix_a(double residual_tolerance, double step_tolerance, int m_max) 
   options.krylov.forcing.initial = 0.01;
   options.krylov.forcing.end_game = 0.0;
   options.globalisation.factor = 0.8;
-  // Departure: the paper cuts without end; 0.8^100 = 2e-10 is beyond any useful step.
+  // Departure: the paper cuts without end; 0.8^100 = 2e-10 is beyond any useful step
+  // (doc/appendix_a.md).
   options.globalisation.max_cuts = 100;
   options.globalisation.domain_factor = 0.8;
   options.globalisation.sufficient_decrease = 0.0;

@@ -45,8 +45,9 @@ struct Forcing {
 
 /// The linear solver of a Newton step.
 struct Krylov {
-  /// Columns kept before a restart (GMRES memory: that many vectors). Range [1, inf).
-  int restart = 60;
+  /// Columns kept before a restart; memory is restart + 1 vectors, of which only those used are
+  /// touched. A restart below what a system needs costs several times the actions. Range [1, inf).
+  int restart = 200;
   /// Upper bound on Jacobian actions per Newton step; the direction found is then used as it is.
   /// Range [1, inf).
   int max_iterations = 200;

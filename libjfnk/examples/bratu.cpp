@@ -1,0 +1,81 @@
+// The Bratu problem: -Laplace(u) = lambda exp(u) on the unit square, u = 0 on its edge.
+//
+//   jfnk_bratu            32 x 32 unknowns, lambda = 6
+//   jfnk_bratu 128 6.8    128 x 128 unknowns, close to the turning point at lambda = 6.808
+//
+// Solved four times: without and with a preconditioner, by Newton-Krylov and by the hybrid, and by
+// the algorithm of Appendix A of Chen, Huang & Lyamin 2020. Every line counts residual evaluations
+// and Jacobian actions. The preconditioner is the Cholesky factor of the Laplacian alone.
+#include <Eigen/SparseCholesky>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "jfnk/jfnk.hpp"
+
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// h^2 times the five-point Laplacian with m x m interior nodes.
+Sparse laplacian(int m) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < m * m; ++row) {
+    entries.emplace_back(row, row, 4.0);
+    if (row % m > 0) entries.emplace_back(row, row - 1, -1.0);
+    if (row % m < m - 1) entries.emplace_back(row, row + 1, -1.0);
+    if (row >= m) entries.emplace_back(row, row - m, -1.0);
+    if (row < m * (m - 1)) entries.emplace_back(row, row + m, -1.0);
+  }
+  Sparse matrix(m * m, m * m);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+struct Bratu {
+  Sparse minus_laplacian;
+  double weight;  // lambda h^2
+
+  void operator()(const jfnk::Vector& u, jfnk::Vector& r) const {
+    r.noalias() = minus_laplacian * u;
+    r.array() -= weight * u.array().exp();
+  }
+};
+
+struct Cholesky {
+  Eigen::SimplicialLLT<Sparse> factor;
+  void apply(const jfnk::Vector& r, jfnk::Vector& z) const { z = factor.solve(r); }
+};
+
+void print(const char* name, const jfnk::Report& report, const jfnk::Vector& u) {
+  std::printf("%-28s %4d evaluations, max u = %.6f, %s\n", name, report.counts.total(),
+              u.maxCoeff(), std::string(jfnk::to_string(report.status)).c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int m = argc > 1 ? std::atoi(argv[1]) : 32;
+  const double lambda = argc > 2 ? std::atof(argv[2]) : 6.0;
+  if (m < 2 || !(lambda > 0.0)) {
+    std::fprintf(stderr, "usage: jfnk_bratu [nodes per side >= 2] [lambda > 0]\n");
+    return 2;
+  }
+  const Bratu bratu{laplacian(m), lambda / ((m + 1.0) * (m + 1.0))};
+  const Cholesky cholesky{Eigen::SimplicialLLT<Sparse>(bratu.minus_laplacian)};
+  bool all_converged = true;
+
+  const auto run = [&](const char* name, const jfnk::Options& options, const auto& preconditioner) {
+    jfnk::Vector u = jfnk::Vector::Zero(m * m);
+    const jfnk::Report report = jfnk::solve(bratu, u, options, preconditioner);
+    print(name, report, u);
+    if (!report.converged()) std::printf("  %s\n", report.reason.c_str());
+    all_converged = all_converged && report.converged();
+  };
+  run("Newton-Krylov", jfnk::Options{}, jfnk::Identity{});
+  run("Newton-Krylov, Laplacian", jfnk::Options{}, cholesky);
+  run("hybrid, Laplacian", jfnk::hybrid(), cholesky);
+  run("Appendix A, m_max = 200", jfnk::appendix_a(1e-6, 1e-6, 200), jfnk::Identity{});
+  return all_converged ? 0 : 3;
+}
