@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 #include "fpm/neighbour_search.hpp"
@@ -140,12 +142,17 @@ std::vector<Index> Rows<Dim>::research(const std::vector<Index>& rows, const Fie
   const Field<Dim> now = with_ghosts<Dim>(position, ghosts_);
   const Eigen::VectorXd volume_now = with_ghosts<Dim>(volume, ghosts_);
   const NeighbourSearch<Dim> search(now);
+  const std::set<Index> wanted(rows.begin(), rows.end());
+  if (!wanted.empty() && (*wanted.begin() < 0 || *wanted.rbegin() >= size())) {
+    const Index wrong = *wanted.begin() < 0 ? *wanted.begin() : *wanted.rbegin();
+    throw ShapeError("row " + std::to_string(wrong) + " of " + std::to_string(size()));
+  }
 
   std::vector<Index> rebuilt;
   std::vector<std::vector<Index>> new_lists;
   std::vector<RowGeometry<Dim>> new_geometry;
   RowWeights<Dim> scratch;
-  for (const Index a : rows) {
+  for (const Index a : wanted) {
     const auto old = neighbours(a);
     std::vector<Index> found;
     search.within(now.row(a).transpose(), support_radius_[a], found);
@@ -201,6 +208,9 @@ std::vector<Index> Rows<Dim>::research(const std::vector<Index>& rows, const Fie
 
 template <int Dim>
 void Rows<Dim>::index_searched_rows() {
+  if (std::ranges::adjacent_find(searched_row_, std::greater_equal<>()) != searched_row_.end()) {
+    throw ShapeError("re-searched rows must ascend");
+  }
   slot_.assign(static_cast<std::size_t>(size()), -1);
   Index at = 0;
   for (const Index a : searched_row_) {
@@ -233,6 +243,18 @@ void Rows<Dim>::restore(const ParticleSet<Dim>& particles, const MirrorGhosts<Di
     if (b < 0 || b >= n + ghosts.size()) {
       throw ShapeError("neighbour " + std::to_string(b) + " of " +
                        std::to_string(n + ghosts.size()) + " particles and ghosts");
+    }
+  }
+  for (Index a = 0; a < n; ++a) {
+    const std::string row = " of row " + std::to_string(a);
+    const auto list = neighbours(a);
+    if (std::ranges::adjacent_find(list, std::greater_equal<>()) != list.end() ||
+        std::ranges::binary_search(list, a)) {
+      throw ShapeError("neighbours" + row + " must ascend and leave out its own particle");
+    }
+    if (!(support_radius_[a] > 0.0)) throw ShapeError("support radius" + row + " is not positive");
+    if (!(reference_volume_[a] > 0.0)) {
+      throw ShapeError("reference volume" + row + " is not positive");
     }
   }
   index_searched_rows();

@@ -64,9 +64,11 @@ class Rows {
   /// Rebuilds the given rows on current positions and volumes (local re-search; paper section
   /// 4.3). `excluded[b]` bars particle b from being picked up as a *new* neighbour (rigid plates).
   /// A row that would end up with too few neighbours or ill-conditioned keeps its old reference.
+  /// @param rows  in any order
   /// @param position  [m] current positions
   /// @param volume  [m^Dim] current volumes
   /// @returns the rows that were rebuilt, ascending.
+  /// @throws ShapeError if sizes disagree or a row does not exist.
   std::vector<Index> research(const std::vector<Index>& rows, const Field<Dim>& position,
                               const Eigen::VectorXd& volume, const std::vector<char>& excluded);
 
@@ -83,8 +85,8 @@ class Rows {
   }
 
   /// Rebuilds what follows from the visited fields; call after reading them.
-  /// @throws ShapeError if the fields contradict each other or refer to particles that do not
-  /// exist.
+  /// @throws ShapeError if the fields contradict each other, refer to particles that do not exist
+  /// or hold a radius or volume that is not positive.
   void restore(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts,
                const RowOptions& options);
 
