@@ -8,7 +8,8 @@ function(make_clean_tree)
   file(REMOVE_RECURSE ${WORK})
   file(WRITE ${WORK}/libjfnk/include/jfnk/gmres.hpp
        "// never #include <fpm/kernel.hpp> here\n#include <Eigen/Core>\n#include <vector>\n"
-       "/* using namespace std; std::cout */\n#include \"jfnk/options.hpp\"\n")
+       "/* using namespace std; std::cout */\n#include \"jfnk/options.hpp\"\n"
+       "inline void f() {\n  using namespace std;\n}\n")
   file(WRITE ${WORK}/libjfnk/src/gmres.cpp "#include \"krylov_basis.hpp\"\n")
   file(WRITE ${WORK}/libconstitutive/include/constitutive/serialization.hpp
        "#include <boost/serialization/nvp.hpp>\n")

@@ -140,8 +140,10 @@ function(fpm_common_violations out root)
           list(APPEND violations "${file}: includes by a path, not by a name (${include})")
         endif()
       endforeach()
-      if(file MATCHES "\\.hpp$" AND code MATCHES "using[ \t\n]+namespace[ \t\n]+([a-zA-Z_:]+)")
-        list(APPEND violations "${file}: using namespace ${CMAKE_MATCH_1} in a header")
+      # Formatted sources indent only what stands in a function, where it harms no includer.
+      if(file MATCHES "\\.hpp$" AND
+         code MATCHES "(^|\n)using[ \t\n]+namespace[ \t\n]+([a-zA-Z_:]+)")
+        list(APPEND violations "${file}: using namespace ${CMAKE_MATCH_2} in a header")
       endif()
     endforeach()
   endforeach()
