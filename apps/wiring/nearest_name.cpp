@@ -35,7 +35,8 @@ std::string nearest_name(std::string_view name, const std::vector<std::string_vi
   std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
   for (const std::string_view candidate : candidates) {
     const std::size_t distance = edit_distance(name, candidate);
-    if (distance < best_distance) {
+    // A name that shares no letter was not meant.
+    if (distance < best_distance && distance < name.size()) {
       best_distance = distance;
       best = candidate;
     }

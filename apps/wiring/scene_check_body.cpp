@@ -74,6 +74,7 @@ void check_spacing(const Scene& scene, Diagnosis& diagnosis) {
                     fmt::format("found {}, which makes {} particles along {}", geometry.spacing,
                                 counts[i], name_of(static_cast<Axis>(i))),
                     fmt::format("allowed are at least {} along every axis", kFewestPerAxis));
+    return;
   }
 }
 
@@ -140,9 +141,9 @@ bool check_length(const Point& point, std::size_t wanted, const std::string& key
                   const Scene& scene, Diagnosis& diagnosis) {
   if (!diagnosis.good({key, "geometry.dimension"})) return false;
   if (point.empty() || point.size() == wanted) return true;
-  diagnosis.error(
-      key, fmt::format("found {} entries", point.size()),
-      fmt::format("needed are {}, as geometry.dimension is {}", wanted, scene.geometry.dimension));
+  diagnosis.error(key, fmt::format("found length {}", point.size()),
+                  fmt::format("needed is length {}, as geometry.dimension is {}", wanted,
+                              scene.geometry.dimension));
   return false;
 }
 

@@ -67,7 +67,7 @@ std::int64_t particle_count(const Geometry& geometry) {
 }
 
 std::int64_t nominal_steps(const Scene& scene) {
-  if (scene.programme.steps) return *scene.programme.steps;
+  if (scene.programme.steps.value_or(0) > 0) return *scene.programme.steps;
   if (scene.drive.kind != DriveKind::displacement) return 1;
   const double increment = scene.programme.increment_over_spacing * scene.geometry.spacing;
   // A quotient a rounding error above a whole number is that number.

@@ -43,9 +43,11 @@ class Filler {
   }
 
  private:
-  void place(const std::string& key, const toml::node& node) {
+  /// A node, or the key of an unknown name, was written here.
+  template <class NodeOrKey>
+  void place(const std::string& key, const NodeOrKey& written) {
     if (diagnosis_.given(key)) return;  // by a setting
-    diagnosis_.place(key, place_of(node.source(), diagnosis_.source()));
+    diagnosis_.place(key, place_of(written.source(), diagnosis_.source()));
   }
 
   void refuse_unknown_names() {
@@ -56,7 +58,7 @@ class Filler {
     for (const auto& [key, node] : tree_) {
       const std::string name(key.str());
       if (name == "title" || (!name.empty() && find_table(name) != nullptr)) continue;
-      place(name, node);
+      place(name, key);
       diagnosis_.error(
           name, node.is_table() || node.is_array_of_tables() ? "no such table" : "no such key",
           "allowed at the top level are " + joined(all), nearest_name(name, all));
@@ -110,11 +112,12 @@ class Filler {
   void refuse_unknown_keys(const TableInfo& info, std::size_t index, const toml::table& table) {
     std::vector<std::string_view> all;
     for (const Field& field : info.fields) all.push_back(field.key);
-    for (const auto& [key, node] : table) {
+    for (const auto& entry : table) {
+      const toml::key& key = entry.first;
       const std::string name(key.str());
       if (info.find(name) != nullptr) continue;
       const std::string path = info.path(index, name);
-      place(path, node);
+      place(path, key);
       std::string nearest = nearest_name(name, all);
       if (nearest.empty()) nearest = in_another_table(name);
       diagnosis_.error(path, "no such key",
