@@ -2,13 +2,10 @@
 
 #include <array>
 
-#include "constitutive/cone_update.hpp"
-#include "constitutive/material.hpp"
-#include "constitutive/mixed.hpp"
 #include "constitutive/objective.hpp"
+#include "constitutive/state.hpp"
 #include "fpm/subpoints.hpp"
 #include "fpm/types.hpp"
-#include "wiring/state.hpp"
 
 /// One particle between kinematics and stress: here, and only here, strain increments of libfpm
 /// meet the stress updates of libconstitutive.
@@ -55,32 +52,41 @@ struct ParticleTangent {
   Eigen::Matrix<double, Dim * Dim, Dim * Dim> rotation;
 };
 
-/// Ordinary nodal integration: one stress per particle.
-template <int Dim, bool Finite>
-struct PlainLaw {
-  template <class Material>
-  static void respond(const Material& material, const ParticleStart<Dim>& start,
-                      const ParticleIncrement<Dim>& increment, ParticleResponse<Dim>& response);
-  template <class Material>
-  static bool linearise(const Material& material, const ParticleStart<Dim>& start,
-                        const ParticleIncrement<Dim>& increment,
-                        ParticleTangent<Dim, false>& tangent);
+namespace detail {
+
+/// F = F(n) + increment: its determinant and inverse.
+template <int Dim>
+struct CurrentGradient {
+  CurrentGradient(const fpm::Tensor<Dim>& start, const fpm::Tensor<Dim>& increment)
+      : inverse(constitutive::detail::inverse_with_determinant(fpm::Tensor<Dim>(start + increment),
+                                                               determinant)) {}
+  double determinant = 0.0;
+  fpm::Tensor<Dim> inverse;
+  bool admissible() const { return determinant > 0.0; }  // false for a NaN too
 };
 
-/// Mixed sub-point integration in plane strain: one pressure per particle, four deviators.
-/// Each sub-point has its own finite motion dF_k = F_k F_k(n)^-1 of the Taylor field, so a rigid
-/// rotation of a bent body strains nothing; its in-plane dilation is replaced by the particle's.
-template <bool Finite>
-struct MixedLaw {
-  template <class Material>
-  static void respond(const Material& material, const ParticleStart<2>& start,
-                      const ParticleIncrement<2>& increment, ParticleResponse<2>& response);
-  template <class Material>
-  static bool linearise(const Material& material, const ParticleStart<2>& start,
-                        const ParticleIncrement<2>& increment, ParticleTangent<2, true>& tangent);
-};
+template <int Dim>
+fpm::Tensor<Dim> inverse(const fpm::Tensor<Dim>& m) {
+  double determinant = 0.0;
+  return constitutive::detail::inverse_with_determinant(m, determinant);
+}
 
+template <class Matrix>
+Matrix unit(int column_major_index) {
+  Matrix m = Matrix::Zero();
+  m.data()[column_major_index] = 1.0;
+  return m;
+}
+
+template <class Derived>
+auto flat(const Eigen::PlainObjectBase<Derived>& m) {
+  return Eigen::Map<const Eigen::Matrix<double, Derived::SizeAtCompileTime, 1>>(m.data());
+}
+
+template <int Dim>
+fpm::Tensor<Dim> symmetric(const fpm::Tensor<Dim>& m) {
+  return 0.5 * (m + m.transpose());
+}
+
+}  // namespace detail
 }  // namespace wiring
-
-#include "wiring/local_response_mixed.ipp"
-#include "wiring/local_response_plain.ipp"

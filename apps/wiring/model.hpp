@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "constitutive/material.hpp"
+#include "fpm/boundary_loads.hpp"
 #include "fpm/hourglass.hpp"
 #include "fpm/mirror.hpp"
 #include "fpm/particles.hpp"
@@ -12,6 +13,24 @@
 #include "wiring/state.hpp"
 
 namespace wiring {
+
+/// A pressure that follows the boundary.
+template <int Dim>
+struct FollowingPressure {
+  fpm::PointOperator<Dim> op;
+  fpm::BoundaryPoints<Dim> points;
+  double pressure = 0.0;  // [Pa] positive pushes
+  bool scaled = false;    // grows with the load parameter
+};
+
+/// A support by penalty on the true face of the body.
+template <int Dim>
+struct PenaltySupport {
+  fpm::PointOperator<Dim> op;
+  fpm::BoundaryPoints<Dim> points;
+  fpm::PenaltyOptions<Dim> options;
+  fpm::Field<Dim> target;  // [m] prescribed displacement of the points
+};
 
 /// A scene turned into particles, materials, constraints and loads: everything that stays the same
 /// during a run. Vectors over unknowns are component-major (all x, then all y, ...), length n Dim.
@@ -40,7 +59,16 @@ struct Model {
   Eigen::VectorXd measure;            // per unknown: weight of its reaction in the reported load
   Eigen::VectorXd constant_load;      // [N/m or N] dead loads that act from the start
   Eigen::VectorXd scaled_load;        // [N/m or N] dead loads at load parameter 1
-  double spacing = 0.0;               // [m]
+  fpm::Vector<Dim> box_min;  // [m]
+  fpm::Vector<Dim> box_max;  // [m]
+  double spacing = 0.0;      // [m]
+  struct MirrorFace {
+    int axis;
+    bool upper;
+  };
+  std::vector<MirrorFace> mirror_faces;  // faces of the box that are planes of symmetry
+  std::vector<FollowingPressure<Dim>> following_pressures;
+  std::vector<PenaltySupport<Dim>> penalty_supports;
 
   Eigen::Index size() const { return particles.position.rows(); }
   Eigen::Index unknowns() const { return size() * Dim; }

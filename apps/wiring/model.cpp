@@ -1,0 +1,274 @@
+#include "wiring/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wiring/model_loads.hpp"
+#include "wiring/scene_derived.hpp"
+
+namespace wiring {
+namespace {
+
+template <int Dim>
+fpm::Vector<Dim> to_vector(const Point& p) {
+  return Eigen::Map<const fpm::Vector<Dim>>(p.data());
+}
+
+fpm::Kernel to_kernel(KernelKind kind) {
+  switch (kind) {
+    case KernelKind::quintic_spline:
+      return fpm::Kernel::quintic_spline;
+    case KernelKind::wendland_c2:
+      return fpm::Kernel::wendland_c2;
+    case KernelKind::cubic_spline:
+      break;
+  }
+  return fpm::Kernel::cubic_spline;
+}
+
+std::string model_name(const Material& material) {
+  switch (material.model) {
+    case MaterialModel::von_mises:
+      return "von_mises";
+    case MaterialModel::drucker_prager:
+      return material.match == ConeMatch::compression_cone ? "drucker_prager_compression"
+                                                           : "drucker_prager";
+    case MaterialModel::mohr_coulomb:
+      return "mohr_coulomb";
+    case MaterialModel::elastic:
+      break;
+  }
+  return "elastic";
+}
+
+constitutive::Material to_material(const Material& material) {
+  constitutive::MaterialParameters p;
+  p.model = model_name(material);
+  p.youngs_modulus = material.youngs_modulus;
+  p.poissons_ratio = material.poissons_ratio;
+  p.cohesion = material.cohesion.value_or(0.0);
+  p.friction_angle = material.friction_angle.value_or(0.0);
+  p.dilation_angle = material.dilation_angle.value_or(0.0);
+  p.density = material.density;
+  if (material.dilation_cutoff) p.dilation_cutoff = *material.dilation_cutoff;
+  return constitutive::make_material(p);
+}
+
+template <int Dim>
+bool inside(const Eigen::Matrix<double, 1, Dim>& x, const Point& min, const Point& max) {
+  for (int i = 0; i < Dim; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (x[i] < min[k] || x[i] > max[k]) return false;
+  }
+  return true;
+}
+
+template <int Dim>
+void place_particles(const Scene& scene, Model<Dim>& model) {
+  const Geometry& geometry = scene.geometry;
+  fpm::LatticeOptions<Dim> lattice;
+  lattice.min = model.box_min = to_vector<Dim>(geometry.min);
+  lattice.max = model.box_max = to_vector<Dim>(geometry.max);
+  lattice.spacing = model.spacing = geometry.spacing;
+  lattice.layout =
+      geometry.layout == Layout::cell ? fpm::LatticeLayout::cell : fpm::LatticeLayout::vertex;
+  lattice.jitter = geometry.jitter;
+  lattice.seed = static_cast<std::uint64_t>(geometry.seed);
+  model.particles = fpm::make_lattice(lattice);
+
+  const double radius = scene.approximation.support_over_spacing * geometry.spacing;
+  model.row_options.kernel = to_kernel(scene.approximation.kernel);
+  model.row_options.support_radius = radius;
+  model.row_options.spacing = geometry.spacing;
+  std::vector<fpm::SymmetryPlane> planes;
+  for (const Symmetry& symmetry : scene.symmetry) {
+    const int axis = static_cast<int>(symmetry.axis);
+    planes.push_back({axis, symmetry.position});
+    model.mirror_faces.push_back(
+        {axis, symmetry.position > 0.5 * (lattice.min[axis] + lattice.max[axis])});
+  }
+  // Rows may widen their support, and re-searched rows reach for particles that have moved.
+  const double reach = model.row_options.max_enlargement * radius;
+  model.ghosts = fpm::MirrorGhosts<Dim>(model.particles.position, planes, reach);
+}
+
+template <int Dim>
+void assign_materials(const Scene& scene, Model<Dim>& model) {
+  const Eigen::Index n = model.size();
+  model.material.assign(static_cast<std::size_t>(n), 0);
+  model.mass.resize(n);
+  for (std::size_t m = 0; m < scene.material.size(); ++m) {
+    const Material& material = scene.material[m];
+    model.materials.push_back(to_material(material));
+    model.youngs_modulus.push_back(material.youngs_modulus);
+    for (Eigen::Index a = 0; a < n; ++a) {
+      if (material.region_min.empty() ||
+          inside<Dim>(model.particles.position.row(a), material.region_min, material.region_max)) {
+        model.material[static_cast<std::size_t>(a)] = static_cast<std::uint8_t>(m);
+      }
+    }
+  }
+  for (Eigen::Index a = 0; a < n; ++a) {
+    model.mass[a] = scene.material[model.material[static_cast<std::size_t>(a)]].density *
+                    model.particles.volume[a];
+  }
+}
+
+template <int Dim>
+void choose_integration(const Scene& scene, Model<Dim>& model) {
+  model.control = resolve_control(scene);
+  model.pair_control.stiffness_ratio = resolve_stiffness_ratio(scene);
+  model.pair_control.modulus_factor = scene.hourglass.modulus_factor;
+  model.viscosity = scene.hourglass.viscosity;
+  model.layout.finite = scene.approximation.kinematics == KinematicsKind::finite_strain;
+  model.layout.plastic =
+      std::any_of(scene.material.begin(), scene.material.end(),
+                  [](const Material& m) { return m.model != MaterialModel::elastic; });
+  model.layout.subpoints = model.control == HourglassControl::mixed;
+  model.layout.incremental =
+      model.control == HourglassControl::incremental || model.control == HourglassControl::mixed;
+  model.channels.second = model.layout.subpoints;
+  model.channels.pair = model.pair_control.stiffness_ratio > 0.0 &&
+                        (model.layout.incremental || model.control == HourglassControl::stiffness);
+  model.row_options.second = model.channels.second;
+}
+
+// Whether a particle belongs to the layer next to a side of the box.
+template <int Dim>
+bool on_side(const Scene& scene, const Model<Dim>& model, Side side, Eigen::Index a) {
+  const double reach = scene.geometry.layout == Layout::cell ? 1.0 : 0.25;
+  const int axis = axis_of(side);
+  return std::abs(model.particles.position(a, axis) - side_position(scene.geometry, side)) <
+         reach * model.spacing;
+}
+
+template <int Dim>
+bool in_side_range(const Model<Dim>& model, Side side, const Point& min, const Point& max,
+                   Eigen::Index a) {
+  if (min.empty()) return true;
+  const double slack = 1e-9 * model.spacing;
+  std::size_t k = 0;
+  for (int i = 0; i < Dim; ++i) {
+    if (i == axis_of(side)) continue;
+    const double x = model.particles.position(a, i);
+    if (x < min[k] - slack || x > max[k] + slack) return false;
+    ++k;
+  }
+  return true;
+}
+
+template <int Dim>
+std::vector<Eigen::Index> supported_particles(const Scene& scene, const Support& support,
+                                              const Model<Dim>& model) {
+  std::vector<Eigen::Index> chosen;
+  if (!support.at.empty()) {
+    Eigen::Index nearest = 0;
+    (model.particles.position.rowwise() - to_vector<Dim>(support.at).transpose())
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&nearest);
+    return {nearest};
+  }
+  for (Eigen::Index a = 0; a < model.size(); ++a) {
+    const bool hit = support.side ? on_side(scene, model, *support.side, a)
+                                  : inside<Dim>(model.particles.position.row(a), support.region_min,
+                                                support.region_max);
+    if (hit) chosen.push_back(a);
+  }
+  return chosen;
+}
+
+template <int Dim>
+void constrain(const Scene& scene, Model<Dim>& model) {
+  const Eigen::Index n = model.size();
+  model.prescribed.assign(static_cast<std::size_t>(model.unknowns()), 0);
+  model.drive.setZero(model.unknowns());
+  model.measure.setZero(model.unknowns());
+  model.driven_particle.assign(static_cast<std::size_t>(n), 0);
+  const auto prescribe = [&](Eigen::Index a, int i) {
+    model.prescribed[static_cast<std::size_t>(i * n + a)] = 1;
+  };
+  for (const Support& support : scene.support) {
+    if (support.method == SupportMethod::penalty) continue;  // model_loads.cpp
+    for (const Eigen::Index a : supported_particles(scene, support, model)) {
+      for (const Axis axis : support.directions) prescribe(a, static_cast<int>(axis));
+    }
+  }
+  if (scene.drive.kind != DriveKind::displacement) return;
+  const fpm::Vector<Dim> direction = to_vector<Dim>(scene.drive.direction).normalized();
+  for (Eigen::Index a = 0; a < n; ++a) {
+    if (!on_side(scene, model, scene.drive.side, a) ||
+        !in_side_range(model, scene.drive.side, scene.drive.range_min, scene.drive.range_max, a)) {
+      continue;
+    }
+    model.driven_particle[static_cast<std::size_t>(a)] = 1;
+    for (int i = 0; i < Dim; ++i) {
+      if (scene.drive.lateral == Lateral::free && direction[i] == 0.0) continue;
+      prescribe(a, i);
+      model.drive[i * n + a] = direction[i] * scene.drive.target;
+      model.measure[i * n + a] = direction[i];
+    }
+  }
+}
+
+template <int Dim>
+void set_geostatic_stress(const Scene& scene, const Model<Dim>& model, State<Dim>& state) {
+  constexpr int up = 1;
+  const double gravity = -scene.gravity.acceleration[static_cast<std::size_t>(up)];
+  const double surface = scene.initial_stress.surface.value_or(model.box_max[up]);
+  // Weight of the column above, material by material, each integrated over the box's height.
+  for (Eigen::Index a = 0; a < model.size(); ++a) {
+    const Material& material = scene.material[model.material[static_cast<std::size_t>(a)]];
+    const double depth = surface - model.particles.position(a, up);
+    const double vertical = -scene.initial_stress.surcharge - material.density * gravity * depth;
+    const double k0 =
+        scene.initial_stress.K0.value_or(material.poissons_ratio / (1.0 - material.poissons_ratio));
+    state.stress.col(a).setZero();
+    state.stress.col(a).template head<3>().setConstant(k0 * vertical);
+    state.stress(up, a) = vertical;
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+Model<Dim> build_model(const Scene& scene) {
+  Model<Dim> model;
+  place_particles(scene, model);
+  assign_materials(scene, model);
+  choose_integration(scene, model);
+  constrain(scene, model);
+  add_loads(scene, model);
+  model.consistency = resolve_consistency(scene);
+  if (model.consistency) model.area_vector = boundary_area_vectors(scene, model);
+  return model;
+}
+
+template <int Dim>
+State<Dim> initial_state(const Model<Dim>& model, const Scene& scene) {
+  State<Dim> state;
+  state.layout = model.layout;
+  state.resize(model.size());
+  state.rows = fpm::Rows<Dim>(model.particles, model.ghosts, model.row_options);
+  if (scene.initial_stress.kind == InitialStressKind::geostatic) {
+    set_geostatic_stress(scene, model, state);
+  }
+  if (model.layout.subpoints) {
+    for (Eigen::Index a = 0; a < model.size(); ++a) {
+      const constitutive::StressVector<Dim> s =
+          constitutive::deviator(constitutive::StressVector<Dim>(state.stress.col(a)));
+      for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(fpm::subpoint_count); ++k) {
+        state.subpoint_deviator.template block<4, 1>(4 * k, a) = s.template head<4>();
+      }
+    }
+  }
+  return state;
+}
+
+template Model<2> build_model<2>(const Scene&);
+template Model<3> build_model<3>(const Scene&);
+template State<2> initial_state<2>(const Model<2>&, const Scene&);
+template State<3> initial_state<3>(const Model<3>&, const Scene&);
+
+}  // namespace wiring

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "wiring/model.hpp"
+
+namespace wiring {
+
+/// Adds gravity, tractions and penalty supports of a scene to a model whose particles, materials
+/// and constraints are set.
+template <int Dim>
+void add_loads(const Scene& scene, Model<Dim>& model);
+
+/// [m^(Dim-1)] Boundary area vector of each particle, for the consistency correction.
+template <int Dim>
+fpm::Field<Dim> boundary_area_vectors(const Scene& scene, const Model<Dim>& model);
+
+}  // namespace wiring

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <memory>
+
+#include "fpm/moment_operator.hpp"
+#include "wiring/model.hpp"
+
+namespace wiring {
+
+/// Approximate inverse of the stiffness, built once from the elastic body on its initial positions
+/// and kept through plasticity and re-search:
+///   z = D^-1 r + P A_c^-1 P^T r.
+/// D holds the Dim x Dim diagonal blocks of the elastic particle stiffness with its hourglass part;
+/// A_c is the elastic stiffness of a background grid of bilinear (trilinear) elements integrated at
+/// the particles, and P interpolates from the grid. Iterations stay bounded as particles grow.
+///
+/// Unknowns that are prescribed get z = 0.
+template <int Dim>
+class TwoLevelPreconditioner {
+ public:
+  /// @param coarse_over_spacing  grid spacing over particle spacing; 0 leaves the grid out
+  ///   (block-Jacobi)
+  /// @throws std::runtime_error if the coarse factorisation fails (a body without support)
+  TwoLevelPreconditioner(const Model<Dim>& model, const fpm::MomentOperator<Dim>& op,
+                         double coarse_over_spacing);
+
+  void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z);
+
+  std::size_t bytes() const;
+
+ private:
+  using FloatMatrix = Eigen::SparseMatrix<float>;
+  void build_blocks(const Model<Dim>& model, const fpm::MomentOperator<Dim>& op);
+  void build_grid(const Model<Dim>& model, double grid_spacing);
+  void interpolation_of(const Eigen::Matrix<double, 1, Dim>& position,
+                        Eigen::Matrix<fpm::Index, 1 << Dim, 1>& nodes,
+                        Eigen::Matrix<double, 1 << Dim, 1>& values,
+                        Eigen::Matrix<double, Dim, 1 << Dim>& gradients) const;
+
+  Eigen::Index size_ = 0;
+  std::vector<char> prescribed_;
+  Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic> block_inverse_;
+
+  // The grid.
+  fpm::Vector<Dim> origin_, cell_;
+  Eigen::Matrix<fpm::Index, Dim, 1> cells_;
+  fpm::Index nodes_ = 0;
+  Eigen::Matrix<fpm::Index, 1 << Dim, Eigen::Dynamic> corner_;  // of each particle's cell
+  Eigen::Matrix<float, 1 << Dim, Eigen::Dynamic> weight_;       // interpolation
+  FloatMatrix factor_;                                          // lower, single precision
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation_;
+  Eigen::VectorXd coarse_;
+  Eigen::VectorXf coarse_single_;
+};
+
+}  // namespace wiring

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "jfnk/solver.hpp"
+#include "wiring/equilibrium.hpp"
+#include "wiring/model.hpp"
+#include "wiring/preconditioner.hpp"
+#include "wiring/scene.hpp"
+#include "wiring/state.hpp"
+
+namespace wiring {
+
+/// What one converged step did; the curve and the progress line are made of it.
+struct StepRecord {
+  std::int64_t step = 0;
+  double load = 0.0;                // load parameter reached
+  double settlement = 0.0;          // [m] of the drive
+  double increment = 0.0;           // [m] of the drive, or of the load parameter in a load drive
+  double reaction = 0.0;            // [N/m or N]
+  double mean_pressure = 0.0;       // [Pa] reaction over width, if a width is given
+  double corrected_pressure = 0.0;  // [Pa] less what the hourglass control took
+  int newton_iterations = 0;
+  int residual_evaluations = 0;
+  int jacobian_actions = 0;
+  int evaluations = 0;              // of all attempts at this step, predictors included
+  int cuts = 0;
+  Eigen::Index plastic_particles = 0;
+  Eigen::Index researched_rows = 0;
+  double residual_ratio = 0.0;      // |r_free| over the reference norm
+  double max_plastic_strain = 0.0;
+  double hourglass_work_ratio = 0.0;  // accumulated, over the work of the loads
+  double max_displacement = 0.0;    // [m]
+};
+
+enum class StepOutcome {
+  converged,          // the state holds the new step
+  minimum_increment,  // cut back to the minimum without convergence; the state is the last good one
+  stopped,            // the observer asked to stop; the state is the last good one
+};
+
+struct StepResult {
+  StepOutcome outcome = StepOutcome::converged;
+  StepRecord record;
+  std::string reason;               // why the last attempt failed, and where
+  fpm::Index worst_particle = -1;
+};
+
+/// Advances a state through the load programme, one converged step at a time: predictor, solve,
+/// cut-back, commit, re-search, next step size. Everything it remembers between steps is in the
+/// state, so that a resumed run takes the same decisions.
+template <int Dim>
+class LoadStepper {
+ public:
+  /// Called after each nonlinear iteration; returning false stops the step.
+  using Watch = std::function<bool(const jfnk::Iteration&)>;
+
+  LoadStepper(const Scene& scene, const Model<Dim>& model, State<Dim>& state);
+
+  bool finished() const;
+  StepResult advance(const Watch& watch = {});
+
+  const Equilibrium<Dim>& equilibrium() const { return equilibrium_; }
+  std::size_t bytes() const { return equilibrium_.bytes() + preconditioner_.bytes(); }
+
+ private:
+  void set_prescribed(double increment, Eigen::VectorXd& u) const;
+  bool predict_by_tangent(double increment, Eigen::VectorXd& u, StepRecord& record);
+  bool solve(Eigen::VectorXd& u, const Watch& watch, StepResult& result);
+  void finish_step(double increment, StepRecord& record);
+  Eigen::Index research();
+  void choose_next_increment(const StepRecord& record);
+
+  const Scene& scene_;
+  const Model<Dim>& model_;
+  State<Dim>& state_;
+  Equilibrium<Dim> equilibrium_;
+  TwoLevelPreconditioner<Dim> preconditioner_;
+  bool use_preconditioner_ = true;
+  jfnk::Solver solver_;
+  double nominal_increment_ = 1.0;  // of the load parameter
+  Eigen::VectorXd increment_;
+};
+
+}  // namespace wiring
