@@ -9,8 +9,8 @@
 #include "jfnk/jfnk.hpp"
 #include "problems.hpp"
 
-// Eigen allocates by malloc, the rest by operator new: the linker wraps the one (--wrap=malloc),
-// this file replaces the other.
+// The linker wraps malloc (--wrap=malloc), by which Eigen allocates; operator new, replaced here,
+// comes to the same place.
 namespace {
 // Atomic, for the compiler takes malloc for a function that changes no variable of ours.
 std::atomic<std::size_t> allocations = 0;
@@ -24,15 +24,15 @@ void* __wrap_malloc(std::size_t size) {
 }
 }
 
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = __real_malloc(size)) return memory;
+// Not inlined: the compiler would see free() meet memory of operator new.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept {
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
   std::free(memory);
 }
-void operator delete(void* memory, std::size_t) noexcept {
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
   std::free(memory);
 }
 

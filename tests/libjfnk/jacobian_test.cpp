@@ -26,7 +26,10 @@ template <class F>
 class About {
  public:
   About(F& f, const Vector& u, const Options& options)
-      : residual_(f), probe_(u.size()), evaluator_(residual_, options, counts, probe_) {
+      : options_(options),
+        residual_(f),
+        probe_(u.size()),
+        evaluator_(residual_, options_, counts, probe_) {
     base_.resize(u.size());
     base_.u = u;
     start = evaluator_.evaluate_start(base_);
@@ -38,6 +41,7 @@ class About {
   Outcome start;
 
  private:
+  Options options_;
   ResidualRef residual_;
   Vector probe_;
   Iterate base_;
