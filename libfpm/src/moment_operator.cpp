@@ -80,9 +80,9 @@ MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const MirrorGhosts<Di
   // A gradient acts on differences, so its row has a self entry; the caller handles that of pairs.
   std::vector<char> in_sum(static_cast<std::size_t>(channel_count()), 1);
   if (channels.pair) std::fill_n(in_sum.begin() + Dim, 1 + Dim, char{0});
-  forward_ = detail::segment(weighted, block_rows);
-  transposed_ =
-      detail::segment(detail::transpose(weighted, size_ + ghosts_.size(), in_sum), block_rows);
+  const Index nodes = size_ + ghosts_.size();
+  forward_ = detail::segment(weighted, block_rows, nodes);
+  transposed_ = detail::segment(detail::transpose(weighted, nodes, in_sum), block_rows, size_);
 }
 
 template <int Dim>

@@ -28,7 +28,8 @@ std::string stencil_key(const WeightedRows& rows, Index row) {
 
 class Layout {
  public:
-  Layout(const WeightedRows& rows, SegmentedRows& out) : rows_(rows), out_(out) {}
+  Layout(const WeightedRows& rows, Index sources, SegmentedRows& out)
+      : rows_(rows), sources_(sources), out_(out) {}
 
   void add_shared(Index first, Index count, const std::string& key) {
     const auto ids = rows_.ids(first);
@@ -53,7 +54,7 @@ class Layout {
       for (Index lane = 0; lane < lanes; ++lane) {
         const Index row = std::min(first + lane, first + count - 1);
         const auto ids = rows_.ids(row);
-        out_.ids.push_back(k < ids.size() ? ids[k] : row);
+        out_.ids.push_back(k < ids.size() ? ids[k] : std::min(row, sources_ - 1));
       }
       for (std::size_t c = 0; c < m; ++c) {
         for (Index lane = 0; lane < lanes; ++lane) {
@@ -70,6 +71,7 @@ class Layout {
     std::size_t weight;
   };
   const WeightedRows& rows_;
+  Index sources_;
   SegmentedRows& out_;
   std::unordered_map<std::string, Place> pool_;
 };
@@ -108,10 +110,10 @@ WeightedRows transpose(const WeightedRows& rows, Index transposed_size,
   return out;
 }
 
-SegmentedRows segment(const WeightedRows& rows, Index block_rows) {
+SegmentedRows segment(const WeightedRows& rows, Index block_rows, Index sources) {
   SegmentedRows out;
   out.row_count = rows.size();
-  Layout layout(rows, out);
+  Layout layout(rows, sources, out);
   for (Index begin = 0; begin < rows.size(); begin += block_rows) {
     out.block_begin.push_back(static_cast<Index>(out.segments.size()));
     const Index end = std::min(begin + block_rows, rows.size());

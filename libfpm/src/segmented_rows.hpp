@@ -27,12 +27,15 @@ struct WeightedRows {
   }
 };
 
-/// The transposed operator. With `diagonal`, a row b < size() starts from its own entry: minus the
+/// The transposed operator. Its row b < rows.size() starts from its own entry: minus the
 /// sum of its weights in the channels where `in_sum` is set, zero in the others.
 WeightedRows transpose(const WeightedRows& rows, Index transposed_size,
                        const std::vector<char>& in_sum);
 
-/// Lays rows out for the kernels, in blocks of `block_rows`; equal stencils are stored once.
-SegmentedRows segment(const WeightedRows& rows, Index block_rows);
+/// Lays rows out for the kernels, in blocks of `block_rows`; equal stencils are stored once. Rows
+/// of one group are filled up to the widest with entries of no weight, which refer to the row
+/// itself or, as a transposed row may be none, to the last of the `sources` that an entry may refer
+/// to: what they read must exist, since zero times garbage may be NaN.
+SegmentedRows segment(const WeightedRows& rows, Index block_rows, Index sources);
 
 }  // namespace fpm::detail
