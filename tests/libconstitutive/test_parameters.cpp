@@ -1,0 +1,146 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <constitutive/version.hpp>
+#include <set>
+
+#include "points.hpp"
+
+namespace {
+
+using namespace constitutive;
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+const double infinity = std::numeric_limits<double>::infinity();
+
+TEST(MaterialParameters, OfEveryModelAreAcceptedAndMakeThatMaterial) {
+  for (const std::string_view name : material_model_names()) {
+    EXPECT_THAT(validate(points::soil(std::string(name))), IsEmpty()) << name;
+  }
+  EXPECT_TRUE(std::holds_alternative<Elastic>(make_material(points::soil("elastic"))));
+  EXPECT_TRUE(std::holds_alternative<VonMises>(make_material(points::soil("von_mises"))));
+  EXPECT_TRUE(std::holds_alternative<MohrCoulomb>(make_material(points::soil("mohr_coulomb"))));
+  const auto matched = std::get<DruckerPrager>(make_material(points::soil("drucker_prager")));
+  const auto outer =
+      std::get<DruckerPrager>(make_material(points::soil("drucker_prager_compression")));
+  EXPECT_LT(matched.cone.alpha, outer.cone.alpha);
+}
+
+struct Refusal {
+  const char* field;
+  void (*spoil)(MaterialParameters&);
+};
+
+class RefusedParameters : public testing::TestWithParam<Refusal> {};
+
+TEST_P(RefusedParameters, AreNamedInOneMessage) {
+  MaterialParameters p = points::soil("mohr_coulomb");
+  GetParam().spoil(p);
+  EXPECT_THAT(validate(p), ElementsAre(StartsWith(GetParam().field)));
+  EXPECT_THROW((void)make_material(p), std::invalid_argument);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, RefusedParameters,
+    testing::Values(
+        Refusal{"youngs_modulus", [](MaterialParameters& p) { p.youngs_modulus = 0; }},
+        Refusal{"youngs_modulus", [](MaterialParameters& p) { p.youngs_modulus = -1; }},
+        Refusal{"youngs_modulus", [](MaterialParameters& p) { p.youngs_modulus = std::nan(""); }},
+        Refusal{"youngs_modulus", [](MaterialParameters& p) { p.youngs_modulus = infinity; }},
+        Refusal{"poissons_ratio", [](MaterialParameters& p) { p.poissons_ratio = 0.5; }},
+        Refusal{"poissons_ratio", [](MaterialParameters& p) { p.poissons_ratio = -1; }},
+        Refusal{"poissons_ratio", [](MaterialParameters& p) { p.poissons_ratio = std::nan(""); }},
+        Refusal{"cohesion", [](MaterialParameters& p) { p.cohesion = -1e-9; }},
+        Refusal{"cohesion", [](MaterialParameters& p) { p.cohesion = infinity; }},
+        Refusal{"cohesion", [](MaterialParameters& p) { p.cohesion = std::nan(""); }},
+        Refusal{
+            "cohesion",
+            [](MaterialParameters& p) { p.cohesion = p.friction_angle = p.dilation_angle = 0; }},
+        Refusal{"friction_angle", [](MaterialParameters& p) { p.friction_angle = 90; }},
+        Refusal{"friction_angle", [](MaterialParameters& p) { p.friction_angle = -1; }},
+        Refusal{"friction_angle", [](MaterialParameters& p) { p.friction_angle = std::nan(""); }},
+        Refusal{"friction_angle",
+                [](MaterialParameters& p) {
+                  p.model = "von_mises";
+                  p.dilation_angle = 0;
+                }},
+        Refusal{"dilation_angle", [](MaterialParameters& p) { p.dilation_angle = 20.001; }},
+        Refusal{"dilation_angle", [](MaterialParameters& p) { p.dilation_angle = -0.1; }},
+        Refusal{"dilation_angle", [](MaterialParameters& p) { p.dilation_angle = std::nan(""); }},
+        Refusal{"density", [](MaterialParameters& p) { p.density = -1; }},
+        Refusal{"density", [](MaterialParameters& p) { p.density = infinity; }},
+        Refusal{"dilation_cutoff", [](MaterialParameters& p) { p.dilation_cutoff = -0.01; }},
+        Refusal{"dilation_cutoff", [](MaterialParameters& p) { p.dilation_cutoff = std::nan(""); }},
+        Refusal{"model", [](MaterialParameters& p) { p.model = "cam_clay"; }}));
+
+TEST(MaterialParameters, ReportAllProblemsAtOnce) {
+  MaterialParameters p;
+  p.model = "clay";
+  p.poissons_ratio = 0.7;
+  p.cohesion = -1;
+  p.dilation_angle = 5;
+  p.density = -1;
+  const auto messages = validate(p);
+  for (const char* field :
+       {"model", "youngs_modulus", "poissons_ratio", "cohesion", "dilation_angle", "density"}) {
+    EXPECT_THAT(messages, Contains(StartsWith(field)));
+  }
+  try {
+    (void)make_material(p);
+    FAIL();
+  } catch (const std::invalid_argument& refused) {
+    for (const std::string& message : messages) EXPECT_THAT(refused.what(), HasSubstr(message));
+  }
+}
+
+TEST(MaterialParameters, OfFrictionWithoutCohesionAreAccepted) {
+  for (const char* model : {"drucker_prager", "drucker_prager_compression", "mohr_coulomb"}) {
+    MaterialParameters p = points::soil(model);
+    p.cohesion = 0;
+    EXPECT_THAT(validate(p), IsEmpty());
+  }
+}
+
+TEST(MaterialParameters, OfElasticityDoNotNeedStrength) {
+  MaterialParameters p;
+  p.model = "elastic";
+  p.youngs_modulus = 1;
+  EXPECT_THAT(validate(p), IsEmpty());
+}
+
+TEST(MaterialParameters, OfThePlaneStrainMatchAreRefusedInThreeDimensions) {
+  const MaterialParameters p = points::soil("drucker_prager");
+  EXPECT_THAT(validate(p, 2), IsEmpty());
+  EXPECT_THAT(validate(p, 3), ElementsAre(AllOf(StartsWith("model"), HasSubstr("mohr_coulomb"))));
+  EXPECT_THAT(validate(points::soil("drucker_prager_compression"), 3), IsEmpty());
+  EXPECT_THAT(validate(p, 4), Contains(StartsWith("dimension")));
+}
+
+TEST(MaterialParameters, ListEveryFieldOnce) {
+  std::set<std::string> names;
+  int fields = 0;
+  points::soil("elastic").for_each_field([&](const char* name, const auto&) {
+    names.insert(name);
+    ++fields;
+  });
+  EXPECT_EQ(fields, 8);
+  EXPECT_EQ(names.size(), 8u);
+}
+
+TEST(Version, IsThatOfTheCMakePackage) {
+  EXPECT_STREQ(version, CONSTITUTIVE_PACKAGE_VERSION);
+}
+
+TEST(PointState, ListsEveryNumberItHolds) {
+  PointState<3> s;
+  std::size_t bytes = 0;
+  s.for_each_field([&](const char*, auto& field) { bytes += sizeof(field); });
+  EXPECT_EQ(bytes, sizeof(s)) << "a field is missing from the list (8 doubles, no padding)";
+}
+
+}  // namespace
