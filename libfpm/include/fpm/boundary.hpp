@@ -42,7 +42,7 @@ struct BoundaryQuadratureOptions {
   Vector<Dim> min = Vector<Dim>::Zero();  ///< [m] lower corner of the box
   Vector<Dim> max = Vector<Dim>::Ones();  ///< [m] upper corner of the box, > min
   double spacing = 0.1;                   ///< [m] > 0, that of the particles
-  Face face;
+  Face face = {};
   /// [m] The part of the face to cover, clipped to the face; the entry along `face.axis` is
   /// ignored.
   Vector<Dim> range_min = Vector<Dim>::Constant(-std::numeric_limits<double>::infinity());
