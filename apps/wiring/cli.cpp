@@ -67,17 +67,24 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Binds the word after --resume to it, unless that is another option or the scene: Boost binds an
-/// optional value only with an equals sign.
-std::vector<std::string> with_bound_resume(std::span<const std::string> arguments) {
-  std::vector<std::string> bound;
+/// Makes clear to Boost what --resume, whose value is optional, has for a value: the next word is
+/// it unless it is another option or the scene, which Boost would take as well.
+std::vector<std::string> with_clear_resume(std::span<const std::string> arguments) {
+  std::vector<std::string> clear, last;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    bound.push_back(arguments[i]);
-    if (arguments[i] != "--resume" || i + 1 == arguments.size()) continue;
-    const std::string& next = arguments[i + 1];
-    if (!next.starts_with("-") && !next.ends_with(".toml")) bound.back() += "=" + arguments[++i];
+    const bool has_word = arguments[i] == "--resume" && i + 1 < arguments.size() &&
+                          !arguments[i + 1].starts_with("-");
+    if (!has_word) {
+      clear.push_back(arguments[i]);
+    } else if (arguments[i + 1].ends_with(".toml")) {
+      last.push_back(arguments[i]);
+    } else {
+      clear.push_back(arguments[i] + "=" + arguments[i + 1]);
+      ++i;
+    }
   }
-  return bound;
+  clear.insert(clear.end(), last.begin(), last.end());
+  return clear;
 }
 
 po::variables_map parse(std::span<const std::string> arguments) {
@@ -90,7 +97,7 @@ po::variables_map parse(std::span<const std::string> arguments) {
   const int strict = style::unix_style & ~style::allow_guessing;
   po::variables_map values;
   try {
-    po::store(po::command_line_parser(with_bound_resume(arguments))
+    po::store(po::command_line_parser(with_clear_resume(arguments))
                   .options(all)
                   .positional(positional)
                   .style(strict)

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cctype>
 #include <set>
 
 #include "sample_scene.hpp"
@@ -14,7 +15,20 @@ struct BadScene {
   const char* what;     // found exactly once in the sample ...
   const char* instead;  // ... and replaced by this
   const char* message;  // all of it
+
+  friend void PrintTo(const BadScene& bad, std::ostream* stream) { *stream << bad.message; }
 };
+
+/// The key of the message, as a test's name: geometry_spacing_9.
+std::string test_name(const ::testing::TestParamInfo<BadScene>& info) {
+  std::string key = info.param.message;
+  key = key.substr(key.find(": ") + 2);
+  key = key.substr(0, key.find(':')) + "_" + std::to_string(info.index);
+  for (char& c : key) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  }
+  return key;
+}
 
 // Most are one edit of the sample; the last tests hold what needs more.
 const BadScene bad_scenes[] = {
@@ -32,7 +46,7 @@ TEST_P(BadSceneTest, IsRefusedWithExactlyItsMessage) {
   EXPECT_EQ(reading.errors[0].text(), GetParam().message);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scene, BadSceneTest, ::testing::ValuesIn(bad_scenes));
+INSTANTIATE_TEST_SUITE_P(Scene, BadSceneTest, ::testing::ValuesIn(bad_scenes), test_name);
 
 TEST(BadScenes, AreAtLeastFortyAndAllDifferent) {
   std::set<std::string> messages;
