@@ -3,13 +3,14 @@
 #include <limits>
 
 #include "fpm/consistency.hpp"
-#include "wiring/equilibrium_passes.hpp"
+#include "wiring/mixed_law.hpp"
+#include "wiring/plain_law.hpp"
 
 namespace wiring {
 
 template <int Dim>
 Equilibrium<Dim>::Equilibrium(const Model<Dim>& model, State<Dim>& state)
-    : model_(model), state_(state), passes_(std::make_unique<PassTable>(choose_passes())) {
+    : model_(model), state_(state), loops_(choose_loops()) {
   if (model_.consistency) {
     // The correction belongs to the initial configuration, whatever was re-searched since.
     const fpm::Rows<Dim> initial(model_.particles, model_.ghosts, model_.row_options);
@@ -40,17 +41,14 @@ Equilibrium<Dim>::Equilibrium(const Model<Dim>& model, State<Dim>& state)
 }
 
 template <int Dim>
-Equilibrium<Dim>::~Equilibrium() = default;
-
-template <int Dim>
-typename Equilibrium<Dim>::PassTable Equilibrium<Dim>::choose_passes() const {
+LawLoops<Dim> Equilibrium<Dim>::choose_loops() const {
   const bool finite = model_.layout.finite;
   if constexpr (Dim == 2) {
     if (model_.layout.subpoints) {
-      return finite ? Passes<MixedLaw<true>>::table() : Passes<MixedLaw<false>>::table();
+      return finite ? law_loops<2, MixedLaw<true>>() : law_loops<2, MixedLaw<false>>();
     }
   }
-  return finite ? Passes<PlainLaw<Dim, true>>::table() : Passes<PlainLaw<Dim, false>>::table();
+  return finite ? law_loops<Dim, PlainLaw<Dim, true>>() : law_loops<Dim, PlainLaw<Dim, false>>();
 }
 
 template <int Dim>
@@ -173,7 +171,7 @@ template <int Dim>
 jfnk::Evaluation Equilibrium<Dim>::operator()(const Eigen::VectorXd& increment,
                                               Eigen::VectorXd& residual) {
   operator_.extend(increment.data(), extended_.data());
-  failure_.particle = passes_->respond(*this);
+  failure_.particle = loops_.respond(*this);
   if (failure_.particle >= 0) return jfnk::Evaluation::out_of_domain;
   assemble(extended_.data(), unmasked_.data());
   unmasked_ -= external_;
@@ -193,14 +191,14 @@ template <int Dim>
 bool Equilibrium<Dim>::linearise(const Eigen::VectorXd& increment) {
   operator_.extend(increment.data(), extended_.data());
   base_increment_ = increment;
-  failure_.particle = passes_->linearise(*this);
+  failure_.particle = loops_.linearise(*this);
   return failure_.particle < 0;
 }
 
 template <int Dim>
 void Equilibrium<Dim>::apply_jacobian(const Eigen::VectorXd& v, Eigen::VectorXd& jv) {
   operator_.extend(v.data(), extended_.data());
-  passes_->apply(*this);
+  loops_.apply(*this);
   assemble(extended_.data(), jv.data());
   add_boundary_actions(v, jv);
   for (Eigen::Index k = 0; k < jv.size(); ++k) {
@@ -312,7 +310,7 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
     }
   }
   operator_.extend(increment.data(), extended_.data());
-  passes_->commit(*this);
+  loops_.commit(*this);
   state_.increment = Eigen::Map<const fpm::Field<Dim>>(increment.data(), model_.size(), Dim);
   state_.displacement += state_.increment;
   if (model_.layout.plastic) {

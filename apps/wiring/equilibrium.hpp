@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "fpm/hourglass.hpp"
@@ -27,6 +26,23 @@ struct StepForces {
   double max_plastic_strain = 0.0;
 };
 
+template <int Dim>
+class Equilibrium;
+
+/// The loops over particles of one local law (kinematics and integration), chosen once per run.
+/// Each returns the lowest index of a particle that could not be evaluated, or -1.
+template <int Dim>
+struct LawLoops {
+  fpm::Index (*respond)(Equilibrium<Dim>&);    // field -> generalised stresses
+  fpm::Index (*linearise)(Equilibrium<Dim>&);  // field -> tangents
+  fpm::Index (*apply)(Equilibrium<Dim>&);      // field, tangents -> generalised stress changes
+  fpm::Index (*commit)(Equilibrium<Dim>&);     // field -> end-of-step state
+};
+
+/// The loops of a law; instantiated law by law in equilibrium_loops_*.cpp.
+template <int Dim, class Law>
+LawLoops<Dim> law_loops();
+
 /// Equilibrium of one step as a residual functor: r(du) = f_int + f_hourglass - f_ext, zeroed at
 /// prescribed unknowns. The unknown is the increment of displacement of the step, prescribed
 /// entries included (the caller sets them; the solver sees a zero residual there).
@@ -37,7 +53,6 @@ template <int Dim>
 class Equilibrium {
  public:
   Equilibrium(const Model<Dim>& model, State<Dim>& state);
-  ~Equilibrium();
   Equilibrium(const Equilibrium&) = delete;
   Equilibrium& operator=(const Equilibrium&) = delete;
 
@@ -65,12 +80,10 @@ class Equilibrium {
   std::size_t bytes() const;
 
  private:
-  // One implementation per combination of kinematics and integration, chosen once.
-  template <class Law>
-  struct Passes;
-  struct PassTable;
+  template <int D, class Law>
+  friend struct LoopsOf;
 
-  PassTable choose_passes() const;
+  LawLoops<Dim> choose_loops() const;
   void remember_pairs(Eigen::Index a, const Eigen::VectorXd& position_moments);
   void assemble(const double* field, double* force);
   void add_boundary_terms(const Eigen::VectorXd& increment);
@@ -84,7 +97,7 @@ class Equilibrium {
   fpm::MomentOperator<Dim> operator_;
   fpm::Field<Dim> potential_;  // of the consistency correction, kept for rebuilds
   fpm::PairViscosity<Dim> viscosity_;
-  std::unique_ptr<PassTable> passes_;
+  LawLoops<Dim> loops_;
 
   // Constant in a step.
   double load_ = 0.0;

@@ -89,6 +89,20 @@ void TwoLevelPreconditioner<Dim>::build_blocks(const Model<Dim>& model,
     if (second) block += subpoint_block(own_second);
     add(a, block);
   }
+  for (const PenaltySupport<Dim>& support : model.penalty_supports) {
+    fpm::Field<Dim> values = fpm::Field<Dim>::Zero(size_, Dim);
+    for (fpm::Index c = 0; c < support.points.size(); ++c) {
+      values.setZero();
+      support.op.add_transposed_value(c, Vector::Ones(), values);
+      const double stiffness = support.options.penalty * support.points.weight[c];
+      for (Eigen::Index a = 0; a < size_; ++a) {
+        for (int i = 0; i < Dim; ++i) {
+          if (!support.options.prescribed[static_cast<std::size_t>(i)]) continue;
+          sum(i * Dim + i, a) += stiffness * values(a, i) * values(a, i);
+        }
+      }
+    }
+  }
   block_inverse_.resize(Dim * Dim, size_);
   for (Eigen::Index a = 0; a < size_; ++a) {
     Tensor block = Eigen::Map<const Tensor>(sum.col(a).data());
@@ -130,6 +144,42 @@ void TwoLevelPreconditioner<Dim>::interpolation_of(
     nodes[corner] = node;
     values[corner] = value;
     gradients.col(corner) = gradient;
+  }
+}
+
+// Mirrors hold the normal displacement of the nodes on them, penalty supports that of their points;
+// a stiffness far above the body's would cost the single-precision factor its digits.
+template <int Dim>
+void TwoLevelPreconditioner<Dim>::add_grid_supports(
+    const Model<Dim>& model, std::vector<Eigen::Triplet<double>>& entries) const {
+  constexpr int corners = 1 << Dim;
+  const double most = penalty_factor * model.youngs_modulus.front() *
+                      std::pow(model.particles.volume.maxCoeff(), 1.0 - 2.0 / Dim);
+  for (const auto& [axis, upper] : model.mirror_faces) {
+    for (fpm::Index node = 0; node < nodes_; ++node) {
+      fpm::Index rest = node;
+      for (int i = 0; i < axis; ++i) rest /= cells_[i] + 1;
+      if (rest % (cells_[axis] + 1) != (upper ? cells_[axis] : 0)) continue;
+      entries.emplace_back(node * Dim + axis, node * Dim + axis, most);
+    }
+  }
+  Eigen::Matrix<fpm::Index, corners, 1> nodes;
+  Eigen::Matrix<double, corners, 1> values;
+  Eigen::Matrix<double, Dim, corners> gradients;
+  for (const PenaltySupport<Dim>& support : model.penalty_supports) {
+    for (fpm::Index c = 0; c < support.points.size(); ++c) {
+      interpolation_of(support.points.position.row(c), nodes, values, gradients);
+      const double stiffness = std::min(most, support.options.penalty * support.points.weight[c]);
+      for (int i = 0; i < Dim; ++i) {
+        if (!support.options.prescribed[static_cast<std::size_t>(i)]) continue;
+        for (int p = 0; p < corners; ++p) {
+          for (int q = 0; q < corners; ++q) {
+            entries.emplace_back(nodes[p] * Dim + i, nodes[q] * Dim + i,
+                                 stiffness * values[p] * values[q]);
+          }
+        }
+      }
+    }
   }
 }
 
@@ -176,18 +226,7 @@ void TwoLevelPreconditioner<Dim>::build_grid(const Model<Dim>& model, double gri
       }
     }
   }
-  // A mirror holds the normal displacement of the grid nodes at its end of the axis.
-  for (const auto& [axis, upper] : model.mirror_faces) {
-    for (fpm::Index node = 0; node < nodes_; ++node) {
-      fpm::Index rest = node;
-      for (int i = 0; i < axis; ++i) rest /= cells_[i] + 1;
-      if (rest % (cells_[axis] + 1) != (upper ? cells_[axis] : 0)) continue;
-      const double volume = model.particles.volume.maxCoeff();
-      entries.emplace_back(
-          node * Dim + axis, node * Dim + axis,
-          penalty_factor * model.youngs_modulus.front() * std::pow(volume, 1.0 - 2.0 / Dim));
-    }
-  }
+  add_grid_supports(model, entries);
   Eigen::SparseMatrix<double> stiffness(nodes_ * Dim, nodes_ * Dim);
   stiffness.setFromTriplets(entries.begin(), entries.end());
   // Grid nodes that no particle sees keep a row of their own.

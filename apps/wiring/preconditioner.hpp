@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
-#include <memory>
+#include <vector>
 
 #include "fpm/moment_operator.hpp"
 #include "wiring/model.hpp"
@@ -35,6 +35,8 @@ class TwoLevelPreconditioner {
   using FloatMatrix = Eigen::SparseMatrix<float>;
   void build_blocks(const Model<Dim>& model, const fpm::MomentOperator<Dim>& op);
   void build_grid(const Model<Dim>& model, double grid_spacing);
+  void add_grid_supports(const Model<Dim>& model,
+                         std::vector<Eigen::Triplet<double>>& entries) const;
   void interpolation_of(const Eigen::Matrix<double, 1, Dim>& position,
                         Eigen::Matrix<fpm::Index, 1 << Dim, 1>& nodes,
                         Eigen::Matrix<double, 1 << Dim, 1>& values,

@@ -5,30 +5,18 @@
 #include <variant>
 
 #include "wiring/equilibrium.hpp"
-#include "wiring/mixed_law.hpp"
-#include "wiring/plain_law.hpp"
 
 namespace wiring {
 
-/// The loops over particles, instantiated per local law and chosen once per run.
-template <int Dim>
-struct Equilibrium<Dim>::PassTable {
-  fpm::Index (*respond)(Equilibrium&);
-  fpm::Index (*linearise)(Equilibrium&);
-  void (*apply)(Equilibrium&);
-  void (*commit)(Equilibrium&);
-};
-
-template <int Dim>
-template <class Law>
-struct Equilibrium<Dim>::Passes {
+/// The loops over particles of one law, with access to the equilibrium's work arrays.
+template <int Dim, class Law>
+struct LoopsOf {
+  using Equilibrium = wiring::Equilibrium<Dim>;
   using Operator = fpm::MomentOperator<Dim>;
   using Tensor = fpm::Tensor<Dim>;
   using Vector = fpm::Vector<Dim>;
   static constexpr int size = generalised_size<Dim, Law::mixed>;
   static constexpr fpm::Index none = std::numeric_limits<fpm::Index>::max();
-
-  static PassTable table() { return {&respond, &linearise, &apply, &commit}; }
 
   /// Moments of one row of a block, in the order of the channels.
   struct RowMoments {
@@ -87,11 +75,12 @@ struct Equilibrium<Dim>::Passes {
                 if constexpr (!Law::template supports<Material>) {
                   failed = std::min(failed, begin);
                   return;
-                } else for (fpm::Index a = begin; a < run_end; ++a) {
-                  if (!work(a, RowMoments{moments + (a - first), pair}, m)) {
-                    failed = std::min(failed, a);
+                } else
+                  for (fpm::Index a = begin; a < run_end; ++a) {
+                    if (!work(a, RowMoments{moments + (a - first), pair}, m)) {
+                      failed = std::min(failed, a);
+                    }
                   }
-                }
               },
               e.model_.materials[material]);
           begin = run_end;
@@ -191,8 +180,8 @@ struct Equilibrium<Dim>::Passes {
     });
   }
 
-  static void apply(Equilibrium& e) {
-    for_each_row(e, [&e](fpm::Index a, const RowMoments& moments, const auto&) {
+  static fpm::Index apply(Equilibrium& e) {
+    return for_each_row(e, [&e](fpm::Index a, const RowMoments& moments, const auto&) {
       const ParticleIncrement<Dim> direction = moments.increment();
       Eigen::Matrix<double, size, 1> strain;
       strain.template head<Dim * Dim>() = detail::flat(direction.gradient);
@@ -223,8 +212,8 @@ struct Equilibrium<Dim>::Passes {
     });
   }
 
-  static void commit(Equilibrium& e) {
-    for_each_row(e, [&e](fpm::Index a, const RowMoments& moments, const auto& material) {
+  static fpm::Index commit(Equilibrium& e) {
+    return for_each_row(e, [&e](fpm::Index a, const RowMoments& moments, const auto& material) {
       const ParticleIncrement<Dim> increment = moments.increment();
       ParticleResponse<Dim> response;
       Law::respond(material, e.start_of(a), increment, response);
@@ -247,5 +236,11 @@ struct Equilibrium<Dim>::Passes {
     });
   }
 };
+
+template <int Dim, class Law>
+LawLoops<Dim> law_loops() {
+  using Loops = LoopsOf<Dim, Law>;
+  return {&Loops::respond, &Loops::linearise, &Loops::apply, &Loops::commit};
+}
 
 }  // namespace wiring
