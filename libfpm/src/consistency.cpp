@@ -2,7 +2,13 @@
 
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "fpm/stencil.hpp"
 
@@ -66,25 +72,57 @@ Eigen::SparseMatrix<double> assemble(const Rows<Dim>& rows, const MirrorGhosts<D
   return s;
 }
 
-// S has the affine fields in its null space, to which the right-hand side is orthogonal: a small
-// multiple of the diagonal makes it definite and iterative refinement removes its trace.
-Eigen::VectorXd solve_regularised(const Eigen::SparseMatrix<double>& lower,
-                                  const Eigen::VectorXd& right_hand_side) {
-  constexpr double regularisation = 1e-10;
-  constexpr int refinements = 3;
-  Eigen::SparseMatrix<double> shifted = lower;
-  const double scale = regularisation * lower.diagonal().maxCoeff();
-  for (Eigen::Index a = 0; a < shifted.rows(); ++a) shifted.coeffRef(a, a) += scale;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(shifted);
-  if (factor.info() != Eigen::Success) {
-    throw std::runtime_error("the consistency correction's matrix could not be factorised");
+// Solves S x = b. S has the affine fields in its null space, to which b is orthogonal: a small
+// multiple of the diagonal makes it definite, and iterative refinement removes its trace. The
+// smoothest modes need the most of it, their eigenvalues are about (spacing / length)^4 of the
+// largest.
+class RegularisedSolver {
+ public:
+  explicit RegularisedSolver(Eigen::SparseMatrix<double> lower) : lower_(std::move(lower)) {
+    constexpr double regularisation = 1e-10;
+    Eigen::SparseMatrix<double> shifted = lower_;
+    shifted.diagonal().array() += regularisation * lower_.diagonal().maxCoeff();
+    factor_.compute(shifted);
+    if (factor_.info() != Eigen::Success) {
+      throw std::runtime_error("the consistency correction's matrix could not be factorised");
+    }
   }
-  Eigen::VectorXd x = factor.solve(right_hand_side);
-  for (int k = 0; k < refinements; ++k) {
-    const Eigen::VectorXd residual = right_hand_side - lower.selfadjointView<Eigen::Lower>() * x;
-    x += factor.solve(residual);
+
+  /// @param round_off  residual below which the right-hand side means nothing
+  Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side, double round_off) const {
+    constexpr double tolerance = 1e-10;  // of the residual, relative; the loads' error in a patch
+    constexpr int max_refinements = 50;
+    const double target = std::max(tolerance * right_hand_side.norm(), round_off);
+    Eigen::VectorXd x = factor_.solve(right_hand_side);
+    for (int k = 0; k < max_refinements; ++k) {
+      const Eigen::VectorXd residual = right_hand_side - lower_.selfadjointView<Eigen::Lower>() * x;
+      if (residual.norm() <= target) return x;
+      x += factor_.solve(residual);
+    }
+    throw std::runtime_error(
+        "the consistency correction did not reach its tolerance; do the area " +
+        std::string("vectors close the surface of the particles' volume?"));
   }
-  return x;
+
+ private:
+  Eigen::SparseMatrix<double> lower_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+};
+
+// Round-off of the defect in the 2-norm: that of a sum of areas V_a G_ab whose weights come from
+// moment matrices with condition numbers up to some hundreds.
+template <int Dim>
+double defect_round_off(const Rows<Dim>& rows) {
+  constexpr double relative = 1e3 * std::numeric_limits<double>::epsilon();
+  double sum = 0.0;
+  RowGeometry<Dim> geometry;
+  RowWeights<Dim> weights;
+  for (Index a = 0; a < rows.size(); ++a) {
+    rows.geometry(a, geometry);
+    compute_weights(geometry, rows.options().kernel, false, weights);
+    sum += geometry.own_volume * geometry.own_volume * weights.gradient.squaredNorm();
+  }
+  return relative * std::sqrt(sum);
 }
 
 }  // namespace
@@ -118,8 +156,14 @@ Field<Dim> consistency_potential(const Rows<Dim>& rows, const MirrorGhosts<Dim>&
                                  const Field<Dim>& area_vector) {
   const Field<Dim> missing = -consistency_defect(rows, ghosts, area_vector);
   Field<Dim> potential(rows.size(), Dim);
+  const double round_off = defect_round_off(rows);
+  std::unique_ptr<const RegularisedSolver> solver;
   for (int i = 0; i < Dim; ++i) {
-    potential.col(i) = solve_regularised(assemble(rows, ghosts, i), missing.col(i));
+    // Without images S is the same for all components.
+    if (i == 0 || ghosts.size() > 0) {
+      solver = std::make_unique<RegularisedSolver>(assemble(rows, ghosts, i));
+    }
+    potential.col(i) = solver->solve(missing.col(i), round_off);
   }
   return potential;
 }

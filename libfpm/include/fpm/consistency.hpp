@@ -18,8 +18,11 @@ namespace fpm {
 /// @param rows  first search; no row re-searched
 /// @param area_vector  [m^(Dim-1)] n x Dim, s_b; over all particles sum s = 0 and
 ///   sum s x X = |Omega| I (boundary.hpp computes it)
-/// @returns nu, n x Dim; one sparse factorisation per component.
-/// @throws std::runtime_error if the factorisation fails.
+/// @returns nu, n x Dim, to a relative residual of 1e-10 per component, or round-off. Cost: one
+/// sparse
+///   factorisation, or one per component if there are images.
+/// @throws ShapeError if sizes disagree; std::runtime_error if the factorisation fails or the
+///   tolerance is not reached, as it cannot be if s does not close the surface.
 template <int Dim>
 Field<Dim> consistency_potential(const Rows<Dim>& rows, const MirrorGhosts<Dim>& ghosts,
                                  const Field<Dim>& area_vector);

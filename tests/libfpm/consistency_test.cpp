@@ -1,0 +1,238 @@
+// The consistency correction: what it mends, and what it must not spoil.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <fpm/boundary.hpp>
+#include <fpm/boundary_loads.hpp>
+#include <fpm/consistency.hpp>
+
+#include "operator_reference.hpp"
+
+namespace {
+
+using namespace fpm_test;
+using fpm::BoundaryQuadratureOptions;
+using fpm::Face;
+using fpm::MomentOperator;
+using fpm::PointOperator;
+
+// The relative residual that the solver promises for each component, in the 2-norm.
+constexpr double solver_tolerance = 1e-10;
+
+/// A box of particles, its boundary and its correction; x = box.min[0] may be a plane of symmetry.
+template <int Dim>
+struct Corrected {
+  LatticeOptions<Dim> box;
+  Model<Dim> model;
+  std::vector<Face> faces;
+  fpm::BoundaryPoints<Dim> points;
+  PointOperator<Dim> at_points;
+  Field<Dim> area;
+  Field<Dim> potential;
+  MomentOperator<Dim> op;
+
+  Corrected(const LatticeOptions<Dim>& lattice, bool symmetric)
+      : box(lattice),
+        model(
+            box, false,
+            symmetric ? std::vector<SymmetryPlane>{{0, box.min[0]}} : std::vector<SymmetryPlane>{}),
+        faces(fpm::all_faces<Dim>()) {
+    if (symmetric) faces.erase(faces.begin());
+    if (box.layout == LatticeLayout::vertex && box.jitter == 0.0 && !symmetric) {
+      area = fpm::tributary_area_vectors(box, faces);
+      std::vector<Index> particles;
+      for (const Face& face : faces) {
+        const auto tributary = fpm::tributary_points(box, face);
+        points.append(tributary.points);
+        particles.insert(particles.end(), tributary.particle.begin(), tributary.particle.end());
+      }
+      at_points = PointOperator<Dim>::at_particles(model.set, model.ghosts, particles,
+                                                   row_options<Dim>(box.spacing));
+    } else {
+      points = boundary_quadrature(
+          BoundaryQuadratureOptions<Dim>{.min = box.min, .max = box.max, .spacing = box.spacing},
+          faces);
+      at_points = PointOperator<Dim>(model.set, model.ghosts, points.position,
+                                     row_options<Dim>(box.spacing));
+      area = area_vectors(at_points, points);
+    }
+    potential = consistency_potential(model.rows, model.ghosts, area);
+    op = MomentOperator<Dim>(model.rows, model.ghosts, {}, potential);
+  }
+
+  Index size() const { return op.size(); }
+
+  /// Internal force of a constant stress, by either operator.
+  Field<Dim> internal_force(const MomentOperator<Dim>& by, const Tensor<Dim>& stress) const {
+    const Eigen::MatrixXd all =
+        model.set.volume * Eigen::RowVectorXd(stress.reshaped().transpose());
+    const Field<Dim> zero = Field<Dim>::Zero(size(), Dim);
+    return scattered(by, all, zero, zero);
+  }
+
+  /// Force of the tractions sigma n on the faces.
+  Field<Dim> external_force(const Tensor<Dim>& stress) const {
+    Field<Dim> force = Field<Dim>::Zero(size(), Dim);
+    add_traction(at_points, points, Field<Dim>(points.normal * stress.transpose()), force);
+    return force;
+  }
+};
+
+/// A symmetric stress; with a plane of symmetry normal to x, one that it admits.
+template <int Dim>
+Tensor<Dim> some_stress(bool symmetric) {
+  Tensor<Dim> stress = some_tensor<Dim>() + some_tensor<Dim>().transpose();
+  for (int i = 1; i < Dim && symmetric; ++i) stress(0, i) = stress(i, 0) = 0.0;
+  return stress;
+}
+
+template <int Dim>
+void expect_force_patch_test(const LatticeOptions<Dim>& box, bool symmetric) {
+  const Corrected<Dim> body(box, symmetric);
+  const Tensor<Dim> stress = some_stress<Dim>(symmetric);
+  const Field<Dim> external = body.external_force(stress);
+  const MomentOperator<Dim> plain(body.model.rows, body.model.ghosts, {});
+  const double before = (body.internal_force(plain, stress) - external).norm();
+  const double after = (body.internal_force(body.op, stress) - external).norm();
+  const Field<Dim> defect = consistency_defect(body.model.rows, body.model.ghosts, body.area);
+  EXPECT_GT(before, 1e-3 * external.norm());
+  EXPECT_LE(after, 2.0 * solver_tolerance * defect.norm() * stress.norm());
+}
+
+TEST(Consistency, MakesTheForcePatchTestExact) {
+  for (const bool symmetric : {false, true}) {
+    for (const double jitter : {0.0, 0.2}) {
+      for (const auto layout : {LatticeLayout::cell, LatticeLayout::vertex}) {
+        SCOPED_TRACE(testing::Message() << "symmetric " << symmetric << ", jitter " << jitter
+                                        << ", vertices " << (layout == LatticeLayout::vertex));
+        expect_force_patch_test<2>(lattice<2>({18, 10}, 0.1, layout, jitter), symmetric);
+        expect_force_patch_test<3>(lattice<3>({6, 5, 5}, 0.1, layout, jitter), symmetric);
+      }
+    }
+  }
+}
+
+TEST(Consistency, HoldsOnALongFineBody) {
+  // The smoothest potentials cost the least energy: S has eigenvalues down to (spacing / length)^4.
+  expect_force_patch_test<2>(lattice<2>({200, 8}, 0.1, LatticeLayout::cell, 0.2), false);
+}
+
+TEST(Consistency, DoesNotDependOnTheUnitOfLength) {
+  const Corrected<2> metres(lattice<2>({12, 8}, 0.125, LatticeLayout::cell, 0.2), false);
+  const Corrected<2> other(lattice<2>({12, 8}, 128.0, LatticeLayout::cell, 0.2), false);
+  const Tensor<2> stress = some_stress<2>(false);
+  const Field<2> force = other.internal_force(other.op, stress);
+  EXPECT_LE((force - other.external_force(stress)).norm(), 100.0 * solver_tolerance * force.norm());
+  EXPECT_LE((force / 1024.0 - metres.internal_force(metres.op, stress)).norm(),
+            100.0 * solver_tolerance * force.norm() / 1024.0);
+}
+
+template <int Dim>
+void expect_linear_fields_kept(bool symmetric) {
+  const Counts<Dim> cells = Counts<Dim>::Constant(Dim == 2 ? 12 : 5);
+  const Corrected<Dim> body(lattice<Dim>(cells, 0.1, LatticeLayout::cell, 0.2), symmetric);
+  Tensor<Dim> f = some_tensor<Dim>();
+  Vector<Dim> shift = Vector<Dim>::Ones();
+  if (symmetric) {  // a field that the plane admits
+    f.row(0).setZero();
+    f.col(0).setZero();
+    f(0, 0) = 1.2;
+    shift[0] = 0.0;
+  }
+  const Field<Dim> field = affine<Dim>(body.model.set.position, f, shift);
+  const Eigen::MatrixXd moments = gathered(body.op, field);
+  double sum_of_weights = 0.0;
+  for (Index a = 0; a < body.size(); ++a) {
+    double sum = 0.0;
+    body.op.for_each_entry(
+        a, [&](Index, const double* g) { sum += Eigen::Map<const Vector<Dim>>(g).norm(); });
+    sum_of_weights = std::max(sum_of_weights, sum);
+  }
+  // Condition numbers are below 200 here, rows have up to 90 terms.
+  const double tolerance =
+      (4.0 * 200.0 + 90.0) * epsilon * sum_of_weights * field.cwiseAbs().maxCoeff();
+  const Eigen::RowVectorXd expected = f.reshaped().transpose();
+  EXPECT_LE((moments.rowwise() - expected).cwiseAbs().maxCoeff(), tolerance);
+}
+
+TEST(Consistency, KeepsLinearExactness) {
+  for (const bool symmetric : {false, true}) {
+    expect_linear_fields_kept<2>(symmetric);
+    expect_linear_fields_kept<3>(symmetric);
+  }
+}
+
+TEST(Consistency, LeavesAloneWhatOnlyRoundsOff) {
+  // Planes of symmetry on all sides: the body has no boundary, and sum V G = 0 = s.
+  const auto box = lattice<2>({10, 8});
+  const Model<2> m(box, false, {{0, 0.0}, {0, box.max[0]}, {1, 0.0}, {1, box.max[1]}});
+  const Field<2> none = Field<2>::Zero(80, 2);
+  const double round_off_of_defect = 1e3 * epsilon * 0.1 * 9.0;  // |V G| summed over all rows
+  EXPECT_LE(consistency_defect(m.rows, m.ghosts, none).norm(), round_off_of_defect);
+  const Field<2> potential = consistency_potential(m.rows, m.ghosts, none);
+  const MomentOperator<2> corrected(m.rows, m.ghosts, {}, potential);
+  const MomentOperator<2> plain(m.rows, m.ghosts, {});
+  const Field<2> u = random_field<2>(80, 3);
+  const Eigen::MatrixXd expected = gathered(plain, u);
+  EXPECT_LE((gathered(corrected, u) - expected).norm(), 1e3 * epsilon * 9.0 * expected.norm());
+}
+
+TEST(Consistency, SaysSoIfTheAreaVectorsCloseNoSurface) {
+  const auto box = lattice<2>({10, 8}, 0.1, LatticeLayout::vertex);
+  const Model<2> m(box);
+  const Field<2> open = fpm::tributary_area_vectors(box, {{0, false}, {0, true}, {1, false}});
+  EXPECT_THAT([&] { consistency_potential(m.rows, m.ghosts, open); },
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("close the surface")));
+}
+
+TEST(Consistency, DefectVanishesInsideARegularLattice) {
+  const Corrected<2> body(lattice<2>({16, 16}), false);
+  const Field<2> defect = consistency_defect(body.model.rows, body.model.ghosts, body.area);
+  double inside = 0.0;
+  for (Index a = 0; a < 256; ++a) {
+    const Vector<2> x = body.model.set.position.row(a).transpose() / 0.1;
+    // Two supports off the boundary, rows and their neighbours are all alike.
+    if (x.minCoeff() > 5.0 && x.maxCoeff() < 11.0) {
+      inside = std::max(inside, defect.row(a).norm());
+    }
+  }
+  EXPECT_GT(defect.cwiseAbs().maxCoeff(), 1e-3);
+  EXPECT_LE(inside, round_off(90.0, 0.01));  // V G <= spacing^2 / spacing / 10
+}
+
+TEST(Consistency, DefectIsOrthogonalToAffineFields) {
+  // sum e = 0 and sum e x X = 0, since sum s and sum s x X are those of the volume.
+  const Corrected<3> body(lattice<3>({5, 5, 5}, 0.1, LatticeLayout::cell, 0.2), false);
+  const Field<3> defect = consistency_defect(body.model.rows, body.model.ghosts, body.area);
+  const double tolerance = (4.0 * 500.0 + 90.0) * epsilon * defect.cwiseAbs().sum();
+  EXPECT_LE(defect.colwise().sum().norm(), tolerance);
+  EXPECT_LE((defect.transpose() * body.model.set.position).norm(), 10.0 * tolerance);
+}
+
+TEST(Consistency, ResearchedRowsDropIt) {
+  Corrected<2> body(lattice<2>({12, 10}, 0.1, LatticeLayout::cell, 0.2), false);
+  const std::vector<char> excluded(120, 0);
+  const auto rebuilt =
+      body.model.rows.research({0, 54}, body.model.set.position, body.model.set.volume, excluded);
+  ASSERT_EQ(rebuilt.size(), 2U);
+  const MomentOperator<2> after(body.model.rows, body.model.ghosts, {}, body.potential);
+  const MomentOperator<2> plain(body.model.rows, body.model.ghosts, {});
+  const auto weights = [](const MomentOperator<2>& op, Index row) {
+    std::vector<double> all;
+    op.for_each_entry(row, [&](Index, const double* g) { all.insert(all.end(), g, g + 2); });
+    return all;
+  };
+  for (const Index a : rebuilt) {
+    EXPECT_EQ(weights(after, a), weights(plain, a));
+    EXPECT_NE(weights(after, a), weights(body.op, a));
+  }
+  EXPECT_EQ(weights(after, 53), weights(body.op, 53));
+}
+
+TEST(Consistency, RefusesAreaVectorsOfAnotherSize) {
+  const Model<2> m(lattice<2>({8, 8}));
+  const Field<2> few = Field<2>::Zero(63, 2);
+  EXPECT_THROW(consistency_defect(m.rows, m.ghosts, few), fpm::ShapeError);
+  EXPECT_THROW(consistency_potential(m.rows, m.ghosts, few), fpm::ShapeError);
+}
+
+}  // namespace
