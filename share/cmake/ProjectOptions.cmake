@@ -14,9 +14,10 @@ function(fpm_apply_project_options target)
     $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-Wall -Wextra -Wpedantic -Wconversion>)
   set_target_properties(${target} PROPERTIES COMPILE_WARNING_AS_ERROR ${FPM_WARNINGS_AS_ERRORS})
   if(FPM_SANITIZERS)
-    # -O1 keeps stack traces readable at a fifth of the run time of -O0.
+    # -O1 keeps stack traces readable and Eigen bearable; -g1 keeps the line numbers, and halves the
+    # time of compilation.
     target_compile_options(${target} PRIVATE
-      -fsanitize=${FPM_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer -O1)
+      -fsanitize=${FPM_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
     target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)
     target_link_options(${target} PRIVATE -fsanitize=${FPM_SANITIZERS})
   endif()
