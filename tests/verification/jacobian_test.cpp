@@ -1,0 +1,83 @@
+// The analytic Jacobian action against central differences of the residual, for every control,
+// kinematics and material, on a yielded and rotated body with history.
+
+#include "bodies.hpp"
+#include "run.hpp"
+
+namespace verification {
+namespace {
+
+// A particle that passes between elasticity and yield within the step h of the difference shows as
+// an error of order one, so h is small; then truncation, (h / dx)^2, is nothing and round-off,
+// 1e-16 / (h / dx) = 1e-8 relative to stiffness times direction, times the hundred terms of a row,
+// is what remains.
+constexpr double step_over_spacing = 1e-8;
+constexpr double relative_tolerance = 1e-6;
+
+struct Case {
+  BodyOptions body;
+  std::string name;
+};
+
+template <int Dim>
+double jacobian_error(const BodyOptions& body) {
+  const wiring::Scene scene = scene_of(body_scene(body));
+  const auto model = wiring::build_model<Dim>(scene);
+  auto state = wiring::initial_state(model, scene);
+  wiring::Equilibrium<Dim> equilibrium(model, state);
+  Noise noise(7);
+  move(equilibrium, increment_field(model, state, [](const fpm::Vector<Dim>& x) {
+         return bending<Dim>(x, 0.01);
+       }));
+  const double dx = model.spacing;
+  const Eigen::VectorXd u =
+      increment_field(model, state,
+                      [](const fpm::Vector<Dim>& x) { return bending<Dim>(x, 0.004); }) +
+      noise.vector(model.unknowns(), 0.002 * dx);
+  const Eigen::VectorXd v = noise.vector(model.unknowns(), 1.0);
+  equilibrium.begin_step(1.0);
+  Eigen::VectorXd forward(u.size()), backward(u.size()), action(u.size());
+  if (!equilibrium.linearise(u)) throw std::runtime_error("cannot linearise");
+  equilibrium.apply_jacobian(v, action);
+  const double h = step_over_spacing * dx;
+  equilibrium(u + h * v, forward);
+  equilibrium(u - h * v, backward);
+  const Eigen::VectorXd difference = (forward - backward) / (2.0 * h);
+  return (action - difference).norm() / difference.norm();
+}
+
+class JacobianAction : public testing::TestWithParam<Case> {};
+
+TEST_P(JacobianAction, EqualsCentralDifferences) {
+  const BodyOptions& body = GetParam().body;
+  const double error = body.dimension == 2 ? jacobian_error<2>(body) : jacobian_error<3>(body);
+  EXPECT_LT(error, relative_tolerance);
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const std::string kinematics : {"finite_strain", "small_strain"}) {
+    for (const std::string model : {"elastic", "von_mises", "drucker_prager", "mohr_coulomb"}) {
+      for (const std::string control : {"none", "stiffness", "incremental", "mixed"}) {
+        if (control == "mixed" && (model == "elastic" || model == "mohr_coulomb")) continue;
+        if (control == "stiffness" && model != "elastic") continue;
+        BodyOptions body;
+        body.kinematics = kinematics;
+        body.model = model;
+        body.control = control;
+        body.jitter = 0.1;
+        all.push_back({body, kinematics + "_" + model + "_" + control});
+        if (control == "mixed" || model == "von_mises") continue;
+        body.dimension = 3;
+        all.push_back({body, "solid_" + all.back().name});
+      }
+    }
+  }
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, JacobianAction, testing::ValuesIn(cases()),
+                         [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace verification
