@@ -14,7 +14,7 @@ namespace {
 
 using wiring::ExitCode;
 
-constexpr const char* kUsage =
+constexpr const char* usage =
     "Usage: fpm-info FILE|FOLDER ...\n"
     "\n"
     "Says what checkpoints, frames (*.hdf) or output folders of fpm-run hold: step and versions,\n"
@@ -39,7 +39,7 @@ ExitCode describe_all(const std::vector<std::string>& paths) {
 ExitCode run(const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) {
     if (argument == "--help") {
-      std::cout << kUsage;
+      std::cout << usage;
       return ExitCode::done;
     }
     if (argument == "--version") {

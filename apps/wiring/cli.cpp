@@ -22,13 +22,13 @@ namespace {
 
 namespace po = boost::program_options;
 
-constexpr std::string_view kUsage =
+constexpr std::string_view usage =
     "Usage: fpm-run SCENE [options]\n"
     "\n"
     "Runs a scene of the Finite Particle Method and writes curve.csv, frames for ParaView,\n"
     "checkpoints and a log to its output folder.\n";
 
-constexpr std::string_view kExamples =
+constexpr std::string_view examples =
     "Examples:\n"
     "  fpm-run share/scenes/footing.toml\n"
     "  fpm-run share/scenes/footing.toml --check\n"
@@ -137,10 +137,10 @@ RunRequest request_of(const po::variables_map& values) {
   request.quiet = values["quiet"].as<bool>();
   if (values.count("threads") != 0) {
     request.threads = values["threads"].as<int>();
-    constexpr int kMostThreads = 4096;
-    if (request.threads < 1 || request.threads > kMostThreads) {
+    constexpr int most_threads = 4096;
+    if (request.threads < 1 || request.threads > most_threads) {
       throw UsageError(fmt::format("--threads: found {}; allowed is a whole number 1 .. {}",
-                                   request.threads, kMostThreads));
+                                   request.threads, most_threads));
     }
   }
   if (values.count("max-wall") != 0) {
@@ -169,7 +169,7 @@ ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ost
              const Runner& runner) {
   const po::variables_map values = parse(arguments);
   if (values["help"].as<bool>()) {
-    out << kUsage << '\n' << options() << '\n' << kExamples;
+    out << usage << '\n' << options() << '\n' << examples;
     return ExitCode::done;
   }
   if (values["version"].as<bool>()) {

@@ -16,7 +16,7 @@ using hdf5::Handle;
 using hdf5::Silence;
 
 // Values per chunk: large enough that overhead is nothing, small enough for HDF5's 1 MiB cache.
-constexpr std::size_t kChunkValues = std::size_t{1} << 16;
+constexpr std::size_t chunk_values = std::size_t{1} << 16;
 
 std::size_t product(const Shape& shape) {
   return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
@@ -32,7 +32,7 @@ std::vector<hsize_t> chunk_of(const Shape& shape) {
   for (auto& extent : chunk) extent = std::max<hsize_t>(extent, 1);
   hsize_t row = 1;
   for (std::size_t i = 1; i < chunk.size(); ++i) row *= chunk[i];
-  chunk[0] = std::min(chunk[0], std::max<hsize_t>(kChunkValues / row, 1));
+  chunk[0] = std::min(chunk[0], std::max<hsize_t>(chunk_values / row, 1));
   return chunk;
 }
 

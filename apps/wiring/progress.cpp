@@ -13,8 +13,8 @@ namespace wiring {
 namespace {
 
 // A live line that changes faster than this only flickers.
-constexpr double kLiveInterval = 0.1;  // [s]
-constexpr const char* kClearLine = "\r\x1b[K";
+constexpr double live_interval = 0.1;  // [s]
+constexpr const char* clear_line = "\r\x1b[K";
 
 struct Piece {
   std::string text;
@@ -24,7 +24,7 @@ struct Piece {
 std::string pressure_text(double pascal) {
   const double size = std::abs(pascal);
   if (size >= 1e6) return fmt::format("{:.3f} MPa", pascal / 1e6);
-  if (size >= 1e3) return fmt::format("{:.2f} kPa", pascal / 1e3);
+  if (size >= 1e3) return fmt::format("{:.2f} pa", pascal / 1e3);
   return fmt::format("{:.2f} Pa", pascal);
 }
 
@@ -66,9 +66,9 @@ std::string duration_text(double seconds) {
 }
 
 std::optional<double> time_left(const ProgressStatus& status) {
-  constexpr double kFirstFraction = 0.01;
-  constexpr double kFirstSecond = 1.0;
-  if (status.fraction < kFirstFraction || status.elapsed < kFirstSecond) return std::nullopt;
+  constexpr double first_fraction = 0.01;
+  constexpr double first_second = 1.0;
+  if (status.fraction < first_fraction || status.elapsed < first_second) return std::nullopt;
   return status.elapsed * (1.0 - std::min(status.fraction, 1.0)) / status.fraction;
 }
 
@@ -90,15 +90,15 @@ ProgressMode progress_mode(bool quiet) {
 }
 
 std::size_t terminal_width() {
-  constexpr std::size_t kUsual = 80;
+  constexpr std::size_t usual = 80;
   winsize size{};
   const bool known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return known ? size.ws_col : kUsual;
+  return known ? size.ws_col : usual;
 }
 
 void Progress::update(const ProgressStatus& status) {
   if (mode_ == ProgressMode::none) return;
-  const double interval = mode_ == ProgressMode::live ? kLiveInterval : interval_;
+  const double interval = mode_ == ProgressMode::live ? live_interval : interval_;
   if (shown_at_ && status.elapsed < *shown_at_ + interval) {
     held_back_ = status;
     return;
@@ -109,11 +109,11 @@ void Progress::update(const ProgressStatus& status) {
 void Progress::show(const ProgressStatus& status) {
   if (mode_ == ProgressMode::live) {
     // The last column stays free: some terminals wrap there.
-    stream_ << kClearLine << progress_line(status, width_ - 1) << std::flush;
+    stream_ << clear_line << progress_line(status, width_ - 1) << std::flush;
     line_open_ = true;
   } else {
-    constexpr std::size_t kNoLimit = 500;
-    stream_ << progress_line(status, kNoLimit) << std::endl;
+    constexpr std::size_t no_limit = 500;
+    stream_ << progress_line(status, no_limit) << std::endl;
   }
   shown_at_ = status.elapsed;
   held_back_.reset();
@@ -121,7 +121,7 @@ void Progress::show(const ProgressStatus& status) {
 
 void Progress::say(const std::string& line) {
   if (mode_ == ProgressMode::none) return;
-  if (line_open_) stream_ << kClearLine;
+  if (line_open_) stream_ << clear_line;
   line_open_ = false;
   stream_ << line << std::endl;
 }

@@ -13,13 +13,13 @@ namespace wiring {
 namespace {
 
 // Relative distance from a whole number that decimal input may leave behind.
-constexpr double kRoundOff = 1e-9;
+constexpr double round_off = 1e-9;
 // Particles and their neighbours are counted in 32 bits.
-constexpr double kMostParticles = 2147483647.0;
-constexpr std::int64_t kFewestPerAxis = 3;
+constexpr double most_particles = 2147483647.0;
+constexpr std::int64_t fewest_per_axis = 3;
 
 bool is_whole(double value) {
-  return std::abs(value - std::round(value)) <= kRoundOff * value;
+  return std::abs(value - std::round(value)) <= round_off * value;
 }
 
 /// The spacing nearest to the wanted one that divides every extent, or 0 if none from half to twice
@@ -28,8 +28,8 @@ double nearest_spacing(const Geometry& geometry) {
   const double extent = geometry.max[0] - geometry.min[0];
   const double cells = extent / geometry.spacing;
   // More candidates than this are not worth a suggestion.
-  constexpr double kMostCandidates = 1e6;
-  if (cells > kMostCandidates) return 0.0;
+  constexpr double most_candidates = 1e6;
+  if (cells > most_candidates) return 0.0;
   double best = 0.0;
   for (auto n = std::max(1.0, std::floor(cells / 2.0)); n <= 2.0 * cells + 1.0; n += 1.0) {
     const double spacing = extent / n;
@@ -60,20 +60,20 @@ void check_spacing(const Scene& scene, Diagnosis& diagnosis) {
     }
     particles *= extent / geometry.spacing + 1.0;
   }
-  if (particles > kMostParticles) {
+  if (particles > most_particles) {
     diagnosis.error(
         "geometry.spacing",
         fmt::format("found {}, which makes {:.3g} particles", geometry.spacing, particles),
-        fmt::format("allowed are at most {:.0f}", kMostParticles));
+        fmt::format("allowed are at most {:.0f}", most_particles));
     return;
   }
   const auto counts = lattice_counts(geometry);
   for (std::size_t i = 0; i < geometry.min.size(); ++i) {
-    if (counts[i] >= kFewestPerAxis) continue;
+    if (counts[i] >= fewest_per_axis) continue;
     diagnosis.error("geometry.spacing",
                     fmt::format("found {}, which makes {} particles along {}", geometry.spacing,
                                 counts[i], name_of(static_cast<Axis>(i))),
-                    fmt::format("allowed are at least {} along every axis", kFewestPerAxis));
+                    fmt::format("allowed are at least {} along every axis", fewest_per_axis));
     return;
   }
 }

@@ -12,7 +12,7 @@ namespace wiring {
 namespace {
 
 // Relative tolerance of "at the same place" in units of the spacing: decimal input.
-constexpr double kSamePlace = 1e-9;
+constexpr double same_place = 1e-9;
 
 void check_axis(Axis axis, const std::string& key, const Scene& scene, Diagnosis& diagnosis) {
   if (axis == Axis::z && scene.geometry.dimension == 2 &&
@@ -31,7 +31,7 @@ void check_symmetry(const Scene& scene, std::size_t index, Diagnosis& diagnosis)
   }
   const auto axis = static_cast<std::size_t>(symmetry.axis);
   const double lower = scene.geometry.min[axis], upper = scene.geometry.max[axis];
-  const double slack = kSamePlace * scene.geometry.spacing;
+  const double slack = same_place * scene.geometry.spacing;
   if (std::abs(symmetry.position - lower) > slack && std::abs(symmetry.position - upper) > slack) {
     diagnosis.error(table + ".position", fmt::format("found {}", symmetry.position),
                     fmt::format("a mirror is at a face of the body, {} = {} or {}",
@@ -129,7 +129,7 @@ bool check_range(Side side, const Point& range_min, const Point& range_max,
   const bool lower_fits = check_length(range_min, n - 1, lower, scene, diagnosis);
   const bool upper_fits = check_length(range_max, n - 1, upper, scene, diagnosis);
   if (!lower_fits || !upper_fits || !box_is_good(scene, diagnosis)) return false;
-  const double slack = kSamePlace * scene.geometry.spacing;
+  const double slack = same_place * scene.geometry.spacing;
   for (std::size_t axis = 0, i = 0; axis < n; ++axis) {
     if (axis == static_cast<std::size_t>(axis_of(side))) continue;
     const double from = scene.geometry.min[axis], to = scene.geometry.max[axis];

@@ -12,7 +12,7 @@ namespace wiring {
 namespace {
 
 // Components of a unit vector typed with six digits.
-constexpr double kUnitLength = 1e-5;
+constexpr double unit_length = 1e-5;
 
 std::size_t dimension_of(const Scene& scene) {
   return static_cast<std::size_t>(scene.geometry.dimension);
@@ -89,7 +89,7 @@ void check_direction(const Scene& scene, Diagnosis& diagnosis) {
   if (!check_length(direction, dimension_of(scene), key, scene, diagnosis)) return;
   double square = 0.0;
   for (const double component : direction) square += component * component;
-  if (std::abs(std::sqrt(square) - 1.0) > kUnitLength) {
+  if (std::abs(std::sqrt(square) - 1.0) > unit_length) {
     diagnosis.error(key, fmt::format("found a vector of length {:.6g}", std::sqrt(square)),
                     "it must be a unit vector");
   }
@@ -102,11 +102,11 @@ bool range_holds_particle(const Scene& scene) {
   for (std::size_t axis = 0, i = 0; axis < dimension_of(scene); ++axis) {
     if (axis == static_cast<std::size_t>(axis_of(scene.drive.side))) continue;
     // Index of the first particle at or after range_min, to a rounding error.
-    constexpr double kRoundOff = 1e-9;
+    constexpr double round_off = 1e-9;
     const double at = (scene.drive.range_min[i] - geometry.min[axis]) / geometry.spacing - first;
-    const double next = std::max(0.0, std::ceil(at - kRoundOff));
+    const double next = std::max(0.0, std::ceil(at - round_off));
     const double position = geometry.min[axis] + (next + first) * geometry.spacing;
-    if (position > scene.drive.range_max[i] + kRoundOff * geometry.spacing) return false;
+    if (position > scene.drive.range_max[i] + round_off * geometry.spacing) return false;
     ++i;
   }
   return true;

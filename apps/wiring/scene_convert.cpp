@@ -12,7 +12,7 @@ namespace wiring {
 namespace {
 
 // Counts are held in 32 bits.
-constexpr std::int64_t kLargestInteger = 2147483647;
+constexpr std::int64_t largest_integer = 2147483647;
 
 struct Reader {
   const Field& field;
@@ -34,9 +34,9 @@ struct Reader {
   std::optional<Value> integer(const toml::node& node) const {
     const auto value = node.value_exact<std::int64_t>();
     if (!value || !field.notes.range.holds(static_cast<double>(*value))) return refuse(node);
-    if (*value > kLargestInteger || *value < -kLargestInteger) {
+    if (*value > largest_integer || *value < -largest_integer) {
       diagnosis.error(key, "found " + describe(node),
-                      fmt::format("allowed is a whole number up to {}", kLargestInteger));
+                      fmt::format("allowed is a whole number up to {}", largest_integer));
       return std::nullopt;
     }
     return Value(*value);

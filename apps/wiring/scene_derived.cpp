@@ -71,9 +71,9 @@ std::int64_t nominal_steps(const Scene& scene) {
   if (scene.drive.kind != DriveKind::displacement) return 1;
   const double increment = scene.programme.increment_over_spacing * scene.geometry.spacing;
   // A quotient a rounding error above a whole number is that number.
-  constexpr double kRoundOff = 1e-9;
+  constexpr double round_off = 1e-9;
   return std::max<std::int64_t>(
-      1, static_cast<std::int64_t>(std::ceil(scene.drive.target / increment - kRoundOff)));
+      1, static_cast<std::int64_t>(std::ceil(scene.drive.target / increment - round_off)));
 }
 
 double side_position(const Geometry& geometry, Side side) {

@@ -5,8 +5,8 @@ namespace wiring {
 namespace {
 
 // Range of Poisson's ratio in isotropic elasticity: positive bulk and shear moduli.
-constexpr Range kPoisson{-1.0, 0.5, true, true};
-constexpr Range kAngle{0.0, 90.0, false, true};
+constexpr Range poisson_range{-1.0, 0.5, true, true};
+constexpr Range angle_range{0.0, 90.0, false, true};
 
 TableInfo top_level() {
   return TableBuilder<Scene>("The scene as a whole.")
@@ -82,7 +82,7 @@ TableInfo material() {
       .key("youngs_modulus", &Material::youngs_modulus,
            {.need = Need::required, .unit = "Pa", .range = positive(), .doc = "Young's modulus E."})
       .key("poissons_ratio", &Material::poissons_ratio,
-           {.need = Need::required, .range = kPoisson, .doc = "Poisson's ratio nu."})
+           {.need = Need::required, .range = poisson_range, .doc = "Poisson's ratio nu."})
       .key("cohesion", &Material::cohesion,
            {.need = Need::optional,
             .unit = "Pa",
@@ -92,13 +92,13 @@ TableInfo material() {
       .key("friction_angle", &Material::friction_angle,
            {.need = Need::optional,
             .unit = "deg",
-            .range = kAngle,
+            .range = angle_range,
             .doc = "Friction angle phi.",
             .absent = "only for elastic and von_mises"})
       .key("dilation_angle", &Material::dilation_angle,
            {.need = Need::optional,
             .unit = "deg",
-            .range = kAngle,
+            .range = angle_range,
             .doc = "Dilation angle psi, at most phi; psi = phi is associated flow.",
             .absent = "only for elastic and von_mises"})
       .key("density", &Material::density,

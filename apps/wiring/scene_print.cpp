@@ -12,7 +12,7 @@ namespace wiring {
 
 namespace {
 
-constexpr std::size_t kValueColumn = 44;  // where comments begin, for shorter values
+constexpr std::size_t value_column = 44;  // where comments begin, for shorter values
 
 std::string note_of(const Field& field) {
   std::string note = field.allowed_text();
@@ -41,7 +41,7 @@ void print_entry(std::string& out, const TableInfo& table, std::size_t index, co
     const auto value = field.read(scene, index);
     const std::string assignment = value ? fmt::format("{} = {}", field.key, value_text(*value))
                                          : fmt::format("# {} =", field.key);
-    fmt::format_to(std::back_inserter(out), "{:<{}}  # {}{}\n", assignment, kValueColumn,
+    fmt::format_to(std::back_inserter(out), "{:<{}}  # {}{}\n", assignment, value_column,
                    resolution_of(table, field, scene), note_of(field));
   }
 }

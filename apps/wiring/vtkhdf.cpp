@@ -12,27 +12,27 @@ namespace wiring {
 
 namespace {
 
-constexpr std::uint8_t kVertexCell = 1;  // VTK_VERTEX
+constexpr std::uint8_t vertex_cell = 1;  // VTK_VERTEX
 
 // One entry per line, so that the list reads back without a JSON library.
-constexpr std::string_view kSeriesHead = "{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n";
-constexpr std::string_view kSeriesTail = "  ]\n}\n";
-constexpr std::string_view kNameOpens = "    { \"name\": \"";
-constexpr std::string_view kTimeOpens = "\", \"time\": ";
-constexpr std::string_view kEntryCloses = " }";
+constexpr std::string_view series_head = "{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n";
+constexpr std::string_view series_tail = "  ]\n}\n";
+constexpr std::string_view name_opens = "    { \"name\": \"";
+constexpr std::string_view time_opens = "\", \"time\": ";
+constexpr std::string_view entry_closes = " }";
 
 /// `{ "name": "...", "time": ... }` with or without a comma; nothing if it is no such line.
 std::optional<FrameSeries::Entry> parse_entry(std::string_view line) {
   if (!line.empty() && line.back() == ',') line.remove_suffix(1);
-  const std::size_t time = line.find(kTimeOpens);
-  if (!line.starts_with(kNameOpens) || !line.ends_with(kEntryCloses) ||
+  const std::size_t time = line.find(time_opens);
+  if (!line.starts_with(name_opens) || !line.ends_with(entry_closes) ||
       time == std::string_view::npos) {
     return std::nullopt;
   }
   FrameSeries::Entry entry;
-  entry.name = line.substr(kNameOpens.size(), time - kNameOpens.size());
+  entry.name = line.substr(name_opens.size(), time - name_opens.size());
   const std::string_view number = line.substr(
-      time + kTimeOpens.size(), line.size() - time - kTimeOpens.size() - kEntryCloses.size());
+      time + time_opens.size(), line.size() - time - time_opens.size() - entry_closes.size());
   const char* end = number.data() + number.size();
   const auto [stop, failure] = std::from_chars(number.data(), end, entry.time);
   if (failure != std::errc{} || stop != end) return std::nullopt;
@@ -61,7 +61,7 @@ void write_vtkhdf(Hdf5File& file, std::span<const double> points,
   std::iota(numbers.begin(), numbers.end(), std::int64_t{0});
   file.write<std::int64_t>("/VTKHDF/Offsets", numbers, {n + 1});
   file.write<std::int64_t>("/VTKHDF/Connectivity", std::span(numbers).first(n), {n});
-  file.write<std::uint8_t>("/VTKHDF/Types", std::vector<std::uint8_t>(n, kVertexCell), {n});
+  file.write<std::uint8_t>("/VTKHDF/Types", std::vector<std::uint8_t>(n, vertex_cell), {n});
   file.write<double>("/VTKHDF/Points", points, {n, 3}, "m");
 
   file.make_group("/VTKHDF/PointData");
@@ -91,10 +91,10 @@ FrameSeries FrameSeries::resume(std::filesystem::path file, double time) {
   FrameSeries series(std::move(file));
   if (!std::filesystem::exists(series.file_)) return series;
   const std::string text = read_text(series.file_);
-  if (!text.starts_with(kSeriesHead) || !text.ends_with(kSeriesTail)) {
+  if (!text.starts_with(series_head) || !text.ends_with(series_tail)) {
     throw FileError(series.file_, "is no frame list of this program");
   }
-  for (std::size_t at = kSeriesHead.size(); at < text.size() - kSeriesTail.size();) {
+  for (std::size_t at = series_head.size(); at < text.size() - series_tail.size();) {
     const std::size_t end = text.find('\n', at);
     const auto entry = parse_entry(std::string_view(text).substr(at, end - at));
     if (!entry)
@@ -112,12 +112,12 @@ void FrameSeries::append(std::string name, double time) {
 }
 
 void FrameSeries::write() const {
-  std::string text(kSeriesHead);
+  std::string text(series_head);
   for (std::size_t i = 0; i < entries_.size(); ++i) {
-    fmt::format_to(std::back_inserter(text), "{}{}{}{}{}{}\n", kNameOpens, entries_[i].name,
-                   kTimeOpens, entries_[i].time, kEntryCloses, i + 1 < entries_.size() ? "," : "");
+    fmt::format_to(std::back_inserter(text), "{}{}{}{}{}{}\n", name_opens, entries_[i].name,
+                   time_opens, entries_[i].time, entry_closes, i + 1 < entries_.size() ? "," : "");
   }
-  text += kSeriesTail;
+  text += series_tail;
   write_text_durably(file_, text);
 }
 
