@@ -24,7 +24,7 @@ struct Piece {
 std::string pressure_text(double pascal) {
   const double size = std::abs(pascal);
   if (size >= 1e6) return fmt::format("{:.3f} MPa", pascal / 1e6);
-  if (size >= 1e3) return fmt::format("{:.2f} pa", pascal / 1e3);
+  if (size >= 1e3) return fmt::format("{:.2f} kPa", pascal / 1e3);
   return fmt::format("{:.2f} Pa", pascal);
 }
 

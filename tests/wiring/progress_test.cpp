@@ -25,14 +25,14 @@ ProgressStatus sample() {
 
 TEST(ProgressLine, SaysAllWhenThereIsRoom) {
   EXPECT_EQ(progress_line(sample(), 200),
-            " 25.0 % | step 40 | d/B 3.75 % | p 61.23 pa | Newton 3 evals 47 | res 8.7e-04 | "
+            " 25.0 % | step 40 | d/B 3.75 % | p 61.23 kPa | Newton 3 evals 47 | res 8.7e-04 | "
             "cuts 2 | yielding 31 % | re-searched 12 | 1 min 30 s left");
 }
 
 TEST(ProgressLine, LeavesOutTheLeastUrgentFirst) {
   EXPECT_EQ(progress_line(sample(), 79),
-            " 25.0 % | step 40 | d/B 3.75 % | p 61.23 pa | cuts 2 | 1 min 30 s left");
-  EXPECT_EQ(progress_line(sample(), 40), " 25.0 % | d/B 3.75 % | p 61.23 pa");
+            " 25.0 % | step 40 | d/B 3.75 % | p 61.23 kPa | cuts 2 | 1 min 30 s left");
+  EXPECT_EQ(progress_line(sample(), 40), " 25.0 % | d/B 3.75 % | p 61.23 kPa");
   for (std::size_t width = 1; width < 150; ++width) {
     EXPECT_LE(progress_line(sample(), width).size(), width);
   }
