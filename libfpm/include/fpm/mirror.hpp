@@ -16,14 +16,17 @@ struct SymmetryPlane {
 ///
 /// A ghost has no row of its own: it serves real rows as a neighbour. With E the linear map that
 /// extends a nodal field to the ghosts, strains are W E u and forces E^T W^T S, so the half model
-/// is exactly the symmetric full one.
+/// is exactly the symmetric full one. (A particle on the plane has no image and keeps the volume it
+/// is given, so a vertex lattice cut at a plane is only close to the full one.)
 template <int Dim>
 class MirrorGhosts {
  public:
   MirrorGhosts() = default;
 
   /// Ghosts of all particles closer than `reach` to a plane (and, where two planes meet, the
-  /// images of images). A particle on the plane itself (within 1e-9 reach) has no image.
+  /// images of images). The reach is that of the widest support, max_enlargement times the usual
+  /// one, and less than the distance of two parallel planes. A particle on the plane itself (within
+  /// 1e-9 reach) has no image.
   MirrorGhosts(const Field<Dim>& position, const std::vector<SymmetryPlane>& planes, double reach);
 
   Index size() const { return static_cast<Index>(source_.size()); }
