@@ -18,6 +18,12 @@ MohrCoulomb mohr_coulomb(double phi, double psi, double nu = 0.4) {
   return std::get<MohrCoulomb>(make_material(p));
 }
 
+StrainVector<3> principal_strain(const Eigen::Vector3d& principal) {
+  StrainVector<3> strain = StrainVector<3>::Zero();
+  strain.head<3>() = principal;
+  return strain;
+}
+
 /// Smallest distance of `removed` to the cone of the flow directions of all planes active at
 /// `stress`: 0 if Koiter's rule explains the return with multipliers >= 0. Every cone in three
 /// dimensions is covered by its simplices of at most three directions.
@@ -27,10 +33,14 @@ double koiter_defect(const MohrCoulomb& m, const Eigen::Vector3d& stress,
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       if (i == j) continue;
-      const double f = detail::plane_gradient(m.sin_friction, i, j).dot(stress) -
+      const double f = (1 + m.sin_friction) * stress[i] - (1 - m.sin_friction) * stress[j] -
                        2 * m.cohesion * m.cos_friction;
       if (f < -tolerance) continue;
-      flows.push_back(detail::principal_flow(m.moduli, m.sin_dilation, i, j).normalized());
+      Eigen::Vector3d potential = Eigen::Vector3d::Zero();
+      potential[i] = 1 + m.sin_dilation;
+      potential[j] = -(1 - m.sin_dilation);
+      const StressVector<3> flow = elastic_stress<3>(m.moduli, principal_strain(potential));
+      flows.push_back(flow.head<3>().normalized());
     }
   }
   double best = removed.norm();
