@@ -99,9 +99,8 @@ bool LoadStepper<Dim>::predict_by_tangent(double increment, Eigen::VectorXd& u,
   const auto jacobian = [&](const Eigen::VectorXd& v, Eigen::VectorXd& jv) {
     equilibrium_.apply_jacobian(v, jv);
   };
-  const auto result =
-      use_preconditioner_ ? jfnk::gmres(jacobian, rhs, u, options, preconditioner_)
-                          : jfnk::gmres(jacobian, rhs, u, options);
+  const auto result = use_preconditioner_ ? jfnk::gmres(jacobian, rhs, u, options, preconditioner_)
+                                          : jfnk::gmres(jacobian, rhs, u, options);
   record.jacobian_actions += result.iterations + 1;
   u += prescribed;
   return u.allFinite();
@@ -110,9 +109,9 @@ bool LoadStepper<Dim>::predict_by_tangent(double increment, Eigen::VectorXd& u,
 template <int Dim>
 bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult& result) {
   const auto observer = [&](const jfnk::Iteration& i) { return !watch || watch(i); };
-  const jfnk::Report& report =
-      use_preconditioner_ ? solver_.solve(equilibrium_, u, preconditioner_, observer)
-                          : solver_.solve(equilibrium_, u, jfnk::Identity{}, observer);
+  const jfnk::Report& report = use_preconditioner_
+                                   ? solver_.solve(equilibrium_, u, preconditioner_, observer)
+                                   : solver_.solve(equilibrium_, u, jfnk::Identity{}, observer);
   StepRecord& record = result.record;
   record.newton_iterations += report.newton_iterations;
   record.residual_evaluations += report.counts.residuals();
@@ -161,8 +160,7 @@ StepResult LoadStepper<Dim>::advance(const Watch& watch) {
     ++result.record.cuts;
     programme.next_increment = 0.5 * increment;
     programme.easy_steps = 0;
-    if (programme.next_increment <
-        nominal_increment_ * scene_.programme.minimum_increment_ratio) {
+    if (programme.next_increment < nominal_increment_ * scene_.programme.minimum_increment_ratio) {
       result.outcome = StepOutcome::minimum_increment;
       return result;
     }
@@ -196,9 +194,8 @@ void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
   record.evaluations = record.residual_evaluations + record.jacobian_actions;
   record.plastic_particles = forces.plastic;
   record.max_plastic_strain = forces.max_plastic_strain;
-  record.hourglass_work_ratio = programme.external_work != 0.0
-                                    ? programme.hourglass_work / programme.external_work
-                                    : 0.0;
+  record.hourglass_work_ratio =
+      programme.external_work != 0.0 ? programme.hourglass_work / programme.external_work : 0.0;
   record.max_displacement = std::sqrt(state_.displacement.rowwise().squaredNorm().maxCoeff());
   record.researched_rows = research();
   choose_next_increment(record);
@@ -238,22 +235,23 @@ Eigen::Index LoadStepper<Dim>::research() {
   return static_cast<Eigen::Index>(rebuilt.size());
 }
 
-// Back to the nominal step gently after a cut; beyond it only where steps are easy.
+// Back to the nominal step gently after a cut; beyond it only where steps are easy. A step that was
+// hard but converged is not cut far below the nominal one: smaller steps would cost as much each.
 template <int Dim>
 void LoadStepper<Dim>::choose_next_increment(const StepRecord& record) {
+  constexpr double hard_floor = 0.25;  // of the nominal increment
   ProgrammeState& programme = state_.programme;
   const Programme& rule = scene_.programme;
-  const double largest = nominal_increment_ * rule.maximum_increment_ratio;
   const bool below_nominal = programme.next_increment < nominal_increment_;
-  const int easy = below_nominal ? rule.hard_evaluations / 2 : rule.easy_evaluations;
+  const int easy = below_nominal ? rule.hard_evaluations : rule.easy_evaluations;
+  const int wait = below_nominal ? std::max(1, rule.easy_steps / 3) : rule.easy_steps;
   programme.easy_steps =
       record.cuts == 0 && record.evaluations <= easy ? programme.easy_steps + 1 : 0;
-  const int wait = below_nominal ? std::max(1, rule.easy_steps / 3) : rule.easy_steps;
   if (record.cuts == 0 && record.evaluations > rule.hard_evaluations) {
-    const double smallest = nominal_increment_ * rule.minimum_increment_ratio;
-    programme.next_increment = std::max(smallest, programme.next_increment / rule.growth);
+    const double floor = std::min(programme.next_increment, hard_floor * nominal_increment_);
+    programme.next_increment = std::max(floor, programme.next_increment / rule.growth);
   } else if (programme.easy_steps >= wait) {
-    const double limit = below_nominal ? nominal_increment_ : largest;
+    const double limit = nominal_increment_ * (below_nominal ? 1.0 : rule.maximum_increment_ratio);
     programme.next_increment = std::min(limit, programme.next_increment * rule.growth);
     programme.easy_steps = 0;
   }
