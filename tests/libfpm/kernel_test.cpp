@@ -2,6 +2,26 @@
 #include <fpm/kernel.hpp>
 
 #include <cmath>
+#include <ostream>
+
+namespace fpm {
+
+// For the names of the tests.
+static void PrintTo(Kernel kernel, std::ostream* out) {
+  switch (kernel) {
+    case Kernel::cubic_spline:
+      *out << "cubic_spline";
+      break;
+    case Kernel::quintic_spline:
+      *out << "quintic_spline";
+      break;
+    case Kernel::wendland_c2:
+      *out << "wendland_c2";
+      break;
+  }
+}
+
+}  // namespace fpm
 
 namespace {
 
@@ -16,16 +36,7 @@ class EveryKernel : public testing::TestWithParam<Kernel> {
 INSTANTIATE_TEST_SUITE_P(Kernels, EveryKernel,
                          testing::Values(Kernel::cubic_spline, Kernel::quintic_spline,
                                          Kernel::wendland_c2),
-                         [](const auto& info) {
-                           switch (info.param) {
-                             case Kernel::cubic_spline:
-                               return "cubic_spline";
-                             case Kernel::quintic_spline:
-                               return "quintic_spline";
-                             default:
-                               return "wendland_c2";
-                           }
-                         });
+                         testing::PrintToStringParamName());
 
 TEST_P(EveryKernel, IsOneAndFlatAtItsCentre) {
   const auto w = evaluate(GetParam(), 0.0, radius);

@@ -6,6 +6,7 @@
 #include <any>
 #include <functional>
 #include <map>
+#include <ostream>
 #include <string>
 
 #include "sets.hpp"
@@ -152,6 +153,8 @@ struct Damage {
   const char* name;
   const char* message;
   std::function<void(std::map<std::string, std::any>&)> apply;
+
+  friend void PrintTo(const Damage& damage, std::ostream* out) { *out << damage.name; }
 };
 
 template <class T>

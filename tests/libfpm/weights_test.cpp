@@ -1,6 +1,8 @@
 // Exactness of the corrected weights on every row of a set.
 #include <gtest/gtest.h>
+
 #include <fpm/stencil.hpp>
+#include <ostream>
 
 #include "sets.hpp"
 
@@ -14,6 +16,8 @@ struct SetKind {
   LatticeLayout layout;
   double jitter;
   fpm::Kernel kernel;
+
+  friend void PrintTo(const SetKind& kind, std::ostream* out) { *out << kind.name; }
 };
 
 class Weights : public testing::TestWithParam<SetKind> {
