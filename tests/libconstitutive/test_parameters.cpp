@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <constitutive/version.hpp>
+#include <ostream>
 #include <set>
 
 #include "points.hpp"
@@ -34,6 +35,8 @@ TEST(MaterialParameters, OfEveryModelAreAcceptedAndMakeThatMaterial) {
 struct Refusal {
   const char* field;
   void (*spoil)(MaterialParameters&);
+
+  friend std::ostream& operator<<(std::ostream& out, const Refusal& r) { return out << r.field; }
 };
 
 class RefusedParameters : public testing::TestWithParam<Refusal> {};

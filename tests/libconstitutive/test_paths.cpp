@@ -72,7 +72,7 @@ class CompressionTest {
   PointState<2> begin_, end_;
 };
 
-class HomogeneousCompression : public testing::TestWithParam<std::pair<const char*, const char*>> {
+class HomogeneousCompression : public testing::TestWithParam<std::pair<std::string, std::string>> {
 };
 
 TEST_P(HomogeneousCompression, FollowsTheIndependentReferenceWithinATenthOfAPercent) {
@@ -91,11 +91,13 @@ TEST_P(HomogeneousCompression, FollowsTheIndependentReferenceWithinATenthOfAPerc
   EXPECT_GT(test.state().plastic_strain, 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Models, HomogeneousCompression,
-    testing::Values(std::pair{"drucker_prager", "compression_homogeneous_drucker_prager.csv"},
-                    std::pair{"mohr_coulomb", "compression_homogeneous_mohr_coulomb.csv"}),
-    [](const auto& info) { return std::string(info.param.first); });
+INSTANTIATE_TEST_SUITE_P(Models, HomogeneousCompression,
+                         testing::Values(
+                             std::pair<std::string, std::string>{
+                                 "drucker_prager", "compression_homogeneous_drucker_prager.csv"},
+                             std::pair<std::string, std::string>{
+                                 "mohr_coulomb", "compression_homogeneous_mohr_coulomb.csv"}),
+                         [](const auto& info) { return info.param.first; });
 
 TEST(SmallStrainCompression, CollapsesAtTwiceCohesionTimesTangent) {
   // Uniaxial strength 2 c tan(45 + phi / 2) = 42.844 kPa, reached by both criteria whatever psi.
