@@ -13,7 +13,7 @@ namespace fpm {
 /// irregular sets. Adding V_a kappa_ab (T_a nu)_ab to the gradient weights, T_a nu being the part
 /// of nu_b - nu_a that no linear field explains, mends it without losing linear exactness; nu
 /// solves S nu = s - sum_a V_a G_a with the symmetric S = sum_a V_a^2 T_a^T diag(kappa_a) T_a.
-/// Departure: not in Chen, Huang & Lyamin 2020.
+/// Departure: not in Chen, Huang & Lyamin 2020 (share/doc/decisions/consistency.md).
 ///
 /// @param rows  first search; no row re-searched
 /// @param area_vector  [m^(Dim-1)] n x Dim, s_b; over all particles sum s = 0 and

@@ -12,7 +12,7 @@ namespace fpm {
 /// with spring constants k_a kappa_ab. R = 0 is the total form, right for elastic bodies; R = Q,
 /// the rotation of the step, the incremental form, which forgets the non-affine deformation at
 /// the end of each step and so does not lock when the material flows.
-/// Departure: replaces the pseudo-viscosity of Chen, Huang & Lyamin 2020 (Eq. 15-20).
+/// Departure: replaces Chen, Huang & Lyamin 2020, Eq. 15-20 (share/doc/decisions/pair-control.md).
 ///
 /// With du the step's increment and D = I - R this is
 ///   y_ab = (du_b - du_a) - dF X_ab + D e_ab(n),

@@ -10,7 +10,7 @@ namespace fpm {
 /// Four sub-points of a plane particle, (+-h/4, +-h/4) around it in its reference configuration
 /// with h = sqrt(Vref), each standing for a quarter of the volume. The Taylor field
 /// F_k = F + H xi_k lets them see the deformation modes that one point per particle misses.
-/// Departure: not in Chen, Huang & Lyamin 2020.
+/// Departure: not in Chen, Huang & Lyamin 2020 (share/doc/decisions/mixed-subpoints.md).
 inline constexpr std::size_t subpoint_count = 4;
 
 /// Second gradient of the motion, d2x / dX dX, columns XX, XY, YY.

@@ -33,7 +33,7 @@ Eigen::VectorXd smoothing_lengths(const Rows<Dim>& rows);
 /// E_ab and ls_ab being the pair's means. The force belongs to f_int. It conserves linear momentum
 /// to round-off on any graph, and sees no rigid motion of a step, however large its rotation.
 /// Departure: the paper's force is a difference of h_ab and h_ba (Eq. 17), which needs symmetric
-/// neighbour lists; the directed form does not.
+/// neighbour lists; the directed form does not (share/doc/decisions/viscosity.md).
 ///
 /// Pair forces are computed per row and summed per particle in a fixed order, both in parallel:
 /// results do not depend on the number of threads. Calls do not allocate, but use buffers of the
