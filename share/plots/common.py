@@ -1,0 +1,139 @@
+"""What the plot scripts share: running scenes once, reading curves and frames, one look.
+
+A script asks for runs by name. A run lives in out/plots/NAME of the repository and is used again
+until its scene or its settings change; --again runs everything anew.
+"""
+
+import argparse
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+try:
+    import h5py
+except ImportError:
+    sys.exit("plots need the Debian packages python3-matplotlib and python3-h5py")
+
+ROOT = Path(__file__).resolve().parents[2]
+OUT = ROOT / "out" / "plots"
+
+# Okabe and Ito's colours, distinct for colour-blind readers too.
+BLUE, ORANGE, GREEN, RED, GREY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#777777"
+
+plt.rcParams.update(
+    {
+        "font.size": 9,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.grid": True,
+        "grid.color": "#dddddd",
+        "grid.linewidth": 0.6,
+        "legend.frameon": False,
+        "lines.linewidth": 1.4,
+        "savefig.dpi": 110,
+        "savefig.bbox": "tight",
+    }
+)
+
+
+def arguments(description, png):
+    """The options every script has."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--png", type=Path, default=OUT / png, help="picture (default: %(default)s)")
+    parser.add_argument("--again", action="store_true", help="run the scenes even if they were run")
+    parser.add_argument(
+        "--spacing", type=float, metavar="M", help="particle spacing instead of the scene's"
+    )
+    return parser.parse_args()
+
+
+def run(options, name, scene, *settings, may_fail=False):
+    """Runs a scene of share/scenes with settings unless it was; returns its output folder.
+
+    may_fail: a run that stops short of its target (exit code 3) is a result, too.
+    """
+    file = ROOT / "share" / "scenes" / scene
+    settings = list(settings)
+    if options.spacing:
+        settings.append(f"geometry.spacing={options.spacing}")
+    folder = OUT / name
+    stamp = folder / "plots.stamp"
+    wanted = "\n".join([*settings, file.read_text()])
+    if not options.again and stamp.exists() and stamp.read_text() == wanted:
+        return folder
+    command = [ROOT / "fpmw", "run", file, "--out", folder]
+    for setting in settings:
+        command += ["--set", setting]
+    print(f"plots: running {scene} as {name}", file=sys.stderr)
+    code = subprocess.run(command, check=False).returncode
+    if code != 0 and not (may_fail and code == 3):
+        sys.exit(f"plots: {scene} ended with code {code}; see {folder}")
+    stamp.write_text(wanted)
+    return folder
+
+
+def curve(folder):
+    """curve.csv of a run as {column: array}."""
+    return table(folder / "curve.csv")
+
+
+def table(file):
+    """A CSV file with a header as {column: array}."""
+    with open(file, newline="") as stream:
+        rows = list(csv.reader(stream))
+    values = np.array(rows[1:], dtype=float)
+    return {name: values[:, i] for i, name in enumerate(rows[0])}
+
+
+def reference(name):
+    return table(ROOT / "share" / "references" / name)
+
+
+def frame(folder, time=None):
+    """The frame nearest to a time (default: the last one) as {field: array}.
+
+    "position" holds the current positions [m], "initial" those before the displacement, "time" the
+    frame's time. The time of a frame is the load parameter, 0 at the beginning and 1 at the end.
+    """
+    entries = json.loads((folder / "run.hdf.series").read_text())["files"]
+    if time is None:
+        entry = entries[-1]
+    else:
+        entry = min(entries, key=lambda e: abs(e["time"] - time))
+    with h5py.File(folder / entry["name"]) as file:
+        group = file["VTKHDF"]
+        fields = {name: data[...] for name, data in group["PointData"].items()}
+        fields["position"] = group["Points"][...]
+    fields["initial"] = fields["position"] - fields["displacement"]
+    fields["time"] = entry["time"]
+    return fields
+
+
+def field_plot(axes, at, values, spacing, limit, scale=1.0):
+    """Particles at their current places as coloured squares of about their size."""
+    axes.set_aspect("equal")
+    axes.grid(False)
+    x, y = at["position"][:, 0] * scale, at["position"][:, 1] * scale
+    axes.set_xlim(x.min() - spacing * scale, x.max() + spacing * scale)
+    axes.set_ylim(y.min() - spacing * scale, y.max() + spacing * scale)
+    axes.figure.canvas.draw()
+    per_unit = axes.transData.transform((1, 0))[0] - axes.transData.transform((0, 0))[0]
+    points = spacing * scale * per_unit * 72 / axes.figure.dpi
+    return axes.scatter(
+        x, y, c=values, s=points**2, marker="s", linewidths=0, cmap="magma_r", vmin=0, vmax=limit,
+        rasterized=True,
+    )  # fmt: skip
+
+
+def save(figure, options):
+    options.png.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(options.png)
+    print(options.png)
