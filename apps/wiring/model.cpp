@@ -42,19 +42,6 @@ std::string model_name(const Material& material) {
   return "elastic";
 }
 
-constitutive::Material to_material(const Material& material) {
-  constitutive::MaterialParameters p;
-  p.model = model_name(material);
-  p.youngs_modulus = material.youngs_modulus;
-  p.poissons_ratio = material.poissons_ratio;
-  p.cohesion = material.cohesion.value_or(0.0);
-  p.friction_angle = material.friction_angle.value_or(0.0);
-  p.dilation_angle = material.dilation_angle.value_or(0.0);
-  p.density = material.density;
-  if (material.dilation_cutoff) p.dilation_cutoff = *material.dilation_cutoff;
-  return constitutive::make_material(p);
-}
-
 template <int Dim>
 bool inside(const Eigen::Matrix<double, 1, Dim>& x, const Point& min, const Point& max) {
   for (int i = 0; i < Dim; ++i) {
@@ -100,7 +87,7 @@ void assign_materials(const Scene& scene, Model<Dim>& model) {
   model.mass.resize(n);
   for (std::size_t m = 0; m < scene.material.size(); ++m) {
     const Material& material = scene.material[m];
-    model.materials.push_back(to_material(material));
+    model.materials.push_back(constitutive::make_material(material_parameters(material)));
     model.youngs_modulus.push_back(material.youngs_modulus);
     for (Eigen::Index a = 0; a < n; ++a) {
       if (material.region_min.empty() ||
@@ -231,6 +218,19 @@ void set_geostatic_stress(const Scene& scene, const Model<Dim>& model, State<Dim
 }
 
 }  // namespace
+
+constitutive::MaterialParameters material_parameters(const Material& material) {
+  constitutive::MaterialParameters p;
+  p.model = model_name(material);
+  p.youngs_modulus = material.youngs_modulus;
+  p.poissons_ratio = material.poissons_ratio;
+  p.cohesion = material.cohesion.value_or(0.0);
+  p.friction_angle = material.friction_angle.value_or(0.0);
+  p.dilation_angle = material.dilation_angle.value_or(0.0);
+  p.density = material.density;
+  if (material.dilation_cutoff) p.dilation_cutoff = *material.dilation_cutoff;
+  return p;
+}
 
 template <int Dim>
 Model<Dim> build_model(const Scene& scene) {

@@ -59,9 +59,9 @@ struct Model {
   Eigen::VectorXd measure;            // per unknown: weight of its reaction in the reported load
   Eigen::VectorXd constant_load;      // [N/m or N] dead loads that act from the start
   Eigen::VectorXd scaled_load;        // [N/m or N] dead loads at load parameter 1
-  fpm::Vector<Dim> box_min;  // [m]
-  fpm::Vector<Dim> box_max;  // [m]
-  double spacing = 0.0;      // [m]
+  fpm::Vector<Dim> box_min;           // [m]
+  fpm::Vector<Dim> box_max;           // [m]
+  double spacing = 0.0;               // [m]
   struct MirrorFace {
     int axis;
     bool upper;
@@ -73,6 +73,9 @@ struct Model {
   Eigen::Index size() const { return particles.position.rows(); }
   Eigen::Index unknowns() const { return size() * Dim; }
 };
+
+/// A material of a scene as libconstitutive takes it.
+constitutive::MaterialParameters material_parameters(const Material& material);
 
 /// Builds the model of a checked scene.
 /// @throws std::runtime_error if the particle set admits no valid neighbourhoods.

@@ -24,14 +24,14 @@ struct StepRecord {
   int newton_iterations = 0;
   int residual_evaluations = 0;
   int jacobian_actions = 0;
-  int evaluations = 0;              // of all attempts at this step, predictors included
+  int evaluations = 0;  // of all attempts at this step, predictors included
   int cuts = 0;
   Eigen::Index plastic_particles = 0;
   Eigen::Index researched_rows = 0;
-  double residual_ratio = 0.0;      // |r_free| over the reference norm
+  double residual_ratio = 0.0;  // |r_free| over the reference norm
   double max_plastic_strain = 0.0;
   double hourglass_work_ratio = 0.0;  // accumulated, over the work of the loads
-  double max_displacement = 0.0;    // [m]
+  double max_displacement = 0.0;      // [m]
 };
 
 enum class StepOutcome {
@@ -43,7 +43,7 @@ enum class StepOutcome {
 struct StepResult {
   StepOutcome outcome = StepOutcome::converged;
   StepRecord record;
-  std::string reason;               // why the last attempt failed, and where
+  std::string reason;  // why the last attempt failed, and where
   fpm::Index worst_particle = -1;
 };
 
@@ -61,6 +61,10 @@ class LoadStepper {
   bool finished() const;
   StepResult advance(const Watch& watch = {});
 
+  /// Re-searches, if the scene's rule asks for it, as each converged step does at its end.
+  /// @return the rows rebuilt
+  Eigen::Index research();
+
   const Equilibrium<Dim>& equilibrium() const { return equilibrium_; }
   std::size_t bytes() const { return equilibrium_.bytes() + preconditioner_.bytes(); }
 
@@ -69,7 +73,6 @@ class LoadStepper {
   bool predict_by_tangent(double increment, Eigen::VectorXd& u, StepRecord& record);
   bool solve(Eigen::VectorXd& u, const Watch& watch, StepResult& result);
   void finish_step(double increment, StepRecord& record);
-  Eigen::Index research();
   void choose_next_increment(const StepRecord& record);
 
   const Scene& scene_;

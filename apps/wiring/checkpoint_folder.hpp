@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiring {
+
+/// File name of the checkpoint of a step, `step-000120.hdf`.
+[[nodiscard]] std::string checkpoint_name(std::int64_t step);
+
+/// The step in a checkpoint's file name, or nothing if it is no such name.
+[[nodiscard]] std::optional<std::int64_t> step_of(const std::filesystem::path& checkpoint);
+
+/// The checkpoints in a folder by their names, newest step first; none if there is no folder.
+[[nodiscard]] std::vector<std::filesystem::path> list_checkpoints(
+    const std::filesystem::path& folder);
+
+/// The newest checkpoint of a folder that opens whole.
+/// @param[out] objections  what is wrong with each newer one
+/// @param before  only checkpoints of earlier steps than this
+[[nodiscard]] std::optional<std::filesystem::path> newest_usable(
+    const std::filesystem::path& folder, std::vector<std::string>& objections,
+    std::optional<std::int64_t> before = {});
+
+/// Removes all but the `kept` newest checkpoints up to and including `step`.
+void remove_older(const std::filesystem::path& folder, std::int64_t step, int kept);
+
+/// Renames the checkpoints later than `step` to `*.hdf.set-aside`: they belong to a course of the
+/// run that is given up, and must be neither taken for its newest nor lost.
+/// @return their new names.
+std::vector<std::filesystem::path> set_aside_later(const std::filesystem::path& folder,
+                                                   std::int64_t step);
+
+}  // namespace wiring

@@ -1,0 +1,58 @@
+#include "wiring/frames.hpp"
+
+#include <fmt/format.h>
+
+#include "wiring/durable_file.hpp"
+
+namespace wiring {
+
+namespace {
+
+// Frames beyond the step a run goes on from: it writes its own. By their names, for a killed run
+// may have written a frame that its series does not list.
+void remove_later(const std::filesystem::path& folder, std::int64_t step) {
+  const std::string last = Frames::name(step);
+  std::vector<std::filesystem::path> later;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    const bool frame = name.starts_with("frame-") && name.ends_with(".hdf");
+    // Longer numbers are larger ones.
+    const bool beyond = name.size() != last.size() ? name.size() > last.size() : name > last;
+    if (frame && beyond) later.push_back(entry.path());
+  }
+  for (const auto& file : later) std::filesystem::remove(file, ignored);
+}
+
+}  // namespace
+
+Frames::Frames(const RunFolder& folder, int every, std::int64_t step,
+               std::optional<double> last_time)
+    : folder_(folder.frames()),
+      every_(every),
+      series_(last_time ? FrameSeries::resume(folder.series(), *last_time)
+                        : FrameSeries(folder.series())) {
+  if (every_ > 0) create_folder(folder_);
+  if (last_time) remove_later(folder_, step);
+}
+
+std::string Frames::name(std::int64_t step) {
+  return fmt::format("frame-{:06}.hdf", step);
+}
+
+bool Frames::due(std::int64_t step) const {
+  return every_ > 0 && step % every_ == 0 && lacks(step);
+}
+
+bool Frames::lacks(std::int64_t step) const {
+  const auto& entries = series_.entries();
+  return every_ > 0 && (entries.empty() || entries.back().name != "frames/" + name(step));
+}
+
+void Frames::write(std::int64_t step, double time, std::span<const double> points,
+                   std::span<const PointField> fields) {
+  write_frame(folder_ / name(step), step, time, points, fields);
+  series_.append("frames/" + name(step), time);
+}
+
+}  // namespace wiring

@@ -1,0 +1,190 @@
+#include "wiring/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include "wiring/checkpoint.hpp"
+#include "wiring/checkpoint_folder.hpp"
+#include "wiring/particle_fields.hpp"
+
+namespace wiring {
+
+namespace {
+
+CurveRow row_of(const StepRecord& record, const Scene& scene, double wall) {
+  CurveRow row;
+  row.step = record.step;
+  row.load_parameter = record.load;
+  row.settlement = record.settlement;
+  const double length = scene.drive.reference_length.value_or(0.0);
+  row.settlement_over_B = length > 0.0 ? record.settlement / length : 0.0;
+  row.reaction = record.reaction;
+  row.mean_pressure = record.mean_pressure;
+  row.corrected_pressure = record.corrected_pressure;
+  row.increment = record.increment;
+  row.newton_iterations = record.newton_iterations;
+  row.residual_evaluations = record.residual_evaluations;
+  row.jacobian_actions = record.jacobian_actions;
+  row.evaluations = record.evaluations;
+  row.cuts = record.cuts;
+  row.plastic_particles = record.plastic_particles;
+  row.researched_rows = record.researched_rows;
+  row.residual_ratio = record.residual_ratio;
+  row.max_plastic_strain = record.max_plastic_strain;
+  row.hourglass_work_ratio = record.hourglass_work_ratio;
+  row.wall = wall;
+  return row;
+}
+
+// Time in frames: what the user drives, so that it does not depend on the target.
+double time_of(const CurveRow& row, const Scene& scene) {
+  return scene.drive.kind == DriveKind::displacement ? row.settlement : row.load_parameter;
+}
+
+// Whether the run goes on in the folder of its checkpoint, instead of branching off into another.
+template <int Dim>
+bool same_folder(const RunFolder& folder, const RunStart<Dim>& start) {
+  std::error_code absent;
+  return !start.checkpoint.empty() &&
+         std::filesystem::equivalent(folder.checkpoints(),
+                                     std::filesystem::absolute(start.checkpoint).parent_path(),
+                                     absent);
+}
+
+template <int Dim>
+std::optional<std::filesystem::path> make_room(const RunFolder& folder,
+                                               const RunStart<Dim>& start) {
+  if (!same_folder(folder, start)) return folder.set_previous_aside();
+  set_aside_later(folder.checkpoints(), start.state.programme.step);
+  return std::nullopt;
+}
+
+template <int Dim>
+CurveFile curve_for(const RunFolder& folder, const RunStart<Dim>& start) {
+  if (start.history.empty()) return CurveFile::create(folder.curve(), Dim);
+  write_text_durably(folder.curve(), curve_text(Dim, start.history));
+  return CurveFile::resume(folder.curve(), folder.curve(), Dim, start.history.back().step);
+}
+
+template <int Dim>
+Frames frames_for(const RunFolder& folder, const Scene& scene, const RunStart<Dim>& start) {
+  if (start.history.empty()) return {folder, scene.output.frames_every, 0, std::nullopt};
+  const CurveRow& last = start.history.back();
+  return {folder, scene.output.frames_every, last.step, time_of(last, scene)};
+}
+
+}  // namespace
+
+template <int Dim>
+Recorder<Dim>::Recorder(const RunRequest& request, const RunFolder& folder, const Model<Dim>& model,
+                        const RunStart<Dim>& start, State<Dim>& state, std::ostream& out)
+    : scene_(request.scene),
+      model_(model),
+      state_(state),
+      folder_(folder),
+      history_(start.history),
+      notes_(notes_for(request.scene)),
+      previous_(make_room(folder, start)),
+      log_(folder.log()),
+      curve_(curve_for(folder, start)),
+      frames_(frames_for(folder, request.scene, start)),
+      progress_(out, progress_mode(request.quiet), terminal_width()) {
+  create_folder(folder_.checkpoints());
+  if (previous_) say(fmt::format("results of an earlier run are now in {}", previous_->string()));
+  if (!history_.empty()) {
+    notes_.parent = start.checkpoint.string();
+    last_checkpoint_ = start.checkpoint;
+    if (same_folder(folder, start)) checkpointed_step_ = history_.back().step;
+    earlier_ = history_.back().wall;
+    for (const CurveRow& row : history_) {
+      cuts_ += row.cuts;
+      researched_ += row.researched_rows;
+    }
+    return;
+  }
+  history_.push_back(row_of(StepRecord{}, scene_, 0.0));
+  curve_.append(history_.back());
+  if (frames_.due(0)) write_frame(Eigen::VectorXd::Zero(model_.unknowns()));
+}
+
+template <int Dim>
+double Recorder<Dim>::elapsed() const {
+  const std::chrono::duration<double> now = std::chrono::steady_clock::now() - begin_;
+  return earlier_ + now.count();
+}
+
+template <int Dim>
+void Recorder<Dim>::take(const StepRecord& record, const Eigen::VectorXd& reaction) {
+  history_.push_back(row_of(record, scene_, elapsed()));
+  cuts_ += record.cuts;
+  researched_ += record.researched_rows;
+  curve_.append(history_.back());
+  progress_.update(status(record));
+  constexpr std::size_t no_limit = 500;
+  log_.info(progress_line(status(record), no_limit));
+  // The frame first: a run that goes on from the checkpoint does not write it again.
+  if (frames_.due(record.step)) write_frame(reaction);
+  const int every = scene_.output.checkpoints_every;
+  if (every > 0 && record.step % every == 0) write_checkpoint("as scheduled", reaction);
+}
+
+template <int Dim>
+void Recorder<Dim>::finish(const std::string& reason, const Eigen::VectorXd& reaction,
+                           bool interrupted) {
+  progress_.finish();
+  if (!interrupted && frames_.lacks(state_.programme.step)) write_frame(reaction);
+  if (checkpointed_step_ != state_.programme.step) write_checkpoint(reason, reaction);
+}
+
+template <int Dim>
+void Recorder<Dim>::say(const std::string& line) {
+  progress_.say(line);
+  log_.info(line);
+}
+
+template <int Dim>
+void Recorder<Dim>::write_frame(const Eigen::VectorXd& reaction) {
+  const CurveRow& row = history_.back();
+  frames_.write(row.step, time_of(row, scene_), current_points(model_, state_),
+                particle_fields(model_, state_, reaction, scene_.output.fields));
+}
+
+template <int Dim>
+void Recorder<Dim>::write_checkpoint(const std::string& reason, const Eigen::VectorXd& reaction) {
+  curve_.sync();
+  notes_.reason = reason;
+  notes_.created = time_stamp();
+  notes_.history = history_;
+  const std::int64_t step = state_.programme.step;
+  const std::filesystem::path path = folder_.checkpoints() / checkpoint_name(step);
+  wiring::write_checkpoint(path, model_, state_, notes_,
+                           particle_fields(model_, state_, reaction, scene_.output.fields));
+  last_checkpoint_ = path;
+  checkpointed_step_ = step;
+  remove_older(folder_.checkpoints(), step, scene_.output.checkpoints_kept);
+}
+
+template <int Dim>
+ProgressStatus Recorder<Dim>::status(const StepRecord& record) const {
+  ProgressStatus status;
+  status.step = record.step;
+  status.fraction = record.load;
+  const bool displaced = scene_.drive.kind == DriveKind::displacement;
+  if (displaced && scene_.drive.reference_length) {
+    status.settlement_over_B = history_.back().settlement_over_B;
+  }
+  if (displaced && scene_.drive.width) status.mean_pressure = record.mean_pressure;
+  status.newton_iterations = record.newton_iterations;
+  status.evaluations = record.evaluations;
+  status.residual_ratio = record.residual_ratio;
+  status.cuts = cuts_;
+  status.yielding_share =
+      static_cast<double>(record.plastic_particles) / static_cast<double>(model_.size());
+  status.researched_rows = researched_;
+  status.elapsed = history_.back().wall;
+  return status;
+}
+
+template class Recorder<2>;
+template class Recorder<3>;
+
+}  // namespace wiring

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <chrono>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "wiring/checkpoint_file.hpp"
+#include "wiring/curve.hpp"
+#include "wiring/frames.hpp"
+#include "wiring/logging.hpp"
+#include "wiring/model.hpp"
+#include "wiring/progress.hpp"
+#include "wiring/run_folder.hpp"
+#include "wiring/run_request.hpp"
+#include "wiring/run_start.hpp"
+#include "wiring/stepper.hpp"
+
+namespace wiring {
+
+/// All that observes a run: curve, frames, checkpoints, progress and log. Outputs of an earlier run
+/// are cut back to the checkpoint the run goes on from, so that they have each step once.
+template <int Dim>
+class Recorder {
+ public:
+  /// Prepares the folder for this start; a fresh run gets its row, and its frame, of step 0.
+  /// @param state  of the run, always at a converged step when a member is called
+  /// @throws FileError
+  Recorder(const RunRequest& request, const RunFolder& folder, const Model<Dim>& model,
+           const RunStart<Dim>& start, State<Dim>& state, std::ostream& out);
+
+  /// Records a converged step; checkpoints and frames as often as the scene says.
+  void take(const StepRecord& record, const Eigen::VectorXd& reaction);
+
+  /// Ends the record: the last frame, unless the run is merely interrupted, and a checkpoint of the
+  /// state unless there is one.
+  void finish(const std::string& reason, const Eigen::VectorXd& reaction, bool interrupted);
+
+  /// One line for the user and the log.
+  void say(const std::string& line);
+  Log& log() { return log_; }
+
+  [[nodiscard]] const std::vector<CurveRow>& history() const { return history_; }
+  /// The last checkpoint written or resumed from; empty if there is none.
+  [[nodiscard]] const std::filesystem::path& last_checkpoint() const { return last_checkpoint_; }
+  /// Seconds of the whole run, those before the checkpoint included.
+  [[nodiscard]] double elapsed() const;
+
+ private:
+  void write_frame(const Eigen::VectorXd& reaction);
+  void write_checkpoint(const std::string& reason, const Eigen::VectorXd& reaction);
+  ProgressStatus status(const StepRecord& record) const;
+
+  const Scene& scene_;
+  const Model<Dim>& model_;
+  State<Dim>& state_;
+  const RunFolder& folder_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::vector<CurveRow> history_;
+  CheckpointNotes notes_;
+  double earlier_ = 0.0;  // [s] of the run before the checkpoint
+  std::filesystem::path last_checkpoint_;
+  std::int64_t checkpointed_step_ = -1;
+  std::int64_t cuts_ = 0;
+  std::int64_t researched_ = 0;
+
+  std::optional<std::filesystem::path> previous_;
+  Log log_;
+  CurveFile curve_;
+  Frames frames_;
+  Progress progress_;
+};
+
+}  // namespace wiring

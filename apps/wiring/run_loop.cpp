@@ -1,0 +1,195 @@
+#include "wiring/run_loop.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "wiring/recorder.hpp"
+#include "wiring/run_report.hpp"
+#include "wiring/scene_derived.hpp"
+#include "wiring/state_file.hpp"
+#include "wiring/stepper.hpp"
+#include "wiring/stop_signals.hpp"
+#include "wiring/version.hpp"
+
+namespace wiring {
+
+namespace {
+
+/// Why a run is to stop before its end.
+class StopReasons {
+ public:
+  explicit StopReasons(std::optional<double> max_wall) : max_wall_(max_wall) {}
+
+  /// "" to go on.
+  [[nodiscard]] std::string now() const {
+    if (signals_.received() == SIGINT) return "interrupted by SIGINT";
+    if (signals_.received() != 0) return "interrupted by SIGTERM";
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin_;
+    if (max_wall_ && wall.count() >= *max_wall_) return "interrupted by --max-wall";
+    return "";
+  }
+
+ private:
+  StopSignals signals_;
+  std::optional<double> max_wall_;  // [s]
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+std::string command_to_resume(const RunRequest& request) {
+  return fmt::format("fpm-run {} --out {} --resume", request.scene_file.string(),
+                     request.directory.string());
+}
+
+template <int Dim>
+class Run {
+ public:
+  Run(const RunRequest& request, std::ostream& out, std::ostream& err)
+      : request_(request),
+        scene_(request.scene),
+        out_(out),
+        err_(err),
+        stop_(request.max_wall_s),
+        model_(build_model<Dim>(scene_)) {}
+
+  ExitCode operator()() {
+    RunStart<Dim> start = start_of(request_, model_);
+    for (const std::string& refusal : start.refusals) err_ << "error: " << refusal << '\n';
+    if (!start.refusals.empty()) return ExitCode::input_refused;
+    LoadStepper<Dim> stepper(scene_, model_, start.state);
+    if (request_.check_only) return check(start, stepper);
+    if (stepper.finished()) return say_finished(start);
+
+    const RunFolder folder(request_.directory);
+    Recorder<Dim> recorder(request_, folder, model_, start, start.state, out_);
+    try {
+      introduce(start, recorder);
+      if (start.research_changed && scene_.research.enabled) {
+        // The rule is new: a state that no step leads on from must not wait for one.
+        recorder.say(fmt::format("{} rows re-searched", stepper.research()));
+      }
+      return advance(start.state, stepper, recorder, folder);
+    } catch (const FileError& failure) {
+      const std::string last = recorder.last_checkpoint().string();
+      throw FileError(failure.file(),
+                      failure.reason() + (last.empty() ? "; there is no checkpoint yet"
+                                                       : "; the last good checkpoint is " + last));
+    }
+  }
+
+ private:
+  ExitCode check(RunStart<Dim>& start, const LoadStepper<Dim>& stepper) {
+    const std::size_t state_bytes = bytes_of(start.state);
+    out_ << check_report(scene_, static_cast<std::size_t>(model_.size()),
+                         static_cast<std::size_t>(model_.ghosts.size()),
+                         stepper.bytes() + state_bytes, state_bytes);
+    for (const std::string& warning : start.warnings) err_ << "warning: " << warning << '\n';
+    if (!start.checkpoint.empty()) out_ << resumed_line(start) << '\n';
+    for (const SceneChange& change : start.changes) out_ << "changed: " << change.text() << '\n';
+    return ExitCode::done;
+  }
+
+  ExitCode say_finished(const RunStart<Dim>& start) {
+    if (!request_.quiet) {
+      out_ << fmt::format("{}: the run is finished at step {}; nothing to do\n",
+                          start.checkpoint.string(), start.state.programme.step);
+    }
+    return ExitCode::done;
+  }
+
+  static std::string resumed_line(const RunStart<Dim>& start) {
+    return fmt::format("resuming from {}: step {}, load {:.6g}", start.checkpoint.string(),
+                       start.state.programme.step, start.state.programme.load);
+  }
+
+  void introduce(const RunStart<Dim>& start, Recorder<Dim>& recorder) {
+    recorder.log().info(fmt::format("fpm-run {}, {}; scene {}, {} threads", version,
+                                    library_versions, request_.scene_file.string(),
+                                    omp_get_max_threads()));
+    recorder.say(fmt::format("{}: {} particles, {} steps planned, output in {}",
+                             scene_.title.empty() ? request_.scene_file.string() : scene_.title,
+                             model_.size(), nominal_steps(scene_), request_.directory.string()));
+    for (const std::string& warning : start.warnings) recorder.log().warning(warning);
+    if (!start.checkpoint.empty()) recorder.say(resumed_line(start));
+    for (const SceneChange& change : start.changes) recorder.say("changed: " + change.text());
+  }
+
+  ExitCode advance(State<Dim>& state, LoadStepper<Dim>& stepper, Recorder<Dim>& recorder,
+                   const RunFolder& folder) {
+    const auto& reaction = stepper.equilibrium().unmasked_residual();
+    while (!stepper.finished()) {
+      if (!stop_.now().empty()) return interrupt(recorder, reaction);
+      const ProgrammeState before = state.programme;
+      const StepResult result =
+          stepper.advance([&](const jfnk::Iteration&) { return stop_.now().empty(); });
+      if (result.outcome == StepOutcome::converged) {
+        recorder.take(result.record, reaction);
+        continue;
+      }
+      // What was tried in vain is forgotten: a run resumed from here tries the same.
+      state.programme = before;
+      if (result.outcome == StepOutcome::stopped) return interrupt(recorder, reaction);
+      return fail(state, result, recorder, reaction, folder);
+    }
+    recorder.finish("end of the programme", reaction, false);
+    report(recorder, folder);
+    return ExitCode::done;
+  }
+
+  ExitCode interrupt(Recorder<Dim>& recorder, const Eigen::VectorXd& reaction) {
+    const std::string why = stop_.now();
+    recorder.finish(why, reaction, true);
+    recorder.log().warning(fmt::format("{} at step {}; go on with: {}", why,
+                                       recorder.history().back().step,
+                                       command_to_resume(request_)));
+    return ExitCode::interrupted;
+  }
+
+  ExitCode fail(const State<Dim>& state, const StepResult& result, Recorder<Dim>& recorder,
+                const Eigen::VectorXd& reaction, const RunFolder& folder) {
+    recorder.finish("no convergence", reaction, false);
+    const std::string why =
+        failure_report(scene_, model_, state, result, recorder.history().back().max_plastic_strain);
+    report(recorder, folder);
+    if (!scene_.programme.stop_at_failure) {
+      recorder.say("the programme ends here, as programme.stop_at_failure = false asks: " + why);
+      return ExitCode::done;
+    }
+    recorder.log().error(why);
+    recorder.log().error(
+        fmt::format("the last good checkpoint is {}", recorder.last_checkpoint().string()));
+    return ExitCode::not_converged;
+  }
+
+  void report(Recorder<Dim>& recorder, const RunFolder& folder) {
+    recorder.say(end_report(scene_, recorder.history(), recorder.elapsed(), folder,
+                            recorder.last_checkpoint()));
+  }
+
+  const RunRequest& request_;
+  const Scene& scene_;
+  std::ostream& out_;
+  std::ostream& err_;
+  StopReasons stop_;
+  Model<Dim> model_;
+};
+
+}  // namespace
+
+int thread_count(int asked, std::int64_t particles) {
+  // A smaller share per thread costs more in waiting for each other than it saves.
+  constexpr std::int64_t particles_per_thread = 4000;
+  if (asked > 0) return asked;
+  return static_cast<int>(
+      std::min<std::int64_t>(omp_get_max_threads(), particles / particles_per_thread + 1));
+}
+
+ExitCode run_programme(const RunRequest& request, std::ostream& out, std::ostream& err) {
+  omp_set_num_threads(thread_count(request.threads, particle_count(request.scene.geometry)));
+  if (request.scene.geometry.dimension == 2) return Run<2>(request, out, err)();
+  return Run<3>(request, out, err)();
+}
+
+}  // namespace wiring

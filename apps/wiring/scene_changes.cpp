@@ -1,0 +1,53 @@
+#include "wiring/scene_changes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "wiring/scene_field.hpp"
+
+namespace wiring {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> free_tables{"programme.", "solver.", "research.",
+                                                      "output."};
+constexpr std::array<std::string_view, 2> free_keys{"title", "drive.target"};
+
+std::string text_at(const TableInfo& table, const Field& field, const Scene& scene,
+                    std::size_t index) {
+  if (index >= table.size(scene)) return "absent";
+  const auto value = field.read(scene, index);
+  return value ? value_text(*value) : "absent";
+}
+
+}  // namespace
+
+std::string SceneChange::text() const {
+  return fmt::format("{}: {} -> {}", key, before, after);
+}
+
+bool may_change_on_resume(std::string_view key) {
+  return std::ranges::find(free_keys, key) != free_keys.end() ||
+         std::ranges::any_of(free_tables, [&](auto table) { return key.starts_with(table); });
+}
+
+std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after) {
+  std::vector<SceneChange> changes;
+  for (const TableInfo& table : scene_tables()) {
+    const std::size_t count = std::max(table.size(before), table.size(after));
+    for (std::size_t i = 0; i < count; ++i) {
+      for (const Field& field : table.fields) {
+        SceneChange change{table.path(i, field.key), text_at(table, field, before, i),
+                           text_at(table, field, after, i), false};
+        if (change.before == change.after) continue;
+        change.allowed = may_change_on_resume(change.key);
+        changes.push_back(std::move(change));
+      }
+    }
+  }
+  return changes;
+}
+
+}  // namespace wiring
