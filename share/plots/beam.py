@@ -51,7 +51,8 @@ def main():
         "viscosity": (r"viscosity, $\theta$ = 0.01 per step", common.GREEN, "^"),
         "stiffness": ("default (stiffness)", common.BLUE, "s"),
     }
-    figure, (deflection, stress) = plt.subplots(1, 2, figsize=(10, 3.6))
+    figure, panels = plt.subplots(2, 2, figsize=(10, 5.6), sharex=True, layout="constrained")
+    deflection, stress = panels[0]
     x = np.linspace(0, LENGTH, 401)
     v, sxx = exact_bottom(x)
     deflection.plot(x, v * 1e3, color="black", linewidth=1, label="exact")
@@ -66,14 +67,18 @@ def main():
         deflection.plot(x, v * 1e3, **style)
         stress.plot(x, sxx / 1e3, **style)
         exact_v, exact_sxx = exact_bottom(x)
+        panels[1, 0].plot(x, (v - exact_v) * 1e3, **style)
+        panels[1, 1].plot(x, (sxx - exact_sxx) / 1e3, **style)
         middle = np.argmin(abs(x - LENGTH / 2))
         print(
             f"{label}: mid-span v {100 * (v[middle] / exact_v[middle] - 1):+.2f} %; alternating part"
             f" of v {alternating(v - exact_v) / abs(exact_v).max():.2e},"
             f" of sxx {alternating(sxx - exact_sxx) / abs(exact_sxx).max():.2e}"
         )
-    deflection.set(xlabel="x [m]", ylabel="displacement of the lower face [mm]")
-    stress.set(xlabel="x [m]", ylabel="axial stress of the lower face [kPa]")
+    deflection.set(ylabel="displacement of the lower face [mm]")
+    stress.set(ylabel="axial stress of the lower face [kPa]")
+    panels[1, 0].set(xlabel="x [m]", ylabel="less the exact one [mm]")
+    panels[1, 1].set(xlabel="x [m]", ylabel="less the exact one [kPa]")
     deflection.legend(loc="upper center")
     common.save(figure, options)
 

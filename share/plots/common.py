@@ -7,6 +7,7 @@ until its scene or its settings change; --again runs everything anew.
 import argparse
 import csv
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -16,6 +17,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
+from matplotlib.collections import PolyCollection  # noqa: E402
 
 try:
     import h5py
@@ -24,6 +26,8 @@ except ImportError:
 
 ROOT = Path(__file__).resolve().parents[2]
 OUT = ROOT / "out" / "plots"
+# FPM_RUN names a program to use instead of the one that fpmw builds.
+PROGRAM = [os.environ["FPM_RUN"]] if "FPM_RUN" in os.environ else [ROOT / "fpmw", "run"]
 
 # Okabe and Ito's colours, distinct for colour-blind readers too.
 BLUE, ORANGE, GREEN, RED, GREY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#777777"
@@ -69,7 +73,7 @@ def run(options, name, scene, *settings, may_fail=False):
     wanted = "\n".join([*settings, file.read_text()])
     if not options.again and stamp.exists() and stamp.read_text() == wanted:
         return folder
-    command = [ROOT / "fpmw", "run", file, "--out", folder]
+    command = [*PROGRAM, file, "--out", folder]
     for setting in settings:
         command += ["--set", setting]
     print(f"plots: running {scene} as {name}", file=sys.stderr)
@@ -101,7 +105,7 @@ def frame(folder, time=None):
     """The frame nearest to a time (default: the last one) as {field: array}.
 
     "position" holds the current positions [m], "initial" those before the displacement, "time" the
-    frame's time. The time of a frame is the load parameter, 0 at the beginning and 1 at the end.
+    frame's time: the settlement [m] if a side is driven, else the load parameter.
     """
     entries = json.loads((folder / "run.hdf.series").read_text())["files"]
     if time is None:
@@ -124,13 +128,14 @@ def field_plot(axes, at, values, spacing, limit, scale=1.0):
     x, y = at["position"][:, 0] * scale, at["position"][:, 1] * scale
     axes.set_xlim(x.min() - spacing * scale, x.max() + spacing * scale)
     axes.set_ylim(y.min() - spacing * scale, y.max() + spacing * scale)
-    axes.figure.canvas.draw()
-    per_unit = axes.transData.transform((1, 0))[0] - axes.transData.transform((0, 0))[0]
-    points = spacing * scale * per_unit * 72 / axes.figure.dpi
-    return axes.scatter(
-        x, y, c=values, s=points**2, marker="s", linewidths=0, cmap="magma_r", vmin=0, vmax=limit,
-        rasterized=True,
+    corners = spacing * scale / 2 * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    squares = PolyCollection(
+        corners + np.stack([x, y], axis=1)[:, None, :], array=values, cmap="magma_r",
+        edgecolors="face", linewidths=0.2,
     )  # fmt: skip
+    squares.set_clim(0, limit)
+    axes.add_collection(squares)
+    return squares
 
 
 def save(figure, options):

@@ -6,8 +6,9 @@ Example 2, Figs. 4 and 5 of Chen, Huang & Lyamin 2020.
 import common
 import matplotlib.pyplot as plt
 
-SPACING, STRENGTH = 0.005, 42.844  # [m], [kPa] 2 c tan(45 + phi / 2)
-STRAINS = [0.03, 0.06, 0.10, 0.15]
+HEIGHT, SPACING = 0.2, 0.005  # [m]
+STRENGTH = 42.844  # [kPa] 2 c tan(45 + phi / 2)
+STRAINS = [0.02, 0.05, 0.10, 0.15]
 
 
 def plot_curves(options, axes):
@@ -41,19 +42,22 @@ def plot_curves(options, axes):
 
 def main():
     options = common.arguments(__doc__, "compression.png")
-    figure = plt.figure(figsize=(11, 6.6))
-    upper, lower = figure.subfigures(2, 1, height_ratios=[1, 1])
+    figure = plt.figure(figsize=(9, 7), layout="constrained")
+    upper, lower = figure.subfigures(2, 1, height_ratios=[1, 1.1])
     plot_curves(options, upper.subplots(1, 1))
     panels = lower.subplots(1, len(STRAINS))
     folder = common.OUT / "compression"
     spacing = options.spacing or SPACING
     for axes, strain in zip(panels, STRAINS):
-        at = common.frame(folder, strain / STRAINS[-1])
-        limit = max(0.1, round(at["plastic_strain"].max(), 1))
-        points = common.field_plot(axes, at, at["plastic_strain"], spacing, limit)
+        at = common.frame(folder, strain * HEIGHT)
+        squares = common.field_plot(
+            axes, at, at["plastic_strain"], spacing, at["plastic_strain"].max()
+        )
         axes.set(xticks=[], yticks=[])
-        axes.set_title(f"strain {at['time'] * STRAINS[-1]:.3f}")
-        lower.colorbar(points, ax=axes, shrink=0.8).set_label("equivalent plastic strain")
+        axes.spines[:].set_visible(False)
+        axes.set_title(f"mean strain {at['time'] / HEIGHT:.3f}", fontsize=9)
+        lower.colorbar(squares, ax=axes, orientation="horizontal", shrink=0.9)
+    lower.supxlabel("equivalent plastic strain", fontsize=9)
     common.save(figure, options)
 
 

@@ -31,7 +31,7 @@ def main():
         ("footing-viscosity", ['hourglass.control="viscosity"', "research.enabled=false"],
          "the paper's viscosity, without re-search", common.GREEN),
     ]  # fmt: skip
-    figure = plt.figure(figsize=(8, 9))
+    figure = plt.figure(figsize=(8, 9), layout="constrained")
     upper, lower = figure.subfigures(2, 1, height_ratios=[1, 1.05])
     axes = upper.subplots(1, 1)
     plot_references(axes)
@@ -56,12 +56,12 @@ def main():
         folder = common.OUT / name
         at = common.frame(folder)
         reached = common.curve(folder)["settlement_over_B"][-1]
-        points = common.field_plot(
+        squares = common.field_plot(
             axes, at, at["plastic_strain"], spacing, limit=1.0, scale=1 / HALF_WIDTH
         )
         axes.set(xlim=(0, 4), ylim=(-1.6, 0.3), ylabel="y / B")
         axes.set_title(f"equivalent plastic strain, {label}, d/B = {reached:.3f}", fontsize=9)
-        lower.colorbar(points, ax=axes, shrink=0.9, extend="max")
+        lower.colorbar(squares, ax=axes, shrink=0.9, extend="max")
     panels[-1].set_xlabel("x / B")
     common.save(figure, options)
 
