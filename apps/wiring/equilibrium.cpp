@@ -116,42 +116,6 @@ void Equilibrium<Dim>::remember_pairs(Eigen::Index a, const Eigen::VectorXd& pos
 }
 
 template <int Dim>
-fpm::PairRow<Dim> Equilibrium<Dim>::pair_row(Eigen::Index a) const {
-  const auto row = static_cast<fpm::Index>(a);
-  fpm::PairRow<Dim> pair;
-  pair.first_moment = operator_.first_moment(row);
-  pair.second_moment = operator_.second_moment(row);
-  pair.memory_first = memory_first_.col(a);
-  pair.memory_second = Eigen::Map<const fpm::Tensor<Dim>>(memory_second_.col(a).data());
-  for (int i = 0; i < Dim; ++i) pair.position[i] = position_[i * operator_.stride() + a];
-  pair.gradient = Eigen::Map<const fpm::Tensor<Dim>>(pair_gradient_.col(a).data());
-  return pair;
-}
-
-template <int Dim>
-ParticleStart<Dim> Equilibrium<Dim>::start_of(Eigen::Index a) const {
-  ParticleStart<Dim> start;
-  if (model_.layout.finite) {
-    start.gradient = Eigen::Map<const fpm::Tensor<Dim>>(state_.deformation_gradient.col(a).data());
-  } else {
-    start.gradient.setIdentity();
-  }
-  start.reference_volume = state_.rows.reference_volume()[a];
-  start.point.stress = state_.stress.col(a);
-  if (model_.layout.plastic) {
-    start.point.plastic_strain = state_.plastic_strain[a];
-    start.point.plastic_volume_strain = state_.plastic_volume_strain[a];
-  }
-  if constexpr (Dim == 2) {
-    if (model_.layout.subpoints) {
-      start.second_gradient = Eigen::Map<const fpm::SecondGradient>(second_gradient_.col(a).data());
-      start.deviator = state_.subpoint_deviator.col(a).data();
-    }
-  }
-  return start;
-}
-
-template <int Dim>
 void Equilibrium<Dim>::assemble(const double* field, double* force) {
   operator_.scatter(stress_.data(), field, position_.data(), force_.data());
   const Eigen::Index n = model_.size();
@@ -277,11 +241,10 @@ double Equilibrium<Dim>::hourglass_work(const Eigen::VectorXd& increment) const 
     });
     Tensor defect = Tensor::Identity();
     if (model_.layout.incremental && state_.released[a] > 0.0) {
-      defect -= model_.layout.finite
-                    ? constitutive::objective_increment<Dim>(
-                          Tensor::Identity() + gradient * detail::inverse<Dim>(start.gradient))
-                          .rotation
-                    : Tensor(Tensor::Identity());
+      defect -= model_.layout.finite ? constitutive::objective_increment<Dim>(
+                                           gradient, Tensor(start.gradient + 0.5 * gradient))
+                                           .rotation
+                                     : Tensor(Tensor::Identity());
     }
     const Eigen::Map<const Tensor> begin(pair_gradient_.col(a).data());
     double row = 0.0;

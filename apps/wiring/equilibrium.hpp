@@ -126,4 +126,41 @@ class Equilibrium {
   EvaluationFailure failure_;
 };
 
+// Inline for the loops over particles.
+template <int Dim>
+fpm::PairRow<Dim> Equilibrium<Dim>::pair_row(Eigen::Index a) const {
+  const auto row = static_cast<fpm::Index>(a);
+  fpm::PairRow<Dim> pair;
+  pair.first_moment = operator_.first_moment(row);
+  pair.second_moment = operator_.second_moment(row);
+  pair.memory_first = memory_first_.col(a);
+  pair.memory_second = Eigen::Map<const fpm::Tensor<Dim>>(memory_second_.col(a).data());
+  for (int i = 0; i < Dim; ++i) pair.position[i] = position_[i * operator_.stride() + a];
+  pair.gradient = Eigen::Map<const fpm::Tensor<Dim>>(pair_gradient_.col(a).data());
+  return pair;
+}
+
+template <int Dim>
+ParticleStart<Dim> Equilibrium<Dim>::start_of(Eigen::Index a) const {
+  ParticleStart<Dim> start;
+  if (model_.layout.finite) {
+    start.gradient = Eigen::Map<const fpm::Tensor<Dim>>(state_.deformation_gradient.col(a).data());
+  } else {
+    start.gradient.setIdentity();
+  }
+  start.reference_volume = state_.rows.reference_volume()[a];
+  start.point.stress = state_.stress.col(a);
+  if (model_.layout.plastic) {
+    start.point.plastic_strain = state_.plastic_strain[a];
+    start.point.plastic_volume_strain = state_.plastic_volume_strain[a];
+  }
+  if constexpr (Dim == 2) {
+    if (model_.layout.subpoints) {
+      start.second_gradient = Eigen::Map<const fpm::SecondGradient>(second_gradient_.col(a).data());
+      start.deviator = state_.subpoint_deviator.col(a).data();
+    }
+  }
+  return start;
+}
+
 }  // namespace wiring

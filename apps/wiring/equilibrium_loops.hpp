@@ -6,6 +6,15 @@
 
 #include "wiring/equilibrium.hpp"
 
+// One binary serves every x86-64; the loader picks the widest variant the processor has. Sanitizer
+// builds keep to one (their runtime is not up when the loader resolves the variants).
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && defined(__OPTIMIZE__)
+#define WIRING_HOT __attribute__((target_clones("arch=x86-64-v3", "default"), flatten))
+#else
+#define WIRING_HOT
+#endif
+
 namespace wiring {
 
 /// The loops over particles of one law, with access to the equilibrium's work arrays.
@@ -46,12 +55,46 @@ struct LoopsOf {
     }
   };
 
-  /// Runs `row(a, moments, material)` over all rows, with one visit per run of equal material.
-  /// `row` returns whether it could; the lowest index that could not is returned, else -1.
-  template <class RowWork>
-  static fpm::Index for_each_row(Equilibrium& e, RowWork&& work) {
-    const auto& op = e.operator_;
+  /// Rows [begin, end) of one block and one material. `Work::row` returns whether it could; the
+  /// lowest index that could not is returned, else `none`.
+  template <class Work, class Material>
+  static fpm::Index plain_rows(Equilibrium& e, fpm::Index begin, fpm::Index end,
+                               const double* moments, const Material& material) {
     const bool pair = e.model_.channels.pair;
+    fpm::Index failed = none;
+    for (fpm::Index a = begin; a < end; ++a) {
+      if (!Work::row(e, a, RowMoments{moments + (a - begin), pair}, material)) {
+        failed = std::min(failed, a);
+      }
+    }
+    return failed;
+  }
+
+  /// The same, compiled for several instruction sets with everything inlined: for hot, short laws.
+  template <class Work, class Material>
+  WIRING_HOT static fpm::Index hot_rows(Equilibrium& e, fpm::Index begin, fpm::Index end,
+                                        const double* moments, const Material& material) {
+    return plain_rows<Work>(e, begin, end, moments, material);
+  }
+
+  template <class Work, class Material>
+  static fpm::Index rows(Equilibrium& e, fpm::Index begin, fpm::Index end, const double* moments,
+                         const Material& material) {
+    // The scene's check refuses a material that its integration does not support.
+    if constexpr (!Law::template supports<Material>) {
+      return begin;
+    } else if constexpr (Work::hot && !std::same_as<Material, constitutive::MohrCoulomb>) {
+      return hot_rows<Work>(e, begin, end, moments, material);
+    } else {
+      return plain_rows<Work>(e, begin, end, moments, material);
+    }
+  }
+
+  /// Runs `Work` over all rows, block by block, with one visit per run of equal material.
+  template <class Work>
+  static fpm::Index for_each_row(Equilibrium& e) {
+    const auto& op = e.operator_;
+    const auto& material_of = e.model_.material;
     fpm::Index failed = none;
 #pragma omp parallel reduction(min : failed)
     {
@@ -63,26 +106,17 @@ struct LoopsOf {
         const fpm::Index first = op.block_first(block);
         const fpm::Index end = first + op.block_size(block);
         for (fpm::Index begin = first; begin < end;) {
-          const auto material = e.model_.material[static_cast<std::size_t>(begin)];
+          const auto material = material_of[static_cast<std::size_t>(begin)];
           fpm::Index run_end = begin + 1;
-          while (run_end < end &&
-                 e.model_.material[static_cast<std::size_t>(run_end)] == material) {
+          while (run_end < end && material_of[static_cast<std::size_t>(run_end)] == material) {
             ++run_end;
           }
-          std::visit(
-              [&]<class Material>(const Material& m) {
-                // The scene's check refuses a material that its integration does not support.
-                if constexpr (!Law::template supports<Material>) {
-                  failed = std::min(failed, begin);
-                  return;
-                } else
-                  for (fpm::Index a = begin; a < run_end; ++a) {
-                    if (!work(a, RowMoments{moments + (a - first), pair}, m)) {
-                      failed = std::min(failed, a);
-                    }
-                  }
+          const fpm::Index run_failed = std::visit(
+              [&](const auto& m) {
+                return rows<Work>(e, begin, run_end, moments + (begin - first), m);
               },
               e.model_.materials[material]);
+          failed = std::min(failed, run_failed);
           begin = run_end;
         }
       }
@@ -142,8 +176,11 @@ struct LoopsOf {
     e.inverse_transposed_.row(a) = detail::flat(transposed).transpose();
   }
 
-  static fpm::Index respond(Equilibrium& e) {
-    return for_each_row(e, [&e](fpm::Index a, const RowMoments& moments, const auto& material) {
+  struct Respond {
+    static constexpr bool hot = true;
+    template <class Material>
+    static bool row(Equilibrium& e, fpm::Index a, const RowMoments& moments,
+                    const Material& material) {
       const ParticleIncrement<Dim> increment = moments.increment();
       ParticleResponse<Dim> response;
       Law::respond(material, e.start_of(a), increment, response);
@@ -158,14 +195,17 @@ struct LoopsOf {
       const auto pair = pair_force(e, a, moments, increment.gradient, defect);
       store(e, a, response.nominal, &response.second_stress, &pair);
       return true;
-    });
+    }
+  };
+  static fpm::Index respond(Equilibrium& e) {
+    return for_each_row<Respond>(e);
   }
 
-  static fpm::Index linearise(Equilibrium& e) {
-    const Eigen::Index n = e.model_.size();
-    e.tangent_.resize(n * size * size);
-    e.rotation_tangent_.resize(Eigen::NoChange, e.model_.layout.incremental ? n : 0);
-    return for_each_row(e, [&e](fpm::Index a, const RowMoments& moments, const auto& material) {
+  struct Linearise {
+    static constexpr bool hot = false;
+    template <class Material>
+    static bool row(Equilibrium& e, fpm::Index a, const RowMoments& moments,
+                    const Material& material) {
       ParticleTangent<Dim, Law::mixed> tangent;
       const ParticleIncrement<Dim> increment = moments.increment();
       if (!Law::linearise(material, e.start_of(a), increment, tangent)) return false;
@@ -177,11 +217,19 @@ struct LoopsOf {
             tangent.rotation;
       }
       return true;
-    });
+    }
+  };
+  static fpm::Index linearise(Equilibrium& e) {
+    const Eigen::Index n = e.model_.size();
+    e.tangent_.resize(n * size * size);
+    e.rotation_tangent_.resize(Eigen::NoChange, e.model_.layout.incremental ? n : 0);
+    return for_each_row<Linearise>(e);
   }
 
-  static fpm::Index apply(Equilibrium& e) {
-    return for_each_row(e, [&e](fpm::Index a, const RowMoments& moments, const auto&) {
+  struct Apply {
+    static constexpr bool hot = true;
+    template <class Material>
+    static bool row(Equilibrium& e, fpm::Index a, const RowMoments& moments, const Material&) {
       const ParticleIncrement<Dim> direction = moments.increment();
       Eigen::Matrix<double, size, 1> strain;
       strain.template head<Dim * Dim>() = detail::flat(direction.gradient);
@@ -209,11 +257,17 @@ struct LoopsOf {
       const auto pair = pair_force(e, a, moments, direction.gradient, defect);
       store(e, a, nominal, &second, &pair);
       return true;
-    });
+    }
+  };
+  static fpm::Index apply(Equilibrium& e) {
+    return for_each_row<Apply>(e);
   }
 
-  static fpm::Index commit(Equilibrium& e) {
-    return for_each_row(e, [&e](fpm::Index a, const RowMoments& moments, const auto& material) {
+  struct Commit {
+    static constexpr bool hot = false;
+    template <class Material>
+    static bool row(Equilibrium& e, fpm::Index a, const RowMoments& moments,
+                    const Material& material) {
       const ParticleIncrement<Dim> increment = moments.increment();
       ParticleResponse<Dim> response;
       Law::respond(material, e.start_of(a), increment, response);
@@ -233,7 +287,10 @@ struct LoopsOf {
         }
       }
       return true;
-    });
+    }
+  };
+  static fpm::Index commit(Equilibrium& e) {
+    return for_each_row<Commit>(e);
   }
 };
 

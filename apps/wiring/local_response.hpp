@@ -65,12 +65,6 @@ struct CurrentGradient {
   bool admissible() const { return determinant > 0.0; }  // false for a NaN too
 };
 
-template <int Dim>
-fpm::Tensor<Dim> inverse(const fpm::Tensor<Dim>& m) {
-  double determinant = 0.0;
-  return constitutive::detail::inverse_with_determinant(m, determinant);
-}
-
 template <class Matrix>
 Matrix unit(int column_major_index) {
   Matrix m = Matrix::Zero();

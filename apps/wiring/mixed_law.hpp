@@ -38,16 +38,14 @@ struct MixedMotion {
   std::array<Motion, fpm::subpoint_count> sub;
   std::array<fpm::Vector<2>, fpm::subpoint_count> offset;       // xi_k
   std::array<fpm::Tensor<2>, fpm::subpoint_count> inverse_now;  // F_k^-1
-  std::array<fpm::Tensor<2>, fpm::subpoint_count> inverse_start;
   fpm::Tensor<2> particle_inverse_now;
-  fpm::Tensor<2> particle_inverse_start;
   double volume = 0.0;
   bool admissible = true;
 
   MixedMotion(const ParticleStart<2>& start, const ParticleIncrement<2>& increment) {
     volume = start.reference_volume;
-    admissible = follow(start.gradient, increment.gradient, particle, particle_inverse_now,
-                        particle_inverse_start, &volume);
+    admissible =
+        follow(start.gradient, increment.gradient, particle, particle_inverse_now, &volume);
     for (std::size_t k = 0; k < fpm::subpoint_count && admissible; ++k) {
       offset[k] = fpm::subpoint_offset(k, start.reference_volume);
       const fpm::Tensor<2> change =
@@ -55,10 +53,9 @@ struct MixedMotion {
       if constexpr (Finite) {
         const fpm::Tensor<2> begin =
             start.gradient + fpm::second_gradient_at(start.second_gradient, offset[k]);
-        admissible = follow(begin, change, sub[k], inverse_now[k], inverse_start[k], nullptr);
+        admissible = follow(begin, change, sub[k], inverse_now[k], nullptr);
       } else {
-        admissible =
-            follow(start.gradient, change, sub[k], inverse_now[k], inverse_start[k], nullptr);
+        admissible = follow(start.gradient, change, sub[k], inverse_now[k], nullptr);
       }
     }
   }
@@ -74,13 +71,11 @@ struct MixedMotion {
 
  private:
   static bool follow(const fpm::Tensor<2>& start, const fpm::Tensor<2>& change, Motion& motion,
-                     fpm::Tensor<2>& inverse_now, fpm::Tensor<2>& inverse_start, double* volume) {
+                     fpm::Tensor<2>& inverse_now, double* volume) {
     if constexpr (Finite) {
       const CurrentGradient<2> now(start, change);
       inverse_now = now.inverse;
-      inverse_start = inverse<2>(start);
-      motion =
-          constitutive::objective_increment<2>(fpm::Tensor<2>::Identity() + change * inverse_start);
+      motion = constitutive::objective_increment<2>(change, fpm::Tensor<2>(start + 0.5 * change));
       if (volume != nullptr) *volume *= now.determinant;
       return now.admissible() && motion.is_admissible();
     } else {
@@ -88,7 +83,6 @@ struct MixedMotion {
       motion.strain = symmetric<2>(change);
       motion.rotation.setIdentity();
       inverse_now.setIdentity();
-      inverse_start.setIdentity();
       return true;
     }
   }
@@ -192,7 +186,7 @@ bool MixedLaw<Finite>::linearise(const Material& material, const ParticleStart<2
     const auto particle = [&] {
       ObjectiveDerivative<2> d;
       if constexpr (Finite) {
-        d = derivative<2>(motion.particle, d_gradient * motion.particle_inverse_start);
+        d = derivative<2>(motion.particle, Tensor<2>(d_gradient));
       } else {
         d.strain = detail::symmetric<2>(d_gradient);
         d.rotation.setZero();
@@ -205,7 +199,7 @@ bool MixedLaw<Finite>::linearise(const Material& material, const ParticleStart<2
     for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
       d_sub[k] = d_gradient + fpm::second_gradient_at(d_second, motion.offset[k]);
       if constexpr (Finite) {
-        const auto d = derivative<2>(motion.sub[k], d_sub[k] * motion.inverse_start[k]);
+        const auto d = derivative<2>(motion.sub[k], d_sub[k]);
         const Eigen::Map<const StressVector<2>> begin(start.deviator + k * stress_size<2>);
         d_trial.deviator[k] = rotate_derivative<2>(begin, motion.sub[k].rotation, d.rotation) +
                               2.0 * material.moduli.shear *

@@ -31,9 +31,8 @@ void PlainLaw<Dim, Finite>::respond(const Material& material, const ParticleStar
   StressVector<Dim> trial;
   if constexpr (Finite) {
     const detail::CurrentGradient<Dim> now(start.gradient, increment.gradient);
-    const Tensor<Dim> relative =
-        Tensor<Dim>::Identity() + increment.gradient * detail::inverse<Dim>(start.gradient);
-    const auto motion = objective_increment<Dim>(relative);
+    const auto motion = objective_increment<Dim>(
+        increment.gradient, Tensor<Dim>(start.gradient + 0.5 * increment.gradient));
     if (!now.admissible() || !motion.is_admissible()) return;
     trial = elastic_trial(start.point.stress, motion, material.moduli);
     if (update(material, trial, start.point, response.point).status == UpdateStatus::failed) return;
@@ -65,15 +64,14 @@ bool PlainLaw<Dim, Finite>::linearise(const Material& material, const ParticleSt
   if (!base.admissible) return false;
   if constexpr (Finite) {
     const detail::CurrentGradient<Dim> now(start.gradient, increment.gradient);
-    const Tensor<Dim> start_inverse = detail::inverse<Dim>(start.gradient);
-    const auto motion =
-        objective_increment<Dim>(Tensor<Dim>::Identity() + increment.gradient * start_inverse);
+    const auto motion = objective_increment<Dim>(
+        increment.gradient, Tensor<Dim>(start.gradient + 0.5 * increment.gradient));
     const auto trial = elastic_trial(start.point.stress, motion, material.moduli);
     const TangentMatrix<Dim> on_trial = trial_tangent(material, trial, start.point);
     const double volume = start.reference_volume * now.determinant;
     for (int k = 0; k < Dim * Dim; ++k) {
       const Tensor<Dim> direction = detail::unit<Tensor<Dim>>(k);
-      const auto d = derivative<Dim>(motion, direction * start_inverse);
+      const auto d = derivative<Dim>(motion, direction);
       const StressVector<Dim> d_stress =
           on_trial * elastic_trial_derivative(start.point.stress, motion, d, material.moduli);
       // P = V sigma F^-T: dP = V dsigma F^-T + P (tr(F^-1 dF) I - (F^-1 dF)^T)

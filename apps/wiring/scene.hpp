@@ -97,7 +97,7 @@ struct Support {
   Point at;          // [m] the one nearest particle
   std::vector<Axis> directions;
   SupportMethod method = SupportMethod::direct;
-  double penalty_factor = 1e3;  // times Young's modulus
+  double penalty_factor = 1e2;  // times Young's modulus
   bool operator==(const Support&) const = default;
 };
 

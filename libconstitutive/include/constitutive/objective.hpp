@@ -12,11 +12,12 @@ namespace constitutive {
 /// Kinematics of one increment in the midpoint form; made by `objective_increment`.
 template <int Dim>
 struct ObjectiveIncrement {
-  SpatialMatrix<Dim> gradient;      ///< L = (dF - I) H [-].
+  SpatialMatrix<Dim> gradient;      ///< L [-].
   SpatialMatrix<Dim> strain;        ///< e = sym L [-].
   SpatialMatrix<Dim> rotation;      ///< Q = (I - w/2)^-1 (I + w/2), w = skew L; orthogonal.
-  SpatialMatrix<Dim> half_inverse;  ///< H = ((dF + I) / 2)^-1.
-  /// det((dF + I) / 2); the increment is usable only while it is > 0 (`is_admissible`).
+  SpatialMatrix<Dim> half_inverse;  ///< H, the inverse of the midpoint gradient.
+  /// Determinant of the midpoint gradient; the increment is usable only while it is > 0
+  /// (`is_admissible`).
   double midpoint_determinant = 0;
 
   /// False if the midpoint configuration is inverted, singular or not finite: shorten the step.
@@ -70,22 +71,32 @@ SpatialMatrix<Dim> cayley_rotation(const SpatialMatrix<Dim>& gradient) {
 
 }  // namespace detail
 
-/// Midpoint kinematics of the increment dF = F F_n^-1 (Hughes-Winget); closed form, no allocation.
+/// Midpoint kinematics of an increment of the deformation gradient, L = change midpoint^-1
+/// (Hughes-Winget); closed form, no allocation.
 ///
+/// With change = F - F_n and midpoint = (F + F_n) / 2 this is (dF - I) ((dF + I) / 2)^-1 of
+/// dF = F F_n^-1, without the inverse and without the cancellation in dF - I. H is midpoint^-1.
 /// Never fails: an inverted or non-finite midpoint shows in `is_admissible()`.
 template <int Dim>
-ObjectiveIncrement<Dim> objective_increment(const Eigen::Matrix<double, Dim, Dim>& dF) {
-  const SpatialMatrix<Dim> identity = SpatialMatrix<Dim>::Identity();
+ObjectiveIncrement<Dim> objective_increment(const Eigen::Matrix<double, Dim, Dim>& change,
+                                            const Eigen::Matrix<double, Dim, Dim>& midpoint) {
   ObjectiveIncrement<Dim> inc;
-  const SpatialMatrix<Dim> midpoint = (dF + identity) / 2;
   inc.half_inverse = detail::inverse_with_determinant(midpoint, inc.midpoint_determinant);
-  inc.gradient = (dF - identity) * inc.half_inverse;
+  inc.gradient = change * inc.half_inverse;
   inc.strain = (inc.gradient + inc.gradient.transpose()) / 2;
   inc.rotation = detail::cayley_rotation<Dim>(inc.gradient);
   return inc;
 }
 
-/// Exact directional derivative of `objective_increment` for a change d_dF of dF.
+/// The same from the relative deformation gradient dF = F F_n^-1.
+template <int Dim>
+ObjectiveIncrement<Dim> objective_increment(const Eigen::Matrix<double, Dim, Dim>& dF) {
+  const SpatialMatrix<Dim> identity = SpatialMatrix<Dim>::Identity();
+  return objective_increment<Dim>(dF - identity, (dF + identity) / 2);
+}
+
+/// Exact directional derivative of `objective_increment` for a change d_dF of dF, or of F where the
+/// increment was made from F - F_n.
 ///
 /// dL = (I - L/2) d_dF H, dQ = (I - w/2)^-1 (dw/2) (I + Q); and since (I - w/2)^-1 = (I + Q)/2,
 /// dQ = (I + Q) dw (I + Q) / 4, which needs no solve.
