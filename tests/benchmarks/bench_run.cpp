@@ -27,17 +27,30 @@ constexpr const char* usage =
     "       fpm-bench-run --list\n"
     "LOAD in (0, 1] is the load parameter to stop at; default: the body's own.\n";
 
+constexpr double most_threads = 4096;
+
 struct Request {
   std::string body;
   std::optional<double> to;
   int threads = 1;
 };
 
+rusage resources() {
+  rusage u{};
+  getrusage(RUSAGE_SELF, &u);
+  return u;
+}
+
 /// Largest resident memory of this process so far.
 double peak_bytes() {
-  rusage usage_so_far{};
-  getrusage(RUSAGE_SELF, &usage_so_far);
-  return static_cast<double>(usage_so_far.ru_maxrss) * 1024.0;  // Linux counts in KiB
+  return static_cast<double>(resources().ru_maxrss) * 1024.0;  // Linux counts in KiB
+}
+
+/// Processor time of all threads of this process so far [s].
+double processor_seconds() {
+  const rusage u = resources();
+  return static_cast<double>(u.ru_utime.tv_sec + u.ru_stime.tv_sec) +
+         1e-6 * static_cast<double>(u.ru_utime.tv_usec + u.ru_stime.tv_usec);
 }
 
 /// @returns whether every step converged
@@ -52,6 +65,7 @@ bool run(const Body& body, const wiring::Scene& scene, const Request& request) {
   long steps = 0;
   long evaluations = 0;
   bool converged = true;
+  const double processor_start = processor_seconds();
   const auto start = Clock::now();
   while (converged && !stepper.finished() && state.programme.load < to) {
     const wiring::StepResult result = stepper.advance();
@@ -61,9 +75,10 @@ bool run(const Body& body, const wiring::Scene& scene, const Request& request) {
     if (!converged) std::fprintf(stderr, "%s: %s\n", body.name.c_str(), result.reason.c_str());
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const double processor = processor_seconds() - processor_start;
   const auto n = static_cast<long>(model.size());
-  std::printf("%s,%ld,%d,%.6g,%ld,%ld,%.6g,%.0f\n", body.name.c_str(), n, request.threads,
-              state.programme.load, steps, evaluations, seconds,
+  std::printf("%s,%ld,%d,%.6g,%ld,%ld,%.6g,%.6g,%.0f\n", body.name.c_str(), n, request.threads,
+              state.programme.load, steps, evaluations, seconds, processor,
               (peak_bytes() - before) / static_cast<double>(n));
   return converged;
 }
@@ -85,8 +100,11 @@ Request read_arguments(int count, char** arguments) {
         throw std::invalid_argument("--to wants a number in (0, 1]");
       }
     } else if (argument == "--threads" && k + 1 < count) {
-      request.threads = static_cast<int>(number(arguments[++k]));
-      if (request.threads < 1) throw std::invalid_argument("--threads wants a number above 0");
+      const double threads = number(arguments[++k]);
+      if (!(threads >= 1.0 && threads <= most_threads)) {
+        throw std::invalid_argument("--threads wants a whole number from 1 to 4096");
+      }
+      request.threads = static_cast<int>(threads);
     } else if (request.body.empty() && !argument.starts_with("-")) {
       request.body = argument;
     } else {
