@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 
 #include "wiring/recorder.hpp"
@@ -38,9 +39,22 @@ class StopReasons {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
+/// A word as a shell reads it back.
+std::string quoted(const std::string& word) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("._-/=+,:@%").find(char(c)) != std::string::npos;
+  };
+  if (!word.empty() && std::ranges::all_of(word, plain)) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + "'";
+}
+
 std::string command_to_resume(const RunRequest& request) {
-  return fmt::format("fpm-run {} --out {} --resume", request.scene_file.string(),
-                     request.directory.string());
+  std::string command = "fpm-run " + quoted(request.scene_file.string());
+  for (const std::string& setting : request.settings) command += " --set " + quoted(setting);
+  return command + " --out " + quoted(request.directory.string()) + " --resume";
 }
 
 template <int Dim>

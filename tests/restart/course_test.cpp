@@ -1,0 +1,209 @@
+// How a run ends, and what may be changed when it goes on.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "restart.hpp"
+#include "wiring/curve.hpp"
+#include "wiring/scene_changes.hpp"
+#include "wiring/scene_reader.hpp"
+#include "wiring/stop_signals.hpp"
+
+namespace wiring::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+std::string log_of(const std::filesystem::path& folder) {
+  return bytes_of_file(folder / "run.log");
+}
+
+TEST(MaxWall, StopsResumablyBeforeTheFirstStepAndLosesNothing) {
+  const TemporaryFolder folder;
+  const auto whole = folder / "whole", stopped = folder / "stopped";
+  ASSERT_EQ(fpm_run_in(whole, footing).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(stopped, footing, {"--max-wall", "0.000000001s"}).code,
+            ExitCode::interrupted);
+  EXPECT_EQ(last_checkpoint(stopped), checkpoint_of(stopped, 0));
+  EXPECT_THAT(log_of(stopped), HasSubstr("interrupted by --max-wall at step 0; go on with: "));
+  ASSERT_EQ(fpm_run_in(stopped, footing, {"--resume"}).code, ExitCode::done);
+  EXPECT_THAT(differing_fields(last_checkpoint(whole), last_checkpoint(stopped)), IsEmpty());
+  EXPECT_EQ(curve_without_wall(stopped), curve_without_wall(whole));
+}
+
+// Sends a signal to this process once the curve of a run has some rows.
+std::thread signal_after_rows(const std::filesystem::path& folder, std::size_t rows, int number) {
+  return std::thread([folder, rows, number] {
+    using namespace std::chrono_literals;
+    while (curve_without_wall(folder).size() < rows + 1) std::this_thread::sleep_for(2ms);
+    ::kill(::getpid(), number);
+  });
+}
+
+TEST(Signal, StopsInTheMiddleOfAStepAndTheResumedRunIsBitIdentical) {
+  const std::vector<std::string> many_steps{"--set", "programme.steps=60", "--set",
+                                            "output.checkpoints_every=0"};
+  const auto resuming = [&] {
+    auto arguments = many_steps;
+    arguments.emplace_back("--resume");
+    return arguments;
+  }();
+  const TemporaryFolder folder;
+  const auto whole = folder / "whole";
+  ASSERT_EQ(fpm_run_in(whole, footing, many_steps).code, ExitCode::done);
+  for (const int number : {SIGINT, SIGTERM}) {
+    const auto stopped = folder / std::to_string(number);
+    std::thread sender = signal_after_rows(stopped, 5, number);
+    const Outcome outcome = fpm_run_in(stopped, footing, many_steps);
+    sender.join();
+    ASSERT_EQ(outcome.code, ExitCode::interrupted);
+    EXPECT_THAT(log_of(stopped), HasSubstr("--set programme.steps=60"));
+    ASSERT_EQ(fpm_run_in(stopped, footing, resuming).code, ExitCode::done);
+    EXPECT_THAT(differing_fields(last_checkpoint(whole), last_checkpoint(stopped)), IsEmpty());
+    EXPECT_EQ(curve_without_wall(stopped), curve_without_wall(whole));
+  }
+}
+
+TEST(SignalDeathTest, ASecondOneEndsTheProcessAtOnce) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto twice = [] {
+    const StopSignals signals;
+    std::raise(SIGINT);
+    if (signals.received() != SIGINT) ::_exit(1);
+    std::raise(SIGTERM);
+    ::_exit(2);
+  };
+  EXPECT_EXIT(twice(), ::testing::KilledBySignal(SIGTERM), "");
+}
+
+TEST(Finished, RunThatIsResumedSaysSoAndTouchesNothing) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  ASSERT_EQ(fpm_run_in(run, block).code, ExitCode::done);
+  const std::string curve = bytes_of_file(run / "curve.csv");
+  const std::string log = log_of(run);
+  const Outcome again = fpm_run_in(run, block, {"--resume"});
+  EXPECT_EQ(again.code, ExitCode::done);
+  EXPECT_THAT(again.out, HasSubstr("the run is finished at step 6; nothing to do"));
+  EXPECT_EQ(bytes_of_file(run / "curve.csv"), curve);
+  EXPECT_EQ(log_of(run), log);
+}
+
+TEST(Failure, NamesTheLastGoodCheckpointAndResumesWithTheAdvice) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  const std::vector<std::string> hopeless{"--set", "solver.max_evaluations_per_step=12", "--set",
+                                          "programme.minimum_increment_ratio=1.0"};
+  ASSERT_EQ(fpm_run_in(run, footing, hopeless).code, ExitCode::not_converged);
+  const auto checkpoint = last_checkpoint(run);
+  EXPECT_THAT(log_of(run), HasSubstr("the last good checkpoint is " + checkpoint.string()));
+  EXPECT_THAT(log_of(run), HasSubstr("Worst at particle "));
+  EXPECT_THAT(log_of(run), HasSubstr("Advice: "));
+  const Outcome resumed = fpm_run_in(run, footing, {"--resume"});
+  EXPECT_EQ(resumed.code, ExitCode::done) << resumed.err;
+  EXPECT_THAT(resumed.out, HasSubstr("changed: solver.max_evaluations_per_step: 12 -> 400"));
+}
+
+TEST(Failure, IsTheResultWhereTheSceneSaysSo) {
+  const TemporaryFolder folder;
+  const Outcome outcome = fpm_run_in(
+      folder / "run", footing,
+      {"--set", "solver.max_evaluations_per_step=12", "--set",
+       "programme.minimum_increment_ratio=1.0", "--set", "programme.stop_at_failure=false"});
+  EXPECT_EQ(outcome.code, ExitCode::done);
+  EXPECT_THAT(outcome.out, HasSubstr("the programme ends here"));
+}
+
+TEST(Changes, OfToleranceReSearchAndOutputAreTakenAndListed) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  ASSERT_EQ(fpm_run_in(run, footing, {"--set", "research.enabled=false"}).code, ExitCode::done);
+  const Outcome outcome = fpm_run_in(run, footing,
+                                     {"--resume=" + checkpoint_of(run, 18).string(), "--set",
+                                      "solver.tolerance=1e-4", "--set", "output.frames_every=1"});
+  ASSERT_EQ(outcome.code, ExitCode::done) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("changed: research.enabled: false -> true"));
+  EXPECT_THAT(outcome.out, HasSubstr("changed: solver.tolerance: absent -> 0.0001"));
+  EXPECT_THAT(outcome.out, HasSubstr("changed: output.frames_every: 4 -> 1"));
+  EXPECT_THAT(outcome.out, HasSubstr(" rows re-searched"));
+}
+
+TEST(Changes, OfTheBodyAreRefusedEachByName) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  ASSERT_EQ(fpm_run_in(run, footing, {"--max-wall", "0.000000001s"}).code, ExitCode::interrupted);
+  const std::string checkpoint = bytes_of_file(last_checkpoint(run));
+  const Outcome outcome =
+      fpm_run_in(run, footing,
+                 {"--resume", "--set", "material.soil.cohesion=2e3", "--set",
+                  "approximation.kernel=wendland_c2", "--set", "geometry.spacing=0.125"});
+  EXPECT_EQ(outcome.code, ExitCode::input_refused);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("material.0.cohesion: the checkpoint has 1000.0, the scene 2000.0"));
+  EXPECT_THAT(outcome.err, HasSubstr("approximation.kernel: "));
+  EXPECT_THAT(outcome.err, HasSubstr("geometry.spacing: "));
+  EXPECT_EQ(bytes_of_file(last_checkpoint(run)), checkpoint);
+}
+
+TEST(Changes, OfTheTargetGoOnFromTheSameSettlement) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  ASSERT_EQ(fpm_run_in(run, footing).code, ExitCode::done);
+  const double pressure = read_curve(run / "curve.csv").back().mean_pressure;
+  const Outcome outcome = fpm_run_in(run, footing, {"--resume", "--set", "drive.target=0.2"});
+  ASSERT_EQ(outcome.code, ExitCode::done) << outcome.err;
+  const auto rows = read_curve(run / "curve.csv");
+  EXPECT_EQ(rows.back().settlement, 0.2);
+  EXPECT_EQ(rows.back().load_parameter, 1.0);
+  const auto first = std::ranges::find(rows, 21, &CurveRow::step);
+  ASSERT_NE(first, rows.end());
+  // One step of the same length beyond 0.15 m.
+  EXPECT_NEAR(first->settlement, 0.15 + first->increment, 1e-12);
+  EXPECT_GT(first->mean_pressure, 0.9 * pressure);
+}
+
+TEST(Changes, OfTheTargetBehindTheCheckpointAreRefused) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  ASSERT_EQ(fpm_run_in(run, footing).code, ExitCode::done);
+  const Outcome outcome = fpm_run_in(run, footing, {"--resume", "--set", "drive.target=0.1"});
+  EXPECT_EQ(outcome.code, ExitCode::input_refused);
+  EXPECT_THAT(outcome.err, HasSubstr("drive.target: the checkpoint is already at 0.15 m"));
+}
+
+TEST(Check, WithResumeListsTheChangesAndWritesNothing) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  ASSERT_EQ(fpm_run_in(run, footing, {"--max-wall", "0.000000001s"}).code, ExitCode::interrupted);
+  const std::string log = log_of(run);
+  const Outcome outcome =
+      fpm_run_in(run, footing, {"--resume", "--check", "--set", "research.trigger=0.5"});
+  EXPECT_EQ(outcome.code, ExitCode::done);
+  EXPECT_THAT(outcome.out, HasSubstr("96 particles, 16 mirror ghosts"));
+  EXPECT_THAT(outcome.out, HasSubstr("changed: research.trigger: 0.02 -> 0.5"));
+  EXPECT_EQ(log_of(run), log);
+  EXPECT_EQ(fpm_run_in(folder / "new", footing, {"--check"}).code, ExitCode::done);
+  EXPECT_FALSE(std::filesystem::exists(folder / "new"));
+}
+
+TEST(SceneChanges, AreThoseKeysThatDiffer) {
+  const auto before = parse_scene(footing, "before");
+  const auto after =
+      parse_scene(footing, "after",
+                  std::vector<std::string>{"research.trigger=0.5", "material.0.density=1900.0"});
+  ASSERT_TRUE(before.scene && after.scene);
+  EXPECT_THAT(scene_changes(*before.scene, *before.scene), IsEmpty());
+  EXPECT_THAT(scene_changes(*before.scene, *after.scene),
+              ::testing::ElementsAre(SceneChange{"material.0.density", "1800.0", "1900.0", false},
+                                     SceneChange{"research.trigger", "0.02", "0.5", true}));
+}
+
+}  // namespace
+}  // namespace wiring::test

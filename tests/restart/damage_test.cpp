@@ -1,0 +1,150 @@
+// A damaged checkpoint is refused with its reason, or does no harm; never a wrong run.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "restart.hpp"
+#include "wiring/checkpoint_file.hpp"
+#include "wiring/content_digest.hpp"
+#include "wiring/hdf5_file.hpp"
+
+namespace wiring::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+void overwrite(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+/// Turns one bit of the first place where `pattern` stands.
+void damage(const std::filesystem::path& file, const std::string& pattern) {
+  std::string bytes = bytes_of_file(file);
+  const std::size_t at = bytes.find(pattern);
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + pattern.size() / 2] ^= 1;
+  overwrite(file, bytes);
+}
+
+/// The bytes of the stress of a checkpoint's first particles.
+std::string stress_bytes(const std::filesystem::path& checkpoint) {
+  const auto stress = Hdf5File::open(checkpoint).read_all<double>("/state/particles/stress");
+  const auto bytes = std::as_bytes(std::span(stress).first(16));
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+class DamagedCheckpoint : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    run_ = folder_ / "run";
+    ASSERT_EQ(fpm_run_in(run_, block).code, ExitCode::done);
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path run_;
+};
+
+TEST_F(DamagedCheckpoint, IsRefusedAndTheNextOlderUsableOneNamed) {
+  const auto newest = checkpoint_of(run_, 6), newer = checkpoint_of(run_, 5);
+  damage(newest, stress_bytes(newest));
+  overwrite(newer, bytes_of_file(newer).substr(0, 5000));
+  const Outcome outcome = fpm_run_in(run_, block, {"--resume=" + newest.string()});
+  EXPECT_EQ(outcome.code, ExitCode::checkpoint_unusable);
+  EXPECT_THAT(outcome.err, HasSubstr("/state/particles/stress"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("the next older usable one is " + checkpoint_of(run_, 4).string()));
+}
+
+TEST_F(DamagedCheckpoint, IsPassedOverWithAWarningWhenNoneIsNamed) {
+  const std::string curve = bytes_of_file(run_ / "curve.csv");
+  damage(checkpoint_of(run_, 6), stress_bytes(checkpoint_of(run_, 6)));
+  const Outcome outcome = fpm_run_in(run_, block, {"--resume"});
+  EXPECT_EQ(outcome.code, ExitCode::done) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("resuming from " + checkpoint_of(run_, 5).string()));
+  EXPECT_THAT(bytes_of_file(run_ / "run.log"), HasSubstr("step-000006.hdf: /state/particles"));
+}
+
+TEST_F(DamagedCheckpoint, IsNeverReplacedByAStartFromZero) {
+  for (int step = 1; step <= 6; ++step) overwrite(checkpoint_of(run_, step), "not HDF5");
+  const std::string curve = bytes_of_file(run_ / "curve.csv");
+  const Outcome outcome = fpm_run_in(run_, block, {"--resume"});
+  EXPECT_EQ(outcome.code, ExitCode::checkpoint_unusable);
+  EXPECT_THAT(outcome.err, HasSubstr("no checkpoint is usable"));
+  EXPECT_EQ(bytes_of_file(run_ / "curve.csv"), curve);
+
+  const Outcome nothing = fpm_run_in(folder_ / "nowhere", block, {"--resume"});
+  EXPECT_EQ(nothing.code, ExitCode::checkpoint_unusable);
+  EXPECT_THAT(nothing.err, HasSubstr("there is no checkpoint to resume from"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "nowhere"));
+}
+
+// Whether a checkpoint opens, and if it does, that it is what it was.
+bool opens_unchanged(const std::filesystem::path& damaged, const std::filesystem::path& sound) {
+  CheckpointNotes notes;
+  try {
+    (void)open_checkpoint(damaged, notes);
+  } catch (const FileError&) {
+    return false;
+  }
+  EXPECT_THAT(differing_fields(damaged, sound), ::testing::IsEmpty());
+  return true;
+}
+
+TEST_F(DamagedCheckpoint, OfAFlippedByteAnywhereIsRefusedOrIsWhatItWas) {
+  const auto sound = checkpoint_of(run_, 3), damaged = run_ / "damaged.hdf";
+  const std::string bytes = bytes_of_file(sound);
+  constexpr std::size_t places = 400;
+  int refused = 0;
+  for (std::size_t i = 0; i < places; ++i) {
+    std::string changed = bytes;
+    // A stride coprime to the alignment of HDF5, so that all kinds of bytes are met.
+    changed[i * (bytes.size() / places | 1U) % bytes.size()] ^= '\x10';
+    overwrite(damaged, changed);
+    refused += opens_unchanged(damaged, sound) ? 0 : 1;
+  }
+  EXPECT_GT(refused, 0);
+}
+
+TEST_F(DamagedCheckpoint, CutAnywhereIsRefused) {
+  const auto damaged = run_ / "damaged.hdf";
+  const std::string bytes = bytes_of_file(checkpoint_of(run_, 3));
+  for (std::size_t size = 0; size < bytes.size(); size += 1024) {
+    overwrite(damaged, bytes.substr(0, size));
+    EXPECT_FALSE(opens_unchanged(damaged, checkpoint_of(run_, 3))) << size << " bytes";
+  }
+}
+
+TEST_F(DamagedCheckpoint, FromAnotherProgramOrANewerOneIsRefusedByName) {
+  const auto file = run_ / "other.hdf";
+  Hdf5File::create(file).close();
+  const std::string from = "--resume=" + file.string();
+  EXPECT_THAT(fpm_run_in(run_, block, {from}).err, HasSubstr("is no checkpoint of this program"));
+  {
+    Hdf5File newer = Hdf5File::create(file);
+    const std::int64_t schema = checkpoint_schema + 1;
+    newer.write<std::int64_t>("/meta/schema", std::span(&schema, 1), {1});
+    newer.write_text("/meta/versions", "fpm-run 9.8.7");
+    newer.close();
+  }
+  const Outcome outcome = fpm_run_in(run_, block, {from});
+  EXPECT_EQ(outcome.code, ExitCode::checkpoint_unusable);
+  EXPECT_THAT(outcome.err, HasSubstr("has checkpoint schema 2 (written by fpm-run 9.8.7)"));
+}
+
+TEST(ContentDigest, DependsOnNamesAndEveryBitButNotOnTheOrder) {
+  const std::string a = "twelve bytes", b = "twelve bytez";
+  const auto digest = [](std::vector<std::pair<std::string, std::string>> datasets) {
+    ContentDigest sum;
+    for (const auto& [path, text] : datasets) sum.add(path, std::as_bytes(std::span(text)));
+    return sum.value();
+  };
+  EXPECT_EQ(digest({{"/a", a}, {"/b", b}}), digest({{"/b", b}, {"/a", a}}));
+  EXPECT_NE(digest({{"/a", a}, {"/b", b}}), digest({{"/a", b}, {"/b", a}}));
+  EXPECT_NE(digest({{"/a", a}}), digest({{"/a", b}}));
+  EXPECT_NE(digest({{"/a", a}}), digest({{"/a", a + '\0'}}));
+  EXPECT_NE(digest({{"/a", a}}), digest({{"/a", a}, {"/b", ""}}));
+}
+
+}  // namespace
+}  // namespace wiring::test

@@ -1,0 +1,144 @@
+// The output folder: nothing doubled, nothing missing, nothing lost.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "restart.hpp"
+#include "wiring/checkpoint_folder.hpp"
+#include "wiring/curve.hpp"
+#include "wiring/durable_file.hpp"
+#include "wiring/run_folder.hpp"
+#include "wiring/vtkhdf.hpp"
+
+namespace wiring::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<std::string> names_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+std::vector<std::string> frames_listed(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  const double all = 1e300;
+  const FrameSeries series = FrameSeries::resume(folder / "run.hdf.series", all);
+  for (const auto& entry : series.entries()) {
+    names.push_back(std::filesystem::path(entry.name).filename().string());
+  }
+  return names;
+}
+
+TEST(OutputFolder, OfAResumedRunHoldsEveryStepAndFrameOnce) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  ASSERT_EQ(fpm_run_in(run, footing).code, ExitCode::done);
+  const auto curve = curve_without_wall(run);
+  const auto frames = frames_listed(run);
+  EXPECT_EQ(names_in(run / "frames"), frames);
+  ASSERT_GE(frames.size(), 6U);
+  ASSERT_EQ(fpm_run_in(run, footing, {"--resume=" + checkpoint_of(run, 9).string()}).code,
+            ExitCode::done);
+  EXPECT_EQ(curve_without_wall(run), curve);
+  EXPECT_EQ(frames_listed(run), frames);
+  EXPECT_EQ(names_in(run / "frames"), frames);
+}
+
+TEST(OutputFolder, KeepsLaterCheckpointsOfACourseThatIsGivenUpUnderAnotherName) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  ASSERT_EQ(fpm_run_in(run, block).code, ExitCode::done);
+  const std::string from = "--resume=" + checkpoint_of(run, 2).string();
+  ASSERT_EQ(fpm_run_in(run, block, {from, "--max-wall", "0.000000001s"}).code,
+            ExitCode::interrupted);
+  EXPECT_EQ(last_checkpoint(run), checkpoint_of(run, 2));
+  EXPECT_THAT(names_in(run / "checkpoints"),
+              ElementsAre("step-000001.hdf", "step-000002.hdf", "step-000003.hdf.set-aside",
+                          "step-000004.hdf.set-aside", "step-000005.hdf.set-aside",
+                          "step-000006.hdf.set-aside"));
+}
+
+TEST(OutputFolder, ThatLostItsCurveGetsItBackFromTheCheckpoint) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  ASSERT_EQ(fpm_run_in(run, footing).code, ExitCode::done);
+  const auto curve = curve_without_wall(run);
+  std::filesystem::remove(run / "curve.csv");
+  std::filesystem::remove_all(run / "frames");
+  ASSERT_EQ(fpm_run_in(run, footing, {"--resume=" + checkpoint_of(run, 15).string()}).code,
+            ExitCode::done);
+  EXPECT_EQ(curve_without_wall(run), curve);
+}
+
+TEST(OutputFolder, KeepsResultsOfAnEarlierRunWhenResumeWasForgotten) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  ASSERT_EQ(fpm_run_in(run, block).code, ExitCode::done);
+  const std::string checkpoint = bytes_of_file(last_checkpoint(run));
+  const std::string curve = bytes_of_file(run / "curve.csv");
+  const Outcome again = fpm_run_in(run, block);
+  ASSERT_EQ(again.code, ExitCode::done);
+  EXPECT_THAT(again.out, HasSubstr("results of an earlier run are now in "));
+  EXPECT_EQ(bytes_of_file(last_checkpoint(run / "previous-1")), checkpoint);
+  EXPECT_EQ(bytes_of_file(run / "previous-1" / "curve.csv"), curve);
+}
+
+TEST(OutputFolder, KeepsTheNewestCheckpointsOnly) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  ASSERT_EQ(
+      fpm_run_in(run, block,
+                 {"--set", "output.checkpoints_every=2", "--set", "output.checkpoints_kept=2"})
+          .code,
+      ExitCode::done);
+  EXPECT_THAT(names_in(run / "checkpoints"), ElementsAre("step-000004.hdf", "step-000006.hdf"));
+}
+
+TEST(OutputFolder, IsRefusedToASecondRun) {
+  const TemporaryFolder folder;
+  const RunFolder held(folder / "run");
+  const Outcome second = fpm_run_in(folder / "run", block);
+  EXPECT_EQ(second.code, ExitCode::checkpoint_unusable);
+  EXPECT_THAT(second.err, HasSubstr("another run is writing here"));
+}
+
+TEST(OutputFolder, LosesTemporaryFilesOfAKilledRun) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  create_folder(run / "checkpoints");
+  const auto left = run / "checkpoints" / "step-000007.hdf.tmp-123";
+  std::ofstream(left) << "half";
+  ASSERT_EQ(fpm_run_in(run, block).code, ExitCode::done);
+  EXPECT_FALSE(std::filesystem::exists(left));
+}
+
+TEST(CheckpointName, IsReadBackAndOthersAreNot) {
+  EXPECT_EQ(checkpoint_name(120), "step-000120.hdf");
+  EXPECT_EQ(step_of("a/step-000120.hdf"), 120);
+  EXPECT_EQ(step_of(checkpoint_name(12345678)), 12345678);
+  for (const char* other : {"step-.hdf", "step-1x.hdf", "step-000120.hdf.set-aside",
+                            "step--00001.hdf", "frame-000120.hdf"}) {
+    EXPECT_EQ(step_of(other), std::nullopt) << other;
+  }
+}
+
+TEST(Checkpoint, OfAStepComesBeforeThatOfTenTimesTheStep) {
+  const TemporaryFolder folder;
+  for (const int step : {999999, 1000000, 20}) {
+    std::ofstream(folder / checkpoint_name(step)) << "x";
+  }
+  const auto found = list_checkpoints(folder.path());
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(step_of(found[0]), 1000000);
+  EXPECT_EQ(step_of(found[2]), 20);
+}
+
+}  // namespace
+}  // namespace wiring::test

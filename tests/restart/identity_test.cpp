@@ -1,0 +1,108 @@
+// A resumed run is the uninterrupted one, bit for bit, in every field and in the curve.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "restart.hpp"
+
+namespace wiring::test {
+namespace {
+
+using ::testing::IsEmpty;
+
+struct Case {
+  std::string name;
+  const std::string* scene;
+  std::vector<std::string> settings;
+  int steps_at_least = 0;
+  bool researches = false;
+  bool cuts = false;
+
+  std::vector<std::string> arguments(std::vector<std::string> more = {}) const {
+    for (const std::string& setting : settings) {
+      more.emplace_back("--set");
+      more.push_back(setting);
+    }
+    return more;
+  }
+};
+
+const std::vector<Case> cases{
+    {"mixed", &footing, {}, 20, true},
+    {"mixed_large_steps", &footing, {"programme.steps=3"}, 4, true, true},
+    {"mixed_small_strain",
+     &footing,
+     {"approximation.kinematics=small_strain", "research.enabled=false"},
+     20},
+    {"incremental", &footing, {"hourglass.control=incremental"}, 20, true},
+    {"viscosity", &footing, {"hourglass.control=viscosity"}, 20, true},
+    {"mohr_coulomb", &footing, {"material.0.model=mohr_coulomb"}, 20, true},
+    {"newton_krylov", &footing, {"solver.method=newton_krylov"}, 20, true},
+    {"consistency", &footing, {"approximation.consistency=on"}, 20, true},
+    {"block_3d", &block, {}, 6},
+};
+
+class Resume : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Resume, IsBitIdenticalToTheUninterruptedRunFromEveryCheckpoint) {
+  const Case& c = GetParam();
+  const TemporaryFolder folder;
+  const auto whole = folder / "whole";
+  ASSERT_EQ(fpm_run_in(whole, *c.scene, c.arguments()).code, ExitCode::done);
+  const auto curve = curve_without_wall(whole);
+  const int steps = static_cast<int>(curve.size()) - 2;  // header and row 0
+  ASSERT_GE(steps, c.steps_at_least);
+  if (c.cuts) {
+    ASSERT_GT(column_sum_after(whole, "cuts", 0), 0.0);
+  }
+
+  for (const int step : {1, steps / 2, steps - 1}) {
+    if (c.researches && step < steps / 2) {
+      ASSERT_GT(column_sum_after(whole, "researched_rows", step), 0.0);
+    }
+    const auto resumed = folder / ("from " + std::to_string(step));
+    const auto outcome = fpm_run_in(
+        resumed, *c.scene, c.arguments({"--resume=" + checkpoint_of(whole, step).string()}));
+    ASSERT_EQ(outcome.code, ExitCode::done) << outcome.err;
+    EXPECT_THAT(differing_fields(last_checkpoint(whole), last_checkpoint(resumed)), IsEmpty())
+        << "resumed from step " << step;
+    EXPECT_EQ(curve_without_wall(resumed), curve) << "resumed from step " << step;
+  }
+}
+
+TEST_P(Resume, OfAResumedRunIsBitIdenticalToo) {
+  const Case& c = GetParam();
+  const TemporaryFolder folder;
+  const auto whole = folder / "whole", second = folder / "second", third = folder / "third";
+  ASSERT_EQ(fpm_run_in(whole, *c.scene, c.arguments()).code, ExitCode::done);
+  ASSERT_EQ(
+      fpm_run_in(second, *c.scene, c.arguments({"--resume=" + checkpoint_of(whole, 1).string()}))
+          .code,
+      ExitCode::done);
+  ASSERT_EQ(
+      fpm_run_in(third, *c.scene, c.arguments({"--resume=" + checkpoint_of(second, 3).string()}))
+          .code,
+      ExitCode::done);
+  EXPECT_THAT(differing_fields(last_checkpoint(whole), last_checkpoint(third)), IsEmpty());
+  EXPECT_EQ(curve_without_wall(third), curve_without_wall(whole));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Resume, ::testing::ValuesIn(cases),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(Threads, ChangeNoBitOfARunNorOfItsResumption) {
+  for (const std::string* scene : {&footing, &block}) {
+    const TemporaryFolder folder;
+    const auto one = folder / "one", two = folder / "two", mixed = folder / "mixed";
+    ASSERT_EQ(fpm_run_in(one, *scene, {"--threads", "1"}).code, ExitCode::done);
+    ASSERT_EQ(fpm_run_in(two, *scene, {"--threads", "2"}).code, ExitCode::done);
+    const std::string from = "--resume=" + checkpoint_of(two, 3).string();
+    ASSERT_EQ(fpm_run_in(mixed, *scene, {"--threads", "1", from}).code, ExitCode::done);
+    EXPECT_THAT(differing_fields(last_checkpoint(one), last_checkpoint(two)), IsEmpty());
+    EXPECT_THAT(differing_fields(last_checkpoint(one), last_checkpoint(mixed)), IsEmpty());
+    EXPECT_EQ(curve_without_wall(one), curve_without_wall(two));
+    EXPECT_EQ(curve_without_wall(one), curve_without_wall(mixed));
+  }
+}
+
+}  // namespace
+}  // namespace wiring::test

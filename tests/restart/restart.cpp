@@ -1,0 +1,195 @@
+#include "restart.hpp"
+
+#include <cstring>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "wiring/checkpoint_folder.hpp"
+#include "wiring/cli.hpp"
+#include "wiring/curve.hpp"
+#include "wiring/hdf5_file.hpp"
+#include "wiring/run_loop.hpp"
+
+namespace wiring::test {
+
+const std::string footing = R"(
+title = "small footing"
+[geometry]
+dimension = 2
+min = [0.0, -2.0]
+max = [3.0, 0.0]
+spacing = 0.25
+[[material]]
+name = "soil"
+model = "drucker_prager"
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+cohesion = 1e3
+friction_angle = 20.0
+dilation_angle = 5.0
+density = 1800.0
+[[symmetry]]
+axis = "x"
+position = 0.0
+[[support]]
+name = "base"
+side = "bottom"
+directions = ["x", "y"]
+[[support]]
+name = "far side"
+side = "right"
+directions = ["x"]
+[gravity]
+acceleration = [0.0, -9.81]
+[initial_stress]
+kind = "geostatic"
+[drive]
+kind = "displacement"
+side = "top"
+range_min = 0.0
+range_max = 1.0
+direction = [0.0, -1.0]
+target = 0.15
+reference_length = 1.0
+width = 1.0
+[programme]
+steps = 20
+[research]
+enabled = true
+trigger = 0.02
+[output]
+frames_every = 4
+checkpoints_every = 1
+checkpoints_kept = 100
+)";
+
+const std::string block = R"(
+title = "small block"
+[geometry]
+dimension = 3
+min = [0.0, 0.0, 0.0]
+max = [1.0, 1.5, 1.0]
+spacing = 0.25
+layout = "vertex"
+[[material]]
+name = "block"
+model = "elastic"
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+density = 2000.0
+[[support]]
+name = "base"
+side = "bottom"
+directions = ["x", "y", "z"]
+[gravity]
+acceleration = [0.0, -9.81, 0.0]
+[drive]
+kind = "load"
+scales = ["gravity"]
+[programme]
+steps = 6
+[output]
+frames_every = 0
+checkpoints_every = 1
+checkpoints_kept = 100
+)";
+
+Outcome fpm_run_in(const std::filesystem::path& folder, const std::string& scene,
+                   const std::vector<std::string>& arguments) {
+  std::filesystem::path file = folder;
+  file += ".toml";
+  std::ofstream(file) << scene;
+  std::vector<std::string> all{file.string(), "--out", folder.string()};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  std::ostringstream out, err;
+  const ExitCode code = fpm_run(
+      all, out, err, [&](const RunRequest& request) { return run_programme(request, out, err); });
+  return {code, out.str(), err.str()};
+}
+
+std::filesystem::path last_checkpoint(const std::filesystem::path& folder) {
+  const auto all = list_checkpoints(folder / "checkpoints");
+  return all.empty() ? std::filesystem::path() : all.front();
+}
+
+std::filesystem::path checkpoint_of(const std::filesystem::path& folder, int step) {
+  return folder / "checkpoints" / checkpoint_name(step);
+}
+
+namespace {
+
+void collect(const Hdf5File& file, const std::string& group, std::set<std::string>& datasets) {
+  for (const std::string& name : file.list(group)) {
+    const std::string path = group + "/" + name;
+    if (file.is_group(path)) {
+      collect(file, path, datasets);
+    } else {
+      datasets.insert(path);
+    }
+  }
+}
+
+template <class T>
+std::string bits(const Hdf5File& file, const std::string& path) {
+  const std::vector<T> values = file.read_all<T>(path);
+  std::string bytes(values.size() * sizeof(T), '\0');
+  if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+std::string content(const Hdf5File& file, const std::string& path) {
+  if (!file.has(path)) return "absent";
+  const std::string type = file.info(path).type;
+  if (type == "float64") return type + bits<double>(file, path);
+  if (type == "int64") return type + bits<std::int64_t>(file, path);
+  if (type == "int32") return type + bits<std::int32_t>(file, path);
+  throw std::runtime_error(path + " has type " + type);
+}
+
+}  // namespace
+
+std::vector<std::string> differing_fields(const std::filesystem::path& a,
+                                          const std::filesystem::path& b) {
+  const Hdf5File first = Hdf5File::open(a);
+  const Hdf5File second = Hdf5File::open(b);
+  std::set<std::string> datasets;
+  collect(first, "/state", datasets);
+  collect(second, "/state", datasets);
+  std::vector<std::string> different;
+  for (const std::string& path : datasets) {
+    if (content(first, path) != content(second, path)) different.push_back(path);
+  }
+  if (datasets.empty()) different.emplace_back("there is no state");
+  return different;
+}
+
+std::vector<std::string> curve_without_wall(const std::filesystem::path& folder) {
+  std::ifstream file(folder / "curve.csv");
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) {
+    lines.push_back(line.substr(0, line.rfind(',')));
+  }
+  return lines;
+}
+
+double column_sum_after(const std::filesystem::path& folder, const std::string& column, int step) {
+  double sum = 0.0;
+  for (const CurveColumn& known : curve_columns()) {
+    if (known.name != column) continue;
+    for (const CurveRow& row : read_curve(folder / "curve.csv")) {
+      if (row.step <= step) continue;
+      sum +=
+          std::visit([&](auto member) { return static_cast<double>(row.*member); }, known.member);
+    }
+  }
+  return sum;
+}
+
+std::string bytes_of_file(const std::filesystem::path& file) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(file, std::ios::binary).rdbuf();
+  return bytes.str();
+}
+
+}  // namespace wiring::test

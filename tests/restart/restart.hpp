@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "../wiring/temporary_folder.hpp"
+#include "wiring/exit_code.hpp"
+
+namespace wiring::test {
+
+/// What a call of fpm-run came to.
+struct Outcome {
+  ExitCode code = ExitCode::bug;
+  std::string out;
+  std::string err;
+};
+
+/// A plane footing, a quarter of a second long, whose few particles shear enough for re-search.
+extern const std::string footing;
+/// A 3D elastic block whose weight grows.
+extern const std::string block;
+
+/// The program fpm-run with a scene that is written beside the output folder.
+Outcome fpm_run_in(const std::filesystem::path& folder, const std::string& scene,
+                   const std::vector<std::string>& arguments = {});
+
+/// The checkpoint of the largest step in an output folder.
+std::filesystem::path last_checkpoint(const std::filesystem::path& folder);
+/// The checkpoint of one step in an output folder.
+std::filesystem::path checkpoint_of(const std::filesystem::path& folder, int step);
+
+/// Every dataset below /state whose bits differ between two checkpoints, or that one of them lacks.
+std::vector<std::string> differing_fields(const std::filesystem::path& a,
+                                          const std::filesystem::path& b);
+
+/// The lines of a curve file without their last column, the wall time.
+std::vector<std::string> curve_without_wall(const std::filesystem::path& folder);
+
+/// Sum of a named column of a curve over the steps after `step`.
+double column_sum_after(const std::filesystem::path& folder, const std::string& column, int step);
+
+/// Content of a whole file.
+std::string bytes_of_file(const std::filesystem::path& file);
+
+}  // namespace wiring::test
