@@ -1,7 +1,8 @@
 """What the plot scripts share: running scenes once, reading curves and frames, one look.
 
 A script asks for runs by name. A run lives in out/plots/NAME of the repository and is used again
-until its scene or its settings change; --again runs everything anew.
+until its scene or its settings change; one that was interrupted goes on. --again runs everything
+anew.
 """
 
 import argparse
@@ -69,18 +70,24 @@ def run(options, name, scene, *settings, may_fail=False):
     if options.spacing:
         settings.append(f"geometry.spacing={options.spacing}")
     folder = OUT / name
-    stamp = folder / "plots.stamp"
+    begun, done = folder / "plots.begun", folder / "plots.done"
     wanted = "\n".join([*settings, file.read_text()])
-    if not options.again and stamp.exists() and stamp.read_text() == wanted:
+    if not options.again and done.exists() and done.read_text() == wanted:
         return folder
     command = [*PROGRAM, file, "--out", folder]
+    if not options.again and begun.exists() and begun.read_text() == wanted:
+        if any(folder.glob("checkpoints/*.hdf")):
+            command.append("--resume")
     for setting in settings:
         command += ["--set", setting]
     print(f"plots: running {scene} as {name}", file=sys.stderr)
+    folder.mkdir(parents=True, exist_ok=True)
+    begun.write_text(wanted)
+    done.unlink(missing_ok=True)
     code = subprocess.run(command, check=False).returncode
     if code != 0 and not (may_fail and code == 3):
         sys.exit(f"plots: {scene} ended with code {code}; see {folder}")
-    stamp.write_text(wanted)
+    done.write_text(wanted)
     return folder
 
 
