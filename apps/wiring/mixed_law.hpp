@@ -60,13 +60,13 @@ struct MixedMotion {
     }
   }
 
-  /// Deviatoric strain-like vector of sub-point k with the particle's in-plane dilation.
+  /// Deviatoric tensor components (xx yy zz xy) of a sub-point's strain, its in-plane dilation
+  /// replaced by the particle's.
   static constitutive::StressVector<2> deviatoric(const fpm::Tensor<2>& sub_strain,
-                                                  double particle_trace) {
-    fpm::Tensor<2> strain = sub_strain;
-    strain.diagonal().array() += 0.5 * (particle_trace - sub_strain.trace());
-    return constitutive::deviator(
-        constitutive::with_tensor_shear(constitutive::strain_vector<2>(strain)));
+                                                  double dilation) {
+    const double difference = 0.5 * (sub_strain(0, 0) - sub_strain(1, 1));
+    return {difference + dilation / 6.0, -difference + dilation / 6.0, -dilation / 3.0,
+            sub_strain(0, 1)};
   }
 
  private:

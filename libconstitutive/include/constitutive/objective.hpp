@@ -38,7 +38,7 @@ inline Eigen::Matrix2d inverse_with_determinant(const Eigen::Matrix2d& m, double
   determinant = m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0);
   Eigen::Matrix2d inverse;
   inverse << m(1, 1), -m(0, 1), -m(1, 0), m(0, 0);
-  return inverse / determinant;
+  return inverse * (1 / determinant);
 }
 
 inline Eigen::Matrix3d inverse_with_determinant(const Eigen::Matrix3d& m, double& determinant) {
@@ -47,7 +47,7 @@ inline Eigen::Matrix3d inverse_with_determinant(const Eigen::Matrix3d& m, double
   inverse.col(1) = m.row(2).cross(m.row(0)).transpose();
   inverse.col(2) = m.row(0).cross(m.row(1)).transpose();
   determinant = m.row(0).dot(inverse.col(0).transpose());
-  return inverse / determinant;
+  return inverse * (1 / determinant);
 }
 
 /// Cayley transform (I - A)^-1 (I + A) of the skew part A = w / 2 of L / 2, in closed form.
