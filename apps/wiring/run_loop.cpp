@@ -82,7 +82,8 @@ class Run {
       introduce(start, recorder);
       if (start.research_changed && scene_.research.enabled) {
         // The rule is new: a state that no step leads on from must not wait for one.
-        recorder.say(fmt::format("{} rows re-searched", stepper.research()));
+        const Eigen::Index rows = stepper.research();
+        if (rows > 0) recorder.say(fmt::format("{} rows re-searched", rows));
       }
       return advance(start.state, stepper, recorder, folder);
     } catch (const FileError& failure) {

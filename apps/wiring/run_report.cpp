@@ -22,9 +22,9 @@ std::string advice(const Scene& scene, const StepResult& result, double max_plas
     return "neighbourhoods are strained beyond research.trigger: resume with --set "
            "research.enabled=true";
   }
-  const int limit = scene.solver.max_evaluations_per_step;
-  if (result.record.evaluations >= limit && result.record.cuts == 0) {
-    return fmt::format("resume with --set solver.max_evaluations_per_step={}", 4 * limit);
+  if (result.status == jfnk::Status::evaluation_limit) {
+    return fmt::format("resume with --set solver.max_evaluations_per_step={}",
+                       4 * scene.solver.max_evaluations_per_step);
   }
   if (scene.drive.kind == DriveKind::load) {
     return "the load may be beyond what the body carries: drive a displacement instead";

@@ -117,6 +117,7 @@ bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult&
   record.residual_evaluations += report.counts.residuals();
   record.jacobian_actions += report.counts.user_actions;
   record.residual_ratio = report.residual_norm / std::max(report.reference_norm, 1e-300);
+  result.status = report.status;
   if (report.converged()) return true;
   result.reason = report.reason;
   result.worst_particle = -1;

@@ -43,7 +43,8 @@ enum class StepOutcome {
 struct StepResult {
   StepOutcome outcome = StepOutcome::converged;
   StepRecord record;
-  std::string reason;  // why the last attempt failed, and where
+  jfnk::Status status = jfnk::Status::converged;  // of the last attempt
+  std::string reason;                             // why the last attempt failed, and where
   fpm::Index worst_particle = -1;
 };
 

@@ -17,9 +17,10 @@
 namespace wiring::test {
 namespace {
 
+using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
 
 std::string log_of(const std::filesystem::path& folder) {
   return bytes_of_file(folder / "run.log");
@@ -96,29 +97,64 @@ TEST(Finished, RunThatIsResumedSaysSoAndTouchesNothing) {
   EXPECT_EQ(log_of(run), log);
 }
 
+// Goes on from step 10 with ten evaluations for ten digits: no step can converge.
+std::vector<std::string> hopeless(const std::filesystem::path& run) {
+  return {"--resume=" + checkpoint_of(run, 10).string(),
+          "--set",
+          "solver.tolerance=1e-10",
+          "--set",
+          "solver.max_evaluations_per_step=10",
+          "--set",
+          "programme.minimum_increment_ratio=1.0"};
+}
+
 TEST(Failure, NamesTheLastGoodCheckpointAndResumesWithTheAdvice) {
   const TemporaryFolder folder;
-  const auto run = folder / "run";
-  const std::vector<std::string> hopeless{"--set", "solver.max_evaluations_per_step=12", "--set",
-                                          "programme.minimum_increment_ratio=1.0"};
-  ASSERT_EQ(fpm_run_in(run, footing, hopeless).code, ExitCode::not_converged);
-  const auto checkpoint = last_checkpoint(run);
+  const auto whole = folder / "whole", run = folder / "run";
+  ASSERT_EQ(fpm_run_in(whole, footing).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(run, footing, hopeless(whole)).code, ExitCode::not_converged);
+  const auto checkpoint = checkpoint_of(run, 10);
+  EXPECT_EQ(last_checkpoint(run), checkpoint);
   EXPECT_THAT(log_of(run), HasSubstr("the last good checkpoint is " + checkpoint.string()));
   EXPECT_THAT(log_of(run), HasSubstr("Worst at particle "));
-  EXPECT_THAT(log_of(run), HasSubstr("Advice: "));
+  EXPECT_THAT(log_of(run), HasSubstr("Advice: resume with --set "
+                                     "solver.max_evaluations_per_step=40"));
+  // What was tried in vain has left no trace in the state.
+  EXPECT_THAT(differing_fields(checkpoint_of(whole, 10), checkpoint),
+              ElementsAre("/state/programme/easy_steps"));
   const Outcome resumed = fpm_run_in(run, footing, {"--resume"});
   EXPECT_EQ(resumed.code, ExitCode::done) << resumed.err;
-  EXPECT_THAT(resumed.out, HasSubstr("changed: solver.max_evaluations_per_step: 12 -> 400"));
+  EXPECT_THAT(resumed.out, HasSubstr("changed: solver.max_evaluations_per_step: 10 -> 400"));
 }
 
 TEST(Failure, IsTheResultWhereTheSceneSaysSo) {
   const TemporaryFolder folder;
-  const Outcome outcome = fpm_run_in(
-      folder / "run", footing,
-      {"--set", "solver.max_evaluations_per_step=12", "--set",
-       "programme.minimum_increment_ratio=1.0", "--set", "programme.stop_at_failure=false"});
+  const auto whole = folder / "whole";
+  ASSERT_EQ(fpm_run_in(whole, footing).code, ExitCode::done);
+  auto arguments = hopeless(whole);
+  arguments.insert(arguments.end(), {"--set", "programme.stop_at_failure=false"});
+  const Outcome outcome = fpm_run_in(folder / "run", footing, arguments);
   EXPECT_EQ(outcome.code, ExitCode::done);
   EXPECT_THAT(outcome.out, HasSubstr("the programme ends here"));
+}
+
+// Chen, Huang & Lyamin 2020, section 4.3: the paper's viscosity fails without re-search, and the
+// run is resumed with it. How far a real footing then goes is a matter of validation, not of this
+// test.
+TEST(Failure, OfStrainedNeighbourhoodsAdvisesReSearchWhichHappensBeforeTheNextStep) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  const std::vector<std::string> far{"--set", "hourglass.control=viscosity",
+                                     "--set", "programme.steps=100",
+                                     "--set", "drive.target=1.5"};
+  auto without = far, with = far;
+  without.insert(without.end(), {"--set", "research.enabled=false"});
+  with.emplace_back("--resume");
+  ASSERT_EQ(fpm_run_in(run, footing, without).code, ExitCode::not_converged);
+  EXPECT_THAT(log_of(run), HasSubstr("Advice: neighbourhoods are strained beyond "
+                                     "research.trigger: resume with --set research.enabled=true"));
+  with.insert(with.end(), {"--max-wall", "0.000000001s"});
+  EXPECT_THAT(fpm_run_in(run, footing, with).out, ContainsRegex("\n[1-9][0-9]* rows re-searched"));
 }
 
 TEST(Changes, OfToleranceReSearchAndOutputAreTakenAndListed) {
@@ -186,7 +222,7 @@ TEST(Check, WithResumeListsTheChangesAndWritesNothing) {
   const Outcome outcome =
       fpm_run_in(run, footing, {"--resume", "--check", "--set", "research.trigger=0.5"});
   EXPECT_EQ(outcome.code, ExitCode::done);
-  EXPECT_THAT(outcome.out, HasSubstr("96 particles, 16 mirror ghosts"));
+  EXPECT_THAT(outcome.out, HasSubstr("96 particles, 40 mirror ghosts"));
   EXPECT_THAT(outcome.out, HasSubstr("changed: research.trigger: 0.02 -> 0.5"));
   EXPECT_EQ(log_of(run), log);
   EXPECT_EQ(fpm_run_in(folder / "new", footing, {"--check"}).code, ExitCode::done);
@@ -201,8 +237,8 @@ TEST(SceneChanges, AreThoseKeysThatDiffer) {
   ASSERT_TRUE(before.scene && after.scene);
   EXPECT_THAT(scene_changes(*before.scene, *before.scene), IsEmpty());
   EXPECT_THAT(scene_changes(*before.scene, *after.scene),
-              ::testing::ElementsAre(SceneChange{"material.0.density", "1800.0", "1900.0", false},
-                                     SceneChange{"research.trigger", "0.02", "0.5", true}));
+              ElementsAre(SceneChange{"material.0.density", "1800.0", "1900.0", false},
+                          SceneChange{"research.trigger", "0.02", "0.5", true}));
 }
 
 }  // namespace

@@ -9,6 +9,9 @@ namespace {
 
 using ::testing::IsEmpty;
 
+// Spares the disk the checkpoints that a test does not look at.
+const std::string at_end_only = "output.checkpoints_every=0";
+
 struct Case {
   std::string name;
   const std::string* scene;
@@ -16,6 +19,8 @@ struct Case {
   int steps_at_least = 0;
   bool researches = false;
   bool cuts = false;
+
+  friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
   std::vector<std::string> arguments(std::vector<std::string> more = {}) const {
     for (const std::string& setting : settings) {
@@ -28,7 +33,12 @@ struct Case {
 
 const std::vector<Case> cases{
     {"mixed", &footing, {}, 20, true},
-    {"mixed_large_steps", &footing, {"programme.steps=3"}, 4, true, true},
+    {"mixed_with_cuts",
+     &footing,
+     {"programme.steps=6", "solver.max_evaluations_per_step=10"},
+     7,
+     true,
+     true},
     {"mixed_small_strain",
      &footing,
      {"approximation.kinematics=small_strain", "research.enabled=false"},
@@ -51,17 +61,18 @@ TEST_P(Resume, IsBitIdenticalToTheUninterruptedRunFromEveryCheckpoint) {
   const auto curve = curve_without_wall(whole);
   const int steps = static_cast<int>(curve.size()) - 2;  // header and row 0
   ASSERT_GE(steps, c.steps_at_least);
-  if (c.cuts) {
-    ASSERT_GT(column_sum_after(whole, "cuts", 0), 0.0);
-  }
 
   for (const int step : {1, steps / 2, steps - 1}) {
-    if (c.researches && step < steps / 2) {
+    if (c.researches && step < steps - 1) {
       ASSERT_GT(column_sum_after(whole, "researched_rows", step), 0.0);
+    }
+    if (c.cuts && step < steps / 2) {
+      ASSERT_GT(column_sum_after(whole, "cuts", step), 0.0);
     }
     const auto resumed = folder / ("from " + std::to_string(step));
     const auto outcome = fpm_run_in(
-        resumed, *c.scene, c.arguments({"--resume=" + checkpoint_of(whole, step).string()}));
+        resumed, *c.scene,
+        c.arguments({"--resume=" + checkpoint_of(whole, step).string(), "--set", at_end_only}));
     ASSERT_EQ(outcome.code, ExitCode::done) << outcome.err;
     EXPECT_THAT(differing_fields(last_checkpoint(whole), last_checkpoint(resumed)), IsEmpty())
         << "resumed from step " << step;
@@ -78,10 +89,11 @@ TEST_P(Resume, OfAResumedRunIsBitIdenticalToo) {
       fpm_run_in(second, *c.scene, c.arguments({"--resume=" + checkpoint_of(whole, 1).string()}))
           .code,
       ExitCode::done);
-  ASSERT_EQ(
-      fpm_run_in(third, *c.scene, c.arguments({"--resume=" + checkpoint_of(second, 3).string()}))
-          .code,
-      ExitCode::done);
+  ASSERT_EQ(fpm_run_in(third, *c.scene,
+                       c.arguments(
+                           {"--resume=" + checkpoint_of(second, 3).string(), "--set", at_end_only}))
+                .code,
+            ExitCode::done);
   EXPECT_THAT(differing_fields(last_checkpoint(whole), last_checkpoint(third)), IsEmpty());
   EXPECT_EQ(curve_without_wall(third), curve_without_wall(whole));
 }
