@@ -159,91 +159,111 @@ void MixedLaw<Finite>::respond(const Material& material, const ParticleStart<2>&
   response.admissible = true;
 }
 
+namespace detail {
+
+/// Changes along one direction (gradient, second gradient) of a particle's increment.
+struct MixedDirection {
+  fpm::Tensor<2> gradient;
+  std::array<fpm::Tensor<2>, fpm::subpoint_count> sub;  // at the sub-points
+  fpm::Tensor<2> rotation;                              // dQ of the particle
+  Trial trial;                                          // of the trial stress
+};
+
+template <bool Finite, class Material>
+MixedDirection differentiate_trial(const Material& material, const ParticleStart<2>& start,
+                                   const MixedMotion<Finite>& motion,
+                                   const fpm::Tensor<2>& gradient,
+                                   const fpm::SecondGradient& second) {
+  using namespace constitutive;
+  MixedDirection d;
+  d.gradient = gradient;
+  fpm::Tensor<2> strain = symmetric<2>(gradient);
+  d.rotation.setZero();
+  if constexpr (Finite) {
+    const auto particle = derivative<2>(motion.particle, gradient);
+    strain = particle.strain;
+    d.rotation = particle.rotation;
+  }
+  const double dilation = strain.trace();
+  const double twice_shear = 2.0 * material.moduli.shear;
+  d.trial.pressure = material.moduli.bulk * dilation;
+  for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
+    d.sub[k] = gradient + fpm::second_gradient_at(second, motion.offset[k]);
+    if constexpr (Finite) {
+      const auto sub = derivative<2>(motion.sub[k], d.sub[k]);
+      const Eigen::Map<const StressVector<2>> begin(start.deviator + k * stress_size<2>);
+      d.trial.deviator[k] = rotate_derivative<2>(begin, motion.sub[k].rotation, sub.rotation) +
+                            twice_shear * MixedMotion<Finite>::deviatoric(sub.strain, dilation);
+    } else {
+      d.trial.deviator[k] =
+          twice_shear * MixedMotion<Finite>::deviatoric(symmetric<2>(d.sub[k]), dilation);
+    }
+  }
+  return d;
+}
+
+/// Product rule over volume, stress and inverse gradients: (dP, dT) of a stress change.
+template <bool Finite>
+Eigen::Matrix<double, 10, 1> differentiate_forces(
+    const MixedMotion<Finite>& motion, const constitutive::MixedResult<fpm::subpoint_count>& stress,
+    const Trial& change, const MixedDirection& d) {
+  using fpm::Tensor;
+  const double log_volume = Finite ? (motion.particle_inverse_now * d.gradient).trace() : 0.0;
+  double spherical = stress.pressure;
+  double d_spherical = change.pressure;
+  Tensor<2> nominal = Tensor<2>::Zero();
+  fpm::SecondGradient second = fpm::SecondGradient::Zero();
+  for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
+    const double share = fpm::subpoint_weights[k];
+    spherical += 0.5 * share * (stress.deviator[k][0] + stress.deviator[k][1]);
+    d_spherical += 0.5 * share * (change.deviator[k][0] + change.deviator[k][1]);
+    const Tensor<2> inverse_t = motion.inverse_now[k].transpose();
+    Tensor<2> own = plane_deviator(change.deviator[k]) * inverse_t;
+    if constexpr (Finite) {
+      const Tensor<2> base = plane_deviator(stress.deviator[k]) * inverse_t;
+      own += log_volume * base - base * d.sub[k].transpose() * inverse_t;
+    }
+    own *= motion.volume * share;
+    nominal += own;
+    fpm::add_second_stress(own, motion.offset[k], second);
+  }
+  const Tensor<2> inverse_t = motion.particle_inverse_now.transpose();
+  Tensor<2> sphere = d_spherical * inverse_t;
+  if constexpr (Finite) {
+    sphere += spherical * (log_volume * inverse_t - inverse_t * d.gradient.transpose() * inverse_t);
+  }
+  nominal += motion.volume * sphere;
+  Eigen::Matrix<double, 10, 1> forces;
+  forces << flat(nominal), flat(second);
+  return forces;
+}
+
+}  // namespace detail
+
 template <bool Finite>
 template <class Material>
 bool MixedLaw<Finite>::linearise(const Material& material, const ParticleStart<2>& start,
                                  const ParticleIncrement<2>& increment,
                                  ParticleTangent<2, true>& tangent) {
-  using namespace constitutive;
-  using fpm::Tensor;
   const detail::MixedMotion<Finite> motion(start, increment);
   if (!motion.admissible) return false;
   const detail::Trial trial = detail::mixed_trial(material, start, motion);
   const double plastic_volume = start.point.plastic_volume_strain;
-  const auto result = mixed_return(material, trial, fpm::subpoint_weights, plastic_volume);
-  if (result.status == UpdateStatus::failed) return false;
+  const auto stress =
+      constitutive::mixed_return(material, trial, fpm::subpoint_weights, plastic_volume);
+  if (stress.status == constitutive::UpdateStatus::failed) return false;
   const auto on_trial =
-      mixed_tangent(material, trial, fpm::subpoint_weights, plastic_volume, result);
-
+      constitutive::mixed_tangent(material, trial, fpm::subpoint_weights, plastic_volume, stress);
   constexpr int size = generalised_size<2, true>;
   for (int column = 0; column < size; ++column) {
-    const auto direction = detail::unit<Eigen::Matrix<double, size, 1>>(column);
-    const Eigen::Map<const Tensor<2>> d_gradient(direction.data());
-    const Eigen::Map<const fpm::SecondGradient> d_second(direction.data() + 4);
-
-    // Trial stress along this direction.
-    detail::Trial d_trial;
-    const auto particle = [&] {
-      ObjectiveDerivative<2> d;
-      if constexpr (Finite) {
-        d = derivative<2>(motion.particle, Tensor<2>(d_gradient));
-      } else {
-        d.strain = detail::symmetric<2>(d_gradient);
-        d.rotation.setZero();
-      }
-      return d;
-    }();
-    const double dilation = particle.strain.trace();
-    d_trial.pressure = material.moduli.bulk * dilation;
-    std::array<Tensor<2>, fpm::subpoint_count> d_sub;
-    for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
-      d_sub[k] = d_gradient + fpm::second_gradient_at(d_second, motion.offset[k]);
-      if constexpr (Finite) {
-        const auto d = derivative<2>(motion.sub[k], d_sub[k]);
-        const Eigen::Map<const StressVector<2>> begin(start.deviator + k * stress_size<2>);
-        d_trial.deviator[k] = rotate_derivative<2>(begin, motion.sub[k].rotation, d.rotation) +
-                              2.0 * material.moduli.shear *
-                                  detail::MixedMotion<Finite>::deviatoric(d.strain, dilation);
-      } else {
-        d_trial.deviator[k] =
-            2.0 * material.moduli.shear *
-            detail::MixedMotion<Finite>::deviatoric(detail::symmetric<2>(d_sub[k]), dilation);
-      }
-    }
-    on_trial.apply_to_trial(d_trial, d_trial);
-
-    // Product rule over volume, stress and inverse gradients.
-    const double d_log_volume = Finite ? (motion.particle_inverse_now * d_gradient).trace() : 0.0;
-    double spherical = result.pressure;
-    double d_spherical = d_trial.pressure;
-    Tensor<2> d_nominal = Tensor<2>::Zero();
-    fpm::SecondGradient d_second_stress = fpm::SecondGradient::Zero();
-    for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
-      const double share = fpm::subpoint_weights[k];
-      const StressVector<2>& s = result.deviator[k];
-      const StressVector<2>& ds = d_trial.deviator[k];
-      spherical += 0.5 * share * (s[0] + s[1]);
-      d_spherical += 0.5 * share * (ds[0] + ds[1]);
-      const Tensor<2> inverse_t = motion.inverse_now[k].transpose();
-      Tensor<2> d_own = detail::plane_deviator(ds) * inverse_t;
-      if constexpr (Finite) {
-        const Tensor<2> own = detail::plane_deviator(s) * inverse_t;
-        d_own += d_log_volume * own - own * d_sub[k].transpose() * inverse_t;
-      }
-      d_own *= motion.volume * share;
-      d_nominal += d_own;
-      fpm::add_second_stress(d_own, motion.offset[k], d_second_stress);
-    }
-    const Tensor<2> inverse_t = motion.particle_inverse_now.transpose();
-    Tensor<2> d_sphere = d_spherical * inverse_t;
-    if constexpr (Finite) {
-      d_sphere +=
-          spherical * (d_log_volume * inverse_t - inverse_t * d_gradient.transpose() * inverse_t);
-    }
-    d_nominal += motion.volume * d_sphere;
-    tangent.stress.template block<4, 1>(0, column) = detail::flat(d_nominal);
-    tangent.stress.template block<6, 1>(4, column) = detail::flat(d_second_stress);
-    if (column < 4) tangent.rotation.col(column) = detail::flat(particle.rotation);
+    const auto unit = detail::unit<Eigen::Matrix<double, size, 1>>(column);
+    const fpm::Tensor<2> gradient = Eigen::Map<const fpm::Tensor<2>>(unit.data());
+    const fpm::SecondGradient second = Eigen::Map<const fpm::SecondGradient>(unit.data() + 4);
+    const auto d = detail::differentiate_trial(material, start, motion, gradient, second);
+    detail::Trial change;
+    on_trial.apply_to_trial(d.trial, change);
+    tangent.stress.col(column) = detail::differentiate_forces(motion, stress, change, d);
+    if (column < 4) tangent.rotation.col(column) = detail::flat(d.rotation);
   }
   return true;
 }

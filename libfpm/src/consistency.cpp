@@ -78,7 +78,7 @@ Eigen::SparseMatrix<double> assemble(const Rows<Dim>& rows, const MirrorGhosts<D
 // largest.
 class RegularisedSolver {
  public:
-  explicit RegularisedSolver(Eigen::SparseMatrix<double> lower) : lower_(std::move(lower)) {
+  explicit RegularisedSolver(const Eigen::SparseMatrix<double>& lower) : lower_(lower) {
     constexpr double regularisation = 1e-10;
     Eigen::SparseMatrix<double> shifted = lower_;
     shifted.diagonal().array() += regularisation * lower_.diagonal().maxCoeff();

@@ -120,8 +120,10 @@ void serialize(Archive& archive, constitutive::PointState<Dim>& s, unsigned int 
 /// Class version of every dimension of `PointState` (Boost's macro takes no templates).
 template <int Dim>
 struct version<constitutive::PointState<Dim>> {
+  // NOLINTBEGIN(readability-identifier-naming): the names are Boost's.
   using type = mpl::int_<constitutive::point_state_version>;
   using tag = mpl::integral_c_tag;
+  // NOLINTEND(readability-identifier-naming)
   static constexpr int value = constitutive::point_state_version;
 };
 
