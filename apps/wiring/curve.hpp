@@ -32,7 +32,7 @@ struct CurveRow {
   std::int64_t researched_rows = 0;
   double residual_ratio = 0.0;        // at the end of the step, over what the tolerance is of
   double max_plastic_strain = 0.0;    // equivalent, accumulated
-  double hourglass_work_ratio = 0.0;  // work of the control over that of the drive, this step
+  double hourglass_work_ratio = 0.0;  // work of the control over that of the loads, so far
   double wall = 0.0;                  // [s] since the run began; the one column that may differ
   bool operator==(const CurveRow&) const = default;
 };

@@ -219,6 +219,7 @@ void Equilibrium<Dim>::add_boundary_actions(const Eigen::VectorXd& v, Eigen::Vec
 }
 
 // Sum over pairs of k kappa y . (e - e(n)): what the control took from the work of the loads.
+// Departure: not in the paper (share/doc/decisions/energy-corrected-load.md).
 template <int Dim>
 double Equilibrium<Dim>::hourglass_work(const Eigen::VectorXd& increment) const {
   if (!model_.channels.pair) return 0.0;

@@ -12,6 +12,7 @@ namespace wiring {
 /// which leaves the two unknowns per dilation constraint that collapse needs. Forces are
 /// work-conjugate: with A = dev2 s_k the in-plane deviator of s_k and tr2 its in-plane trace,
 ///   P = V ((p + sum w tr2(s_k) / 2) F^-T + sum w A_k F_k^-T),  T = V sum w (A_k F_k^-T) x xi_k.
+/// Departure: not in Chen, Huang & Lyamin 2020 (share/doc/decisions/mixed-subpoints.md).
 template <bool Finite>
 struct MixedLaw {
   static constexpr bool mixed = true;

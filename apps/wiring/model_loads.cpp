@@ -76,6 +76,7 @@ bool scales_with(const Scene& scene, LoadKind kind) {
          std::find(scales.begin(), scales.end(), kind) != scales.end();
 }
 
+// Departure: weight is lumped to the particles, not spread by N^T (share/doc/decisions/gravity.md).
 template <int Dim>
 void add_gravity(const Scene& scene, Model<Dim>& model) {
   if (scene.gravity.acceleration.empty()) return;

@@ -40,7 +40,7 @@ void TwoLevelPreconditioner<Dim>::build_blocks(const Model<Dim>& model,
   const bool pair = model.channels.pair;
   const bool second = model.channels.second;
   const int second_channel = Dim + (pair ? 1 + Dim : 0);
-  Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic> sum(Dim * Dim, size_);
+  Blocks sum(Dim * Dim, size_);
   sum.setZero();
   const auto add = [&](fpm::Index node, const Tensor& block) {
     if (node >= size_) node = model.ghosts.source(node - static_cast<fpm::Index>(size_));
@@ -89,6 +89,13 @@ void TwoLevelPreconditioner<Dim>::build_blocks(const Model<Dim>& model,
     if (second) block += subpoint_block(own_second);
     add(a, block);
   }
+  add_penalty_blocks(model, sum);
+  invert_blocks(sum);
+}
+
+template <int Dim>
+void TwoLevelPreconditioner<Dim>::add_penalty_blocks(const Model<Dim>& model, Blocks& sum) const {
+  using Vector = fpm::Vector<Dim>;
   for (const PenaltySupport<Dim>& support : model.penalty_supports) {
     fpm::Field<Dim> values = fpm::Field<Dim>::Zero(size_, Dim);
     for (fpm::Index c = 0; c < support.points.size(); ++c) {
@@ -103,6 +110,11 @@ void TwoLevelPreconditioner<Dim>::build_blocks(const Model<Dim>& model,
       }
     }
   }
+}
+
+template <int Dim>
+void TwoLevelPreconditioner<Dim>::invert_blocks(const Blocks& sum) {
+  using Tensor = fpm::Tensor<Dim>;
   block_inverse_.resize(Dim * Dim, size_);
   for (Eigen::Index a = 0; a < size_; ++a) {
     Tensor block = Eigen::Map<const Tensor>(sum.col(a).data());

@@ -18,6 +18,7 @@ namespace wiring {
 /// the particles, and P interpolates from the grid. Iterations stay bounded as particles grow.
 ///
 /// Unknowns that are prescribed get z = 0.
+/// Departure: Chen, Huang & Lyamin 2020 use none (share/doc/decisions/preconditioner.md).
 template <int Dim>
 class TwoLevelPreconditioner {
  public:
@@ -33,8 +34,11 @@ class TwoLevelPreconditioner {
 
  private:
   using FloatMatrix = Eigen::SparseMatrix<float>;
+  using Blocks = Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic>;
   void build_blocks(const Model<Dim>& model, const fpm::MomentOperator<Dim>& op);
   void build_grid(const Model<Dim>& model, double grid_spacing);
+  void add_penalty_blocks(const Model<Dim>& model, Blocks& sum) const;
+  void invert_blocks(const Blocks& sum);
   void add_grid_supports(const Model<Dim>& model,
                          std::vector<Eigen::Triplet<double>>& entries) const;
   void interpolation_of(const Eigen::Matrix<double, 1, Dim>& position,
@@ -44,7 +48,7 @@ class TwoLevelPreconditioner {
 
   Eigen::Index size_ = 0;
   std::vector<char> prescribed_;
-  Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic> block_inverse_;
+  Blocks block_inverse_;
 
   // The grid.
   fpm::Vector<Dim> origin_, cell_;

@@ -204,6 +204,8 @@ void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
 
 // Rows that have strained plastically since their last search get new neighbours; stress and
 // history stay with the particle, and the next step absorbs the small loss of equilibrium.
+// Departure: with hysteresis, and without a separate return to equilibrium
+// (share/doc/decisions/re-search.md).
 template <int Dim>
 Eigen::Index LoadStepper<Dim>::research() {
   if (!scene_.research.enabled || !state_.layout.finite || !state_.layout.plastic) return 0;
