@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "../wiring/temporary_folder.hpp"
 #include "wiring/exit_code.hpp"
+#include "wiring/temporary_folder.hpp"
 
 namespace wiring::test {
 

@@ -3,8 +3,8 @@
 
 #include <omp.h>
 
-#include "../libfpm/allocation_count.hpp"
 #include "bodies.hpp"
+#include "libfpm/allocation_count.hpp"
 #include "run.hpp"
 
 namespace verification {

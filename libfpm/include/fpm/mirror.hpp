@@ -17,8 +17,9 @@ struct SymmetryPlane {
 /// A ghost has no row of its own: it serves real rows as a neighbour. With E the linear map that
 /// extends a nodal field to the ghosts, strains are W E u and forces E^T W^T S, so the half model
 /// is exactly the symmetric full one.
-/// Departure: not in Chen, Huang & Lyamin 2020 (share/doc/decisions/mirror-ghosts.md). (A particle on the plane has no image and keeps the volume it
-/// is given, so a vertex lattice cut at a plane is only close to the full one.)
+/// (A particle on the plane has no image and keeps the volume it is given, so a vertex lattice cut
+/// at a plane is only close to the full one.)
+/// Departure: not in Chen, Huang & Lyamin 2020 (share/doc/decisions/mirror-ghosts.md).
 template <int Dim>
 class MirrorGhosts {
  public:
