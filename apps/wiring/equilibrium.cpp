@@ -235,7 +235,7 @@ double Equilibrium<Dim>::hourglass_work(const Eigen::VectorXd& increment) const 
   };
   double work = 0.0;
   for (fpm::Index a = 0; a < operator_.size(); ++a) {
-    const ParticleStart<Dim> start = start_of(a);
+    const auto start = start_of<double>(a);
     Tensor gradient = Tensor::Zero();
     operator_.for_each_entry(a, [&](fpm::Index b, const double* w) {
       gradient += difference(extended, a, b) * Eigen::Map<const Eigen::Matrix<double, 1, Dim>>(w);

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "fpm/hourglass.hpp"
 #include "fpm/moment_operator.hpp"
 #include "fpm/viscosity.hpp"
 #include "jfnk/residual.hpp"
+#include "wiring/lanes.hpp"
 #include "wiring/local_response.hpp"
 #include "wiring/model.hpp"
 #include "wiring/state.hpp"
@@ -88,8 +90,10 @@ class Equilibrium {
   void assemble(const double* field, double* force);
   void add_boundary_terms(const Eigen::VectorXd& increment);
   void add_boundary_actions(const Eigen::VectorXd& v, Eigen::VectorXd& jv);
-  ParticleStart<Dim> start_of(Eigen::Index a) const;
-  fpm::PairRow<Dim> pair_row(Eigen::Index a) const;
+  template <class Real>
+  ParticleStart<Dim, Real> start_of(Eigen::Index a) const;
+  template <class Real>
+  fpm::PairRow<Dim, Real> pair_row(Eigen::Index a) const;
   double hourglass_work(const Eigen::VectorXd& increment) const;
 
   const Model<Dim>& model_;
@@ -116,8 +120,8 @@ class Equilibrium {
   Eigen::VectorXd force_;
   Eigen::VectorXd own_force_;
   Eigen::VectorXd unmasked_;
-  Eigen::VectorXd tangent_;  // of all particles, after linearise
-  Eigen::Matrix<double, Dim * Dim * Dim * Dim, Eigen::Dynamic> rotation_tangent_;
+  Eigen::VectorXd tangent_;  // of all particles, after linearise (TangentLayout)
+  Eigen::VectorXd rotation_tangent_;
   Eigen::VectorXd base_increment_;            // of the latest linearise, where a term needs it
   fpm::Field<Dim * Dim> inverse_transposed_;  // F^-T of each row, with the paper's viscosity
   Eigen::VectorXd volume_;                    // V_a, with the paper's viscosity
@@ -126,38 +130,47 @@ class Equilibrium {
   EvaluationFailure failure_;
 };
 
-// Inline for the loops over particles.
+// Inline for the loops over particles: of particle `a`, and with Lanes of those behind it, too.
 template <int Dim>
-fpm::PairRow<Dim> Equilibrium<Dim>::pair_row(Eigen::Index a) const {
-  const auto row = static_cast<fpm::Index>(a);
-  fpm::PairRow<Dim> pair;
-  pair.first_moment = operator_.first_moment(row);
-  pair.second_moment = operator_.second_moment(row);
-  pair.memory_first = memory_first_.col(a);
-  pair.memory_second = Eigen::Map<const fpm::Tensor<Dim>>(memory_second_.col(a).data());
-  for (int i = 0; i < Dim; ++i) pair.position[i] = position_[i * operator_.stride() + a];
-  pair.gradient = Eigen::Map<const fpm::Tensor<Dim>>(pair_gradient_.col(a).data());
+template <class Real>
+fpm::PairRow<Dim, Real> Equilibrium<Dim>::pair_row(Eigen::Index a) const {
+  fpm::PairRow<Dim, Real> pair;
+  for (int i = 0; i < Dim; ++i) {
+    pair.first_moment[i] = load<Real>(operator_.first_moments(i) + a);
+    pair.position[i] = load<Real>(position_.data() + i * operator_.stride() + a);
+  }
+  load_columns<Dim * Dim>(operator_.second_moments() + a * Dim * Dim, pair.second_moment.data());
+  load_columns<Dim>(memory_first_.col(a).data(), pair.memory_first.data());
+  load_columns<Dim * Dim>(memory_second_.col(a).data(), pair.memory_second.data());
+  load_columns<Dim * Dim>(pair_gradient_.col(a).data(), pair.gradient.data());
   return pair;
 }
 
 template <int Dim>
-ParticleStart<Dim> Equilibrium<Dim>::start_of(Eigen::Index a) const {
-  ParticleStart<Dim> start;
+template <class Real>
+ParticleStart<Dim, Real> Equilibrium<Dim>::start_of(Eigen::Index a) const {
+  using State = wiring::State<Dim>;
+  ParticleStart<Dim, Real> start;
   if (model_.layout.finite) {
-    start.gradient = Eigen::Map<const fpm::Tensor<Dim>>(state_.deformation_gradient.col(a).data());
+    load_columns<Dim * Dim>(state_.deformation_gradient.col(a).data(), start.gradient.data());
   } else {
     start.gradient.setIdentity();
   }
-  start.reference_volume = state_.rows.reference_volume()[a];
-  start.point.stress = state_.stress.col(a);
+  start.reference_volume = load<Real>(state_.rows.reference_volume().data() + a);
+  load_columns<State::stress_rows>(state_.stress.col(a).data(), start.point.stress.data());
   if (model_.layout.plastic) {
-    start.point.plastic_strain = state_.plastic_strain[a];
-    start.point.plastic_volume_strain = state_.plastic_volume_strain[a];
+    start.point.plastic_strain = load<Real>(state_.plastic_strain.data() + a);
+    start.point.plastic_volume_strain = load<Real>(state_.plastic_volume_strain.data() + a);
   }
   if constexpr (Dim == 2) {
     if (model_.layout.subpoints) {
-      start.second_gradient = Eigen::Map<const fpm::SecondGradient>(second_gradient_.col(a).data());
-      start.deviator = state_.subpoint_deviator.col(a).data();
+      load_columns<6>(second_gradient_.col(a).data(), start.second_gradient.data());
+      std::array<Real, State::subpoint_rows> deviator;
+      load_columns<State::subpoint_rows>(state_.subpoint_deviator.col(a).data(), deviator.data());
+      for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
+        start.deviator[k] =
+            Eigen::Map<const constitutive::StressVector<2, Real>>(deviator.data() + 4 * k);
+      }
     }
   }
   return start;

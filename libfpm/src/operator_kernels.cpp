@@ -1,7 +1,5 @@
 #include "operator_kernels.hpp"
 
-#include <cstring>
-
 // One binary serves every x86-64: the loader picks the widest variant the processor has. Sanitizer
 // builds keep to one (their runtime is not up when the loader resolves the variants).
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
@@ -19,12 +17,13 @@ namespace {
 
 constexpr int lanes = 4;
 using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
+// One move from any address, where std::memcpy would make two.
+using UnalignedLanes = double
+    __attribute__((vector_size(lanes * sizeof(double)), aligned(sizeof(double)), may_alias));
 using Segment = SegmentedRows::Segment;
 
 FPM_INLINE Lanes load(const double* p) {
-  Lanes v;
-  std::memcpy(&v, p, sizeof(v));
-  return v;
+  return *reinterpret_cast<const UnalignedLanes*>(p);
 }
 
 FPM_INLINE Lanes load(const double* p, const Index* at) {
@@ -37,7 +36,7 @@ FPM_INLINE Lanes broadcast(double w) {
 
 FPM_INLINE void store(double* p, const Lanes& v, Index count) {
   if (count >= lanes) {
-    std::memcpy(p, &v, sizeof(v));
+    *reinterpret_cast<UnalignedLanes*>(p) = v;
   } else {
     for (Index lane = 0; lane < count; ++lane) p[lane] = v[lane];
   }

@@ -72,7 +72,7 @@ TEST(DruckerPrager, ReturnsTensionToTheApexAndCountsItsPlasticVolume) {
     const double apex = m.cone.strength / (3 * m.cone.alpha);
     PointState<3> s0, s1;
     const StressVector<3> trial = isotropic<3>(10 * apex);
-    EXPECT_EQ(update(m, trial, s0, s1).status, UpdateStatus::apex);
+    EXPECT_EQ(update(m, trial, s0, s1).status(), UpdateStatus::apex);
     EXPECT_LE((s1.stress - isotropic<3>(apex)).norm(), points::round_off * trial.norm());
     EXPECT_NEAR(s1.plastic_volume_strain, 9 * apex / m.moduli.bulk,
                 points::round_off * 10 * apex / m.moduli.bulk);
@@ -86,7 +86,7 @@ TEST(DruckerPrager, WithoutFrictionHasNoApexAndKeepsThePressure) {
   trial[3] = 5 * cohesion;
   PointState<2> s0, s1;
   const UpdateOutcome outcome = update(m, trial, s0, s1);
-  EXPECT_EQ(outcome.status, UpdateStatus::ok);
+  EXPECT_EQ(outcome.status(), UpdateStatus::ok);
   EXPECT_TRUE(outcome.plastic);
   EXPECT_DOUBLE_EQ(mean_stress(s1.stress), mean_stress(trial));
   EXPECT_EQ(s1.plastic_volume_strain, 0);
@@ -101,7 +101,7 @@ TEST(DruckerPrager, WithoutCohesionStandsOnItsApexAtZeroStress) {
   EXPECT_FALSE(rest.plastic);
   EXPECT_EQ(s1.stress, StressVector<2>(StressVector<2>::Zero()));
   const UpdateOutcome pulled = update(m, isotropic<2>(1e3), s0, s1);
-  EXPECT_EQ(pulled.status, UpdateStatus::apex);
+  EXPECT_EQ(pulled.status(), UpdateStatus::apex);
   EXPECT_EQ(s1.stress, StressVector<2>(StressVector<2>::Zero()));
 }
 

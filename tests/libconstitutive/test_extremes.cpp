@@ -48,7 +48,7 @@ TYPED_TEST(Extreme, ParametersReturnToTheSurface) {
       const StressVector<Dim> trial = random();
       PointState<Dim> s0, s1;
       const UpdateOutcome outcome = update(material, trial, s0, s1);
-      ASSERT_NE(outcome.status, UpdateStatus::failed);
+      ASSERT_NE(outcome.status(), UpdateStatus::failed);
       ASSERT_TRUE(s1.stress.allFinite() && std::isfinite(s1.plastic_strain));
       ASSERT_GE(s1.plastic_strain, 0);
       ASSERT_LE(points::yield_function<Dim>(material, s1.stress),
@@ -74,7 +74,7 @@ TYPED_TEST(Extreme, NearlyIncompressibleAssociatedFlowStaysOnTheSurfaceInStrainS
     for (int i = 0; i < 100; ++i) {
       const PointState<Dim> s0 = s;
       const StressVector<Dim> trial = elastic_trial<Dim>(s0.stress, strain, m);
-      ASSERT_NE(update(material, trial, s0, s).status, UpdateStatus::failed);
+      ASSERT_NE(update(material, trial, s0, s).status(), UpdateStatus::failed);
       ASSERT_LE(points::yield_function<Dim>(material, s.stress),
                 points::round_off * condition(material) * points::magnitude<Dim>(trial, p));
     }
@@ -93,7 +93,7 @@ TYPED_TEST(Extreme, TrialsAreNeverSilentlyAccepted) {
     StressVector<Dim> trial = StressVector<Dim>::Zero();
     trial[0] = 1e200;
     PointState<Dim> s0, s1;
-    EXPECT_EQ(update(material, trial, s0, s1).status, UpdateStatus::failed) << points::label(p);
+    EXPECT_EQ(update(material, trial, s0, s1).status(), UpdateStatus::failed) << points::label(p);
   }
 }
 

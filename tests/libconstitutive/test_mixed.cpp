@@ -62,10 +62,10 @@ TEST(MixedReturn, OfOnePointIsTheOrdinaryUpdateBitForBit) {
     const UpdateOutcome ordinary = update(m, trial, s0, s1);
     const MixedTrial<1> block{mean_stress(trial), {deviator(trial)}};
     const MixedResult<1> r = mixed_return(m, block, std::array{1.0}, 0.0);
-    ASSERT_EQ(r.plastic, ordinary.plastic);
-    ASSERT_EQ(r.status, ordinary.status);
+    ASSERT_EQ(r.outcome.plastic, ordinary.plastic);
+    ASSERT_EQ(r.outcome.status(), ordinary.status());
     ASSERT_EQ(r.plastic_strain_increment, s1.plastic_strain);
-    if (!r.plastic) continue;
+    if (!r.outcome.plastic) continue;
     ASSERT_EQ(StressVector<2>(r.deviator[0] + isotropic<2>(r.pressure)), s1.stress);
   }
 }
@@ -104,10 +104,10 @@ TEST(MixedReturn, SolvesThePressureEquationExactlyForEveryNumberOfYieldingPoints
       const MixedResult<4> r = mixed_return(m, block, uneven, 0.0);
       const auto yielding = std::count(r.yields.begin(), r.yields.end(), true);
       numbers.insert(yielding);
-      ASSERT_EQ(r.plastic, yielding > 0);
+      ASSERT_EQ(r.outcome.plastic, yielding > 0);
       const double slope = 1 + 9 * m.moduli.bulk * m.cone.alpha * m.cone.beta / m.moduli.shear;
       const double allowed = points::round_off * slope * size(block);
-      if (r.status == UpdateStatus::apex) {
+      if (r.outcome.status() == UpdateStatus::apex) {
         ASSERT_DOUBLE_EQ(r.pressure, m.cone.apex_pressure());
         // Increasing left side, still negative at the apex: the root lies beyond it.
         ASSERT_LE(pressure_equation(m, block, uneven, r.pressure), allowed);
@@ -159,7 +159,7 @@ TEST(MixedReturn, KeepsAnUnstressedPointAtZero) {
   block.pressure = 100 * cohesion;
   for (auto& s : block.deviator) s.setZero();
   const MixedResult<4> apex = mixed_return(m, block, quarters, 0.0);
-  EXPECT_EQ(apex.status, UpdateStatus::apex);
+  EXPECT_EQ(apex.outcome.status(), UpdateStatus::apex);
   EXPECT_TRUE(std::isfinite(apex.plastic_strain_increment));
 }
 
@@ -169,7 +169,7 @@ TEST(MixedReturn, AveragesTheRemovedStrainOverItsPointsAtTheApex) {
   Block block = random();
   block.pressure = 1e3 * cohesion;
   const MixedResult<4> r = mixed_return(m, block, uneven, 0.0);
-  ASSERT_EQ(r.status, UpdateStatus::apex);
+  ASSERT_EQ(r.outcome.status(), UpdateStatus::apex);
   double expected = 0;
   for (std::size_t k = 0; k < 4; ++k) {
     PointState<2> s0, s1;
@@ -186,7 +186,7 @@ TEST(MixedReturn, DoesNotDilateBeyondTheCutOff) {
   for (auto& s : block.deviator) s << 4 * cohesion, -4 * cohesion, 0, 0;
   EXPECT_GT(mixed_return(m, block, quarters, 0.049).plastic_volume_increment, 0);
   const MixedResult<4> beyond = mixed_return(m, block, quarters, 0.05);
-  EXPECT_TRUE(beyond.plastic);
+  EXPECT_TRUE(beyond.outcome.plastic);
   EXPECT_EQ(beyond.plastic_volume_increment, 0);
   EXPECT_EQ(beyond.pressure, block.pressure);
 }
@@ -199,9 +199,9 @@ TEST(MixedReturn, ReportsANonFiniteTrialAsFailed) {
     Block block;
     for (auto& s : block.deviator) s.setZero();
     (k < 4 ? block.deviator[k][3] : block.pressure) = std::nan("");
-    EXPECT_EQ(mixed_return(dp, block, quarters, 0.0).status, UpdateStatus::failed);
-    EXPECT_EQ(mixed_return(vm, block, quarters, 0.0).status, UpdateStatus::failed);
-    EXPECT_EQ(mixed_return(elastic, block, quarters, 0.0).status, UpdateStatus::failed);
+    EXPECT_EQ(mixed_return(dp, block, quarters, 0.0).outcome.status(), UpdateStatus::failed);
+    EXPECT_EQ(mixed_return(vm, block, quarters, 0.0).outcome.status(), UpdateStatus::failed);
+    EXPECT_EQ(mixed_return(elastic, block, quarters, 0.0).outcome.status(), UpdateStatus::failed);
   }
 }
 

@@ -53,7 +53,7 @@ Block stress_of(const M& m, const Block& trial, double volume) {
 template <class M>
 int regime(const M& m, const Block& trial, double volume) {
   const auto r = mixed_return(m, trial, weights, volume);
-  if (r.status == UpdateStatus::apex) return 16;
+  if (r.outcome.status() == UpdateStatus::apex) return 16;
   int bits = 0;
   for (std::size_t k = 0; k < 4; ++k) bits |= r.yields[k] ? 1 << k : 0;
   return bits;
@@ -130,7 +130,7 @@ TEST(MixedTangent, AppliedToStrainIsItsApplicationToTheElasticTrial) {
     elastic.deviator[k] = elastic_stress<2>(m.moduli, strain[k]);
   }
   const auto r = mixed_return(m, trial, weights, 0.0);
-  ASSERT_TRUE(r.plastic);
+  ASSERT_TRUE(r.outcome.plastic);
   const auto tangent = mixed_tangent(m, trial, weights, 0.0, r);
   tangent.apply_to_trial(elastic, by_trial);
   tangent.apply_to_strain(volume_strain, strain, by_strain);

@@ -145,7 +145,7 @@ TEST(MohrCoulomb, ReturnsTensionToTheApexAtCohesionTimesCotangentOfFriction) {
     PointState<3> s0, s1;
     const StressVector<3> trial = isotropic<3>(20 * m.cohesion);
     const UpdateOutcome outcome = update(m, trial, s0, s1);
-    EXPECT_EQ(outcome.status, UpdateStatus::apex);
+    EXPECT_EQ(outcome.status(), UpdateStatus::apex);
     const double apex = m.cohesion / std::tan(30 * degree);
     EXPECT_LE((s1.stress - isotropic<3>(apex)).norm(), points::round_off * trial.norm());
     EXPECT_TRUE(trial_tangent(m, trial, s0).isZero(0));

@@ -48,7 +48,7 @@ TYPED_TEST(ObjectiveUpdate, RotatesRigidlyThrough360DegreesWithoutDrift) {
         const auto increment = objective_increment(rotation<Dim>(2 * pi / steps));
         const UpdateOutcome outcome =
             update(material, elastic_trial(s0.stress, increment, moduli(material)), s0, s1);
-        ASSERT_NE(outcome.status, UpdateStatus::failed);
+        ASSERT_NE(outcome.status(), UpdateStatus::failed);
         s0 = s1;
       }
       // Each step rounds dF, whose error is eps of strain: eps E of stress and the rotation's own.
@@ -147,7 +147,7 @@ TYPED_TEST(ObjectiveUpdate, ApproachesSmallStrainQuadratically) {
         objective_increment(SpatialMatrix<Dim>(SpatialMatrix<Dim>::Identity() + size * shape));
     const StressVector<Dim> zero = StressVector<Dim>::Zero();
     return (elastic_trial(zero, inc, m) -
-            elastic_trial<Dim>(zero, strain_vector<Dim>(size * strain), m))
+            elastic_trial<Dim>(zero, strain_vector<Dim>(SpatialMatrix<Dim>(size * strain)), m))
         .norm();
   };
   EXPECT_NEAR(error(1e-3) / error(1e-4), 100, 1) << "terms of third order are 1e-3 of the second";

@@ -44,7 +44,7 @@ class CompressionTest {
     for (int iteration = 0; iteration < 20; ++iteration) {
       const auto inc = objective_increment(increment);
       const auto trial = elastic_trial(begin_.stress, inc, moduli(material_));
-      if (update(material_, trial, begin_, end_).status == UpdateStatus::failed) return false;
+      if (update(material_, trial, begin_, end_).status() == UpdateStatus::failed) return false;
       if (std::abs(end_.stress[0]) <= tolerance_) {
         begin_ = end_;
         height_ = 1 - strain;

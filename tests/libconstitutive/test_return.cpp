@@ -24,7 +24,7 @@ TYPED_TEST(StressUpdate, NeverViolatesYield) {
       const StressVector<Dim> trial = random();
       PointState<Dim> s0, s1;
       const UpdateOutcome outcome = update(material, trial, s0, s1);
-      ASSERT_NE(outcome.status, UpdateStatus::failed);
+      ASSERT_NE(outcome.status(), UpdateStatus::failed);
       plastic += outcome.plastic;
       ASSERT_LE(points::yield_function<Dim>(material, s1.stress),
                 points::round_off * points::magnitude<Dim>(trial, p))
@@ -135,7 +135,7 @@ TYPED_TEST(StressUpdate, SurvivesHugeIncrements) {
       const StressVector<Dim> trial = random();
       PointState<Dim> s0, s1;
       const UpdateOutcome outcome = update(material, trial, s0, s1);
-      ASSERT_NE(outcome.status, UpdateStatus::failed);
+      ASSERT_NE(outcome.status(), UpdateStatus::failed);
       ASSERT_TRUE(s1.stress.allFinite() && std::isfinite(s1.plastic_strain));
       ASSERT_LE(points::yield_function<Dim>(material, s1.stress),
                 points::round_off * points::magnitude<Dim>(trial, p));
@@ -159,7 +159,7 @@ TYPED_TEST(StressUpdate, ReportsANonFiniteTrialAsFailedAndKeepsTheState) {
         StressVector<Dim> trial = StressVector<Dim>::Constant(-1e3);
         trial[row] = bad;
         const UpdateOutcome outcome = update(material, trial, s0, s1);
-        EXPECT_EQ(outcome.status, UpdateStatus::failed) << points::label(p) << " row " << row;
+        EXPECT_EQ(outcome.status(), UpdateStatus::failed) << points::label(p) << " row " << row;
         EXPECT_FALSE(outcome.plastic);
         EXPECT_EQ(s1.stress, s0.stress);
         EXPECT_EQ(s1.plastic_strain, s0.plastic_strain);

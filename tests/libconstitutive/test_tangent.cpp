@@ -31,7 +31,7 @@ std::string regime(const Material& material, const StressVector<Dim>& trial,
   }
   PointState<Dim> s1;
   const UpdateOutcome outcome = update(material, trial, s0, s1);
-  if (outcome.status == UpdateStatus::apex) return "apex";
+  if (outcome.status() == UpdateStatus::apex) return "apex";
   return outcome.plastic ? "cone" : "elastic";
 }
 

@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <limits>
+#include <type_traits>
 
 #include "constitutive/cone.hpp"
 #include "constitutive/elastic.hpp"
@@ -28,22 +29,26 @@ struct DruckerPrager {
 };
 
 /// The cylinder of `VonMises`, whatever the plastic volume strain.
-inline Cone yield_cone(const VonMises& m, double /*plastic_volume_strain*/) {
+template <class Real = double>
+BasicCone<Real> yield_cone(const VonMises& m,
+                           const std::type_identity_t<Real>& /*plastic_volume_strain*/) {
   return {.alpha = 0, .beta = 0, .strength = m.strength};
 }
 
 /// The cone of `DruckerPrager` in a step that begins with this plastic volume strain.
-inline Cone yield_cone(const DruckerPrager& m, double plastic_volume_strain) {
-  Cone cone = m.cone;
-  if (plastic_volume_strain >= m.dilation_cutoff) cone.beta = 0;
-  return cone;
+template <class Real = double>
+BasicCone<Real> yield_cone(const DruckerPrager& m,
+                           const std::type_identity_t<Real>& plastic_volume_strain) {
+  const Real beta = select(plastic_volume_strain >= Real(m.dilation_cutoff), Real(0),
+                           Real(m.cone.beta));
+  return {.alpha = m.cone.alpha, .beta = beta, .strength = m.cone.strength};
 }
 
 /// A material whose yield surface is a cone in (sqrt(J2), p) and whose elasticity is isotropic.
 template <class M>
 concept ConeMaterial = requires(const M& m, double plastic_volume_strain) {
   { m.moduli } -> std::convertible_to<const ElasticModuli&>;
-  { yield_cone(m, plastic_volume_strain) } -> std::same_as<Cone>;
+  { yield_cone<double>(m, plastic_volume_strain) } -> std::same_as<Cone>;
 };
 
 }  // namespace constitutive

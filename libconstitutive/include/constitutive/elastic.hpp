@@ -43,10 +43,11 @@ TangentMatrix<Dim> elastic_stiffness(double youngs_modulus, double poissons_rati
 }
 
 /// D strain: the stress increment of a strain vector with engineering shear, without forming D.
-template <int Dim>
-StressVector<Dim> elastic_stress(const ElasticModuli& m, const StrainVector<Dim>& strain) {
-  StressVector<Dim> stress = 2 * m.shear * strain;
-  stress.template tail<stress_size<Dim> - 3>() /= 2;
+template <int Dim, class Real>
+StressVector<Dim, Real> elastic_stress(const ElasticModuli& m,
+                                       const StrainVector<Dim, Real>& strain) {
+  StressVector<Dim, Real> stress = Real(2 * m.shear) * strain;
+  stress.template tail<stress_size<Dim> - 3>() /= Real(2);
   stress.template head<3>().array() += m.lame * trace(strain);
   return stress;
 }
@@ -56,8 +57,10 @@ StressVector<Dim> elastic_stress(const ElasticModuli& m, const StrainVector<Dim>
 ///
 /// With e = s / (2 mu) + p I / (3 K) this is sqrt(J2 / (3 mu^2) + 2 p^2 / (9 K^2)); applied to
 /// (trial stress - stress) it is the equivalent plastic strain increment of any return.
-inline double equivalent_elastic_strain(const ElasticModuli& m, double p, double sqrt_j2) {
-  return std::hypot(sqrt_j2 / (std::sqrt(3.0) * m.shear), std::sqrt(2.0) / 3 * p / m.bulk);
+template <class Real>
+Real equivalent_elastic_strain(const ElasticModuli& m, const Real& p, const Real& sqrt_j2) {
+  using std::hypot;
+  return hypot(sqrt_j2 / (std::sqrt(3.0) * m.shear), std::sqrt(2.0) / 3 * p / m.bulk);
 }
 
 /// Isotropic linear elasticity (hypoelastic at finite strain: the trial stress is the stress).
@@ -66,20 +69,26 @@ struct Elastic {
 };
 
 /// Accepts the trial stress; fails only if it is not finite.
-template <int Dim>
-UpdateOutcome update(const Elastic&, const std::type_identity_t<StressVector<Dim>>& trial,
-                     const PointState<Dim>& s0, PointState<Dim>& s1) {
-  s1 = s0;
-  if (!trial.allFinite()) return {UpdateStatus::failed, false};
-  s1.stress = trial;
-  return {UpdateStatus::ok, false};
+template <int Dim, class Real>
+BasicUpdateOutcome<Real> update(const Elastic&,
+                                const std::type_identity_t<StressVector<Dim, Real>>& trial,
+                                const PointState<Dim, Real>& s0, PointState<Dim, Real>& s1) {
+  Mask<Real> finite = is_finite(trial[0]);
+  for (int row = 1; row < stress_size<Dim>; ++row) finite = finite & is_finite(trial[row]);
+  s1.plastic_strain = s0.plastic_strain;
+  s1.plastic_volume_strain = s0.plastic_volume_strain;
+  for (int row = 0; row < stress_size<Dim>; ++row) {
+    s1.stress[row] = select(finite, trial[row], s0.stress[row]);
+  }
+  return {.failed = !finite};
 }
 
 /// d(stress)/d(trial stress): the identity.
-template <int Dim>
-TangentMatrix<Dim> trial_tangent(const Elastic&, const std::type_identity_t<StressVector<Dim>>&,
-                                 const PointState<Dim>&) {
-  return TangentMatrix<Dim>::Identity();
+template <int Dim, class Real>
+TangentMatrix<Dim, Real> trial_tangent(const Elastic&,
+                                       const std::type_identity_t<StressVector<Dim, Real>>&,
+                                       const PointState<Dim, Real>&) {
+  return TangentMatrix<Dim, Real>::Identity();
 }
 
 }  // namespace constitutive

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "constitutive/drucker_prager.hpp"
 #include "constitutive/tensor.hpp"
@@ -16,23 +16,23 @@
 namespace constitutive {
 
 /// Elastic trial of a block: s_k,tr = Q s_k,n Q^T + 2 mu de_k, p_tr = p_n + K dvol.
-template <std::size_t M, int Dim = 2>
+template <std::size_t M, int Dim = 2, class Real = double>
 struct MixedTrial {
-  double pressure = 0;                        ///< Trial mean stress, tension positive [Pa].
-  std::array<StressVector<Dim>, M> deviator;  ///< Trial deviators (traceless, stress-like) [Pa].
+  Real pressure = 0;  ///< Trial mean stress, tension positive [Pa].
+  /// Trial deviators (traceless, stress-like) [Pa].
+  std::array<StressVector<Dim, Real>, M> deviator;
 };
 
-/// Stress of a block after the return; `status` failed leaves everything but `status` unspecified.
-template <std::size_t M, int Dim = 2>
+/// Stress of a block after the return; if it failed, everything but `outcome` is unspecified.
+template <std::size_t M, int Dim = 2, class Real = double>
 struct [[nodiscard]] MixedResult {
-  UpdateStatus status = UpdateStatus::ok;
-  bool plastic = false;                       ///< At least one sub-point yields.
-  double pressure = 0;                        ///< Mean stress of the block [Pa].
-  std::array<StressVector<Dim>, M> deviator;  ///< s_k = factor_k s_k,tr [Pa].
-  std::array<double, M> factor;  ///< Y / J_k of a yielding sub-point, 1 of an elastic one, 0 apex.
-  std::array<bool, M> yields;    ///< Whether sub-point k flows (all do at the apex).
-  double plastic_strain_increment = 0;  ///< Weighted mean of sqrt(2/3 de_p : de_p) [-].
-  double plastic_volume_increment = 0;  ///< (p_tr - p) / K [-].
+  BasicUpdateOutcome<Real> outcome;  ///< Plastic if at least one sub-point yields.
+  Real pressure = 0;                 ///< Mean stress of the block [Pa].
+  std::array<StressVector<Dim, Real>, M> deviator;  ///< s_k = factor_k s_k,tr [Pa].
+  std::array<Real, M> factor;  ///< Y / J_k of a yielding sub-point, 1 of an elastic one, 0 apex.
+  std::array<Mask<Real>, M> yields;   ///< Whether sub-point k flows (all do at the apex).
+  Real plastic_strain_increment = 0;  ///< Weighted mean of sqrt(2/3 de_p : de_p) [-].
+  Real plastic_volume_increment = 0;  ///< (p_tr - p) / K [-].
 };
 
 /// Consistent tangent of `mixed_return`, kept as its few numbers and applied to directions.
@@ -42,70 +42,76 @@ struct [[nodiscard]] MixedResult {
 ///   dp (1 + 9 K alpha beta w_A / mu) = dp_tr - (3 K beta / mu) sum_A w_k j_k
 ///   yielding: ds_k = q_k ds_k,tr - n_k (q_k j_k + 3 alpha dp);   elastic: ds_k = ds_k,tr
 /// and zero at the apex.
-template <std::size_t M, int Dim = 2>
+template <std::size_t M, int Dim = 2, class Real = double>
 struct MixedTangent {
   ElasticModuli moduli;
-  bool apex = false;
-  double three_alpha = 0;                   ///< 3 alpha.
-  double pressure_scale = 1;                ///< 1 / (1 + 9 K alpha beta w_A / mu).
-  std::array<double, M> pressure_weight;    ///< 3 K beta w_k / mu if yielding, else 0.
-  std::array<double, M> factor;             ///< q_k, 1 of an elastic sub-point.
-  std::array<StressVector<Dim>, M> normal;  ///< n_k if yielding, else 0.
+  double three_alpha = 0;                         ///< 3 alpha.
+  Real pressure_scale = 1;                        ///< 1 / (1 + 9 K alpha beta w_A / mu), 0 apex.
+  std::array<Real, M> pressure_weight;            ///< 3 K beta w_k / mu if yielding, else 0.
+  std::array<Real, M> factor;                     ///< q_k, 1 of an elastic sub-point, 0 apex.
+  std::array<StressVector<Dim, Real>, M> normal;  ///< n_k if yielding, 0 if elastic or at the apex.
 
   /// (dp, ds_k) of a direction of the *trial stress*; exact also for finite strain, where the trial
   /// changes with the rotation. In-place use (same object for both) is allowed.
-  void apply_to_trial(const MixedTrial<M, Dim>& direction, MixedTrial<M, Dim>& result) const;
+  void apply_to_trial(const MixedTrial<M, Dim, Real>& direction,
+                      MixedTrial<M, Dim, Real>& result) const;
 
   /// (dp, ds_k) of small-strain directions: volume strain and M deviatoric strain vectors
   /// (engineering shear, traceless).
-  void apply_to_strain(double volume_strain,
-                       const std::array<StrainVector<Dim>, M>& deviatoric_strain,
-                       MixedTrial<M, Dim>& result) const;
+  void apply_to_strain(const Real& volume_strain,
+                       const std::array<StrainVector<Dim, Real>, M>& deviatoric_strain,
+                       MixedTrial<M, Dim, Real>& result) const;
 };
 
 namespace detail {
 
-template <std::size_t M, int Dim>
-std::array<double, M> deviator_sizes(const MixedTrial<M, Dim>& trial) {
-  std::array<double, M> j;
+template <std::size_t M, int Dim, class Real>
+std::array<Real, M> deviator_sizes(const MixedTrial<M, Dim, Real>& trial) {
+  std::array<Real, M> j;
   for (std::size_t k = 0; k < M; ++k) j[k] = sqrt_j2_of_deviator(trial.deviator[k]);
   return j;
 }
 
 /// Finite test that also catches squares which overflow.
-template <std::size_t M>
-bool all_finite(double p, const std::array<double, M>& j) {
-  double sum = std::abs(p);
-  for (const double size : j) sum += size;
-  return std::isfinite(sum);
+template <std::size_t M, class Real>
+Mask<Real> all_finite(const Real& p, const std::array<Real, M>& j) {
+  using std::abs;
+  Real sum = abs(p);
+  for (const Real& size : j) sum += size;
+  return is_finite(sum);
 }
 
-template <std::size_t M, int Dim>
-void return_to_apex(const Cone& cone, const ElasticModuli& m, const MixedTrial<M, Dim>& trial,
-                    const std::array<double, M>& j, const std::array<double, M>& weights,
-                    MixedResult<M, Dim>& r) {
-  r.status = UpdateStatus::apex;
-  r.pressure = cone.apex_pressure();
-  r.factor.fill(0);
-  r.yields.fill(true);
+/// Overwrites the result where `r.outcome.apex` holds.
+template <std::size_t M, int Dim, class Real>
+void return_to_apex(const BasicCone<Real>& cone, const ElasticModuli& m,
+                    const MixedTrial<M, Dim, Real>& trial, const std::array<Real, M>& j,
+                    const std::array<double, M>& weights, MixedResult<M, Dim, Real>& r) {
+  const Real pressure = cone.apex_pressure();
+  Real plastic_strain = 0;
   for (std::size_t k = 0; k < M; ++k) {
-    r.deviator[k].setZero();
-    r.plastic_strain_increment +=
-        weights[k] * equivalent_elastic_strain(m, trial.pressure - r.pressure, j[k]);
+    r.factor[k] = select(r.outcome.apex, 0, r.factor[k]);
+    r.yields[k] = r.yields[k] | r.outcome.apex;
+    plastic_strain +=
+        weights[k] * equivalent_elastic_strain(m, Real(trial.pressure - pressure), j[k]);
   }
+  r.pressure = select(r.outcome.apex, pressure, r.pressure);
+  r.plastic_strain_increment = select(r.outcome.apex, plastic_strain, r.plastic_strain_increment);
 }
 
-template <std::size_t M, int Dim>
-void return_to_cone(const Cone& cone, const ElasticModuli& m, const MixedTrial<M, Dim>& trial,
-                    const std::array<double, M>& j, const std::array<double, M>& weights,
-                    double radius, MixedResult<M, Dim>& r) {
-  double multiplier = 0;
+template <std::size_t M, class Real>
+void return_to_cone(const BasicCone<Real>& cone, const ElasticModuli& m,
+                    const std::array<Real, M>& j, const std::array<double, M>& weights,
+                    const Real& radius, std::array<Real, M>& factor, Real& plastic_strain,
+                    const std::array<Mask<Real>, M>& yields) {
+  using std::max;
+  using std::min;
+  using std::sqrt;
+  Real multiplier = 0;
   for (std::size_t k = 0; k < M; ++k) {
-    r.factor[k] = r.yields[k] ? std::min(1.0, radius / j[k]) : 1.0;
-    r.deviator[k] = r.factor[k] * trial.deviator[k];
-    if (r.yields[k]) multiplier += weights[k] * std::max(0.0, j[k] - radius) / m.shear;
+    factor[k] = select(yields[k], min(Real(1), Real(radius / j[k])), 1);
+    multiplier += select(yields[k], weights[k] / m.shear * max(Real(0), Real(j[k] - radius)), 0);
   }
-  r.plastic_strain_increment = std::sqrt(1.0 / 3 + 2 * cone.beta * cone.beta) * multiplier;
+  plastic_strain = sqrt(Real(1.0 / 3 + 2 * cone.beta * cone.beta)) * multiplier;
 }
 
 }  // namespace detail
@@ -119,85 +125,78 @@ void return_to_cone(const Cone& cone, const ElasticModuli& m, const MixedTrial<M
 /// @param weights  volume shares w_k >= 0 with sum 1
 /// @param plastic_volume_strain  accumulated at the beginning of the step (dilation cut-off)
 /// No allocation, at most M^2 / 2 comparisons. Not finite -> status failed.
-template <ConeMaterial Material, std::size_t M, int Dim>
-MixedResult<M, Dim> mixed_return(const Material& material, const MixedTrial<M, Dim>& trial,
-                                 const std::array<double, M>& weights,
-                                 double plastic_volume_strain) {
+template <ConeMaterial Material, std::size_t M, int Dim, class Real>
+MixedResult<M, Dim, Real> mixed_return(const Material& material,
+                                       const MixedTrial<M, Dim, Real>& trial,
+                                       const std::array<double, M>& weights,
+                                       const std::type_identity_t<Real>& plastic_volume_strain) {
   const ElasticModuli& m = material.moduli;
-  const Cone cone = yield_cone(material, plastic_volume_strain);
-  const std::array<double, M> j = detail::deviator_sizes(trial);
-  MixedResult<M, Dim> r;
-  if (!detail::all_finite(trial.pressure, j)) {
-    r.status = UpdateStatus::failed;
-    return r;
-  }
-  const detail::ConeSweep<M> sweep = detail::sweep_cone(cone, m, trial.pressure, j, weights);
+  const BasicCone<Real> cone = yield_cone<Real>(material, plastic_volume_strain);
+  const std::array<Real, M> j = detail::deviator_sizes(trial);
+  MixedResult<M, Dim, Real> r;
+  r.outcome.failed = !detail::all_finite(trial.pressure, j);
+  const auto sweep = detail::sweep_cone(cone, m, trial.pressure, j, weights);
   r.pressure = sweep.pressure;
   r.yields = sweep.yields;
-  r.plastic = std::any_of(r.yields.begin(), r.yields.end(), [](bool y) { return y; });
-  const double radius = cone.radius(r.pressure);
-  if (r.plastic && radius <= 0) {
-    detail::return_to_apex(cone, m, trial, j, weights, r);
-  } else {
-    detail::return_to_cone(cone, m, trial, j, weights, radius, r);
-  }
+  for (const Mask<Real>& yields : r.yields) r.outcome.plastic = r.outcome.plastic | yields;
+  const Real radius = cone.radius(r.pressure);
+  detail::return_to_cone(cone, m, j, weights, radius, r.factor, r.plastic_strain_increment,
+                         r.yields);
+  r.outcome.apex = r.outcome.plastic & (radius <= Real(0));
+  if (any(r.outcome.apex)) detail::return_to_apex(cone, m, trial, j, weights, r);
+  for (std::size_t k = 0; k < M; ++k) r.deviator[k] = r.factor[k] * trial.deviator[k];
   r.plastic_volume_increment = (trial.pressure - r.pressure) / m.bulk;
   return r;
 }
 
 /// Elastic block: the trial is the stress.
-template <std::size_t M, int Dim>
-MixedResult<M, Dim> mixed_return(const Elastic&, const MixedTrial<M, Dim>& trial,
-                                 const std::array<double, M>& /*weights*/,
-                                 double /*plastic_volume_strain*/) {
-  MixedResult<M, Dim> r;
-  if (!detail::all_finite(trial.pressure, detail::deviator_sizes(trial))) {
-    r.status = UpdateStatus::failed;
-    return r;
-  }
+template <std::size_t M, int Dim, class Real>
+MixedResult<M, Dim, Real> mixed_return(
+    const Elastic&, const MixedTrial<M, Dim, Real>& trial, const std::array<double, M>& /*weights*/,
+    const std::type_identity_t<Real>& /*plastic_volume_strain*/) {
+  MixedResult<M, Dim, Real> r;
+  r.outcome.failed = !detail::all_finite(trial.pressure, detail::deviator_sizes(trial));
   r.pressure = trial.pressure;
   r.deviator = trial.deviator;
   r.factor.fill(1);
-  r.yields.fill(false);
+  r.yields.fill({});
   return r;
 }
 
 /// Consistent tangent at a trial whose `result` came from `mixed_return` with the same arguments.
-template <ConeMaterial Material, std::size_t M, int Dim>
-MixedTangent<M, Dim> mixed_tangent(const Material& material, const MixedTrial<M, Dim>& trial,
-                                   const std::array<double, M>& weights,
-                                   double plastic_volume_strain,
-                                   const MixedResult<M, Dim>& result) {
-  assert(result.status != UpdateStatus::failed);
+template <ConeMaterial Material, std::size_t M, int Dim, class Real>
+MixedTangent<M, Dim, Real> mixed_tangent(const Material& material,
+                                         const MixedTrial<M, Dim, Real>& trial,
+                                         const std::array<double, M>& weights,
+                                         const std::type_identity_t<Real>& plastic_volume_strain,
+                                         const MixedResult<M, Dim, Real>& result) {
   const ElasticModuli& m = material.moduli;
-  const Cone cone = yield_cone(material, plastic_volume_strain);
-  MixedTangent<M, Dim> t;
+  const BasicCone<Real> cone = yield_cone<Real>(material, plastic_volume_strain);
+  MixedTangent<M, Dim, Real> t;
   t.moduli = m;
-  t.apex = result.status == UpdateStatus::apex;
   t.three_alpha = 3 * cone.alpha;
   t.factor = result.factor;
-  const double slope = 3 * m.bulk * cone.beta / m.shear;
-  double active = 0;
+  const Real slope = 3 * m.bulk / m.shear * cone.beta;
+  Real active = 0;
   for (std::size_t k = 0; k < M; ++k) {
-    const bool yields = !t.apex && result.yields[k];
-    t.pressure_weight[k] = yields ? slope * weights[k] : 0;
+    const Mask<Real> yields = result.yields[k] & !result.outcome.apex;
+    t.pressure_weight[k] = select(yields, slope * weights[k], 0);
     active += t.pressure_weight[k];
-    if (yields) {
-      t.normal[k] = trial.deviator[k] / sqrt_j2_of_deviator(trial.deviator[k]);
-    } else {
-      t.normal[k].setZero();
-    }
+    // A sub-point that does not yield may have no direction: 1 / 0 is then not chosen.
+    const Real length = sqrt_j2_of_deviator(trial.deviator[k]);
+    t.normal[k] = select(yields, 1 / length, 0) * trial.deviator[k];
   }
-  t.pressure_scale = 1 / (1 + t.three_alpha * active);
+  t.pressure_scale = select(result.outcome.apex, 0, 1 / (1 + t.three_alpha * active));
   return t;
 }
 
 /// Tangent of an elastic block: the identity on trial directions.
-template <std::size_t M, int Dim>
-MixedTangent<M, Dim> mixed_tangent(const Elastic& material, const MixedTrial<M, Dim>&,
-                                   const std::array<double, M>&, double,
-                                   const MixedResult<M, Dim>&) {
-  MixedTangent<M, Dim> t;
+template <std::size_t M, int Dim, class Real>
+MixedTangent<M, Dim, Real> mixed_tangent(const Elastic& material, const MixedTrial<M, Dim, Real>&,
+                                         const std::array<double, M>&,
+                                         const std::type_identity_t<Real>&,
+                                         const MixedResult<M, Dim, Real>&) {
+  MixedTangent<M, Dim, Real> t;
   t.moduli = material.moduli;
   t.pressure_weight.fill(0);
   t.factor.fill(1);
@@ -205,35 +204,30 @@ MixedTangent<M, Dim> mixed_tangent(const Elastic& material, const MixedTrial<M, 
   return t;
 }
 
-template <std::size_t M, int Dim>
-void MixedTangent<M, Dim>::apply_to_trial(const MixedTrial<M, Dim>& direction,
-                                          MixedTrial<M, Dim>& result) const {
-  if (apex) {
-    result.pressure = 0;
-    for (auto& s : result.deviator) s.setZero();
-    return;
-  }
-  std::array<double, M> dj;
-  double dp = direction.pressure;
+template <std::size_t M, int Dim, class Real>
+void MixedTangent<M, Dim, Real>::apply_to_trial(const MixedTrial<M, Dim, Real>& direction,
+                                                MixedTrial<M, Dim, Real>& result) const {
+  std::array<Real, M> dj;
+  Real dp = direction.pressure;
   for (std::size_t k = 0; k < M; ++k) {
     dj[k] = contract(normal[k], direction.deviator[k]) / 2;
     dp -= pressure_weight[k] * dj[k];
   }
   dp *= pressure_scale;
   for (std::size_t k = 0; k < M; ++k) {
-    const double along_normal = factor[k] * dj[k] + three_alpha * dp;
+    const Real along_normal = factor[k] * dj[k] + three_alpha * dp;
     result.deviator[k] = factor[k] * direction.deviator[k] - along_normal * normal[k];
   }
   result.pressure = dp;
 }
 
-template <std::size_t M, int Dim>
-void MixedTangent<M, Dim>::apply_to_strain(
-    double volume_strain, const std::array<StrainVector<Dim>, M>& deviatoric_strain,
-    MixedTrial<M, Dim>& result) const {
+template <std::size_t M, int Dim, class Real>
+void MixedTangent<M, Dim, Real>::apply_to_strain(
+    const Real& volume_strain, const std::array<StrainVector<Dim, Real>, M>& deviatoric_strain,
+    MixedTrial<M, Dim, Real>& result) const {
   result.pressure = moduli.bulk * volume_strain;
   for (std::size_t k = 0; k < M; ++k) {
-    result.deviator[k] = 2 * moduli.shear * with_tensor_shear(deviatoric_strain[k]);
+    result.deviator[k] = Real(2 * moduli.shear) * with_tensor_shear(deviatoric_strain[k]);
   }
   apply_to_trial(result, result);
 }

@@ -138,13 +138,13 @@ UpdateOutcome update(const MohrCoulomb& material,
   const double sin_psi = detail::sine_of_dilation(material, s0);
   s1 = s0;
   if (!std::isfinite(j2(trial)) || !std::isfinite(trace(trial))) {
-    return {UpdateStatus::failed, false};
+    return {.failed = true};
   }
   const Spectrum x = spectrum(trial);
   const detail::PrincipalReturn r = detail::return_principal(material, sin_psi, x.values);
   if (r.regime == detail::MohrCoulombRegime::elastic) {
     s1.stress = trial;
-    return {UpdateStatus::ok, false};
+    return {};
   }
   s1.stress = recompose<Dim>(r.stress, x.directions);
   const Eigen::Vector3d removed = x.values - r.stress;
@@ -153,7 +153,7 @@ UpdateOutcome update(const MohrCoulomb& material,
   s1.plastic_strain += equivalent_elastic_strain(material.moduli, p, sqrt_j2);
   s1.plastic_volume_strain += p / material.moduli.bulk;
   const bool apex = r.regime == detail::MohrCoulombRegime::apex;
-  return {apex ? UpdateStatus::apex : UpdateStatus::ok, true};
+  return {.apex = apex, .plastic = true};
 }
 
 /// d(stress)/d(trial stress) of `update` at a finite trial, the spin of the principal axes

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 
 #include "constitutive/tensor.hpp"
@@ -7,11 +8,12 @@
 namespace constitutive {
 
 /// What lives at one material point between load steps; s0 is begin, s1 end of a step.
-template <int Dim>
+template <int Dim, class Real = double>
 struct PointState {
-  StressVector<Dim> stress = StressVector<Dim>::Zero();  ///< Cauchy stress [Pa], tension positive.
-  double plastic_strain = 0;  ///< Accumulated sum of sqrt(2/3 de_p : de_p), whole tensor [-].
-  double plastic_volume_strain = 0;  ///< Accumulated sum of tr(de_p), dilation positive [-].
+  /// Cauchy stress [Pa], tension positive.
+  StressVector<Dim, Real> stress = StressVector<Dim, Real>::Zero();
+  Real plastic_strain = 0;  ///< Accumulated sum of sqrt(2/3 de_p : de_p), whole tensor [-].
+  Real plastic_volume_strain = 0;  ///< Accumulated sum of tr(de_p), dilation positive [-].
 
   /// Calls visitor(name, field) for every field, in a fixed order: the one list of what lives here.
   template <class Visitor>
@@ -41,11 +43,22 @@ enum class UpdateStatus : std::uint8_t {
   failed,  ///< The trial stress was not finite (or its square overflows); s1 equals s0.
 };
 
-/// Outcome of one stress update; `plastic` is false when the trial stress was admissible.
-struct [[nodiscard]] UpdateOutcome {
-  UpdateStatus status = UpdateStatus::ok;
-  bool plastic = false;
+/// Outcome of a stress update.
+template <class Real>
+struct [[nodiscard]] BasicUpdateOutcome {
+  Mask<Real> failed{};   ///< The trial stress was not finite (or its square overflows).
+  Mask<Real> apex{};     ///< Returned to the tensile apex.
+  Mask<Real> plastic{};  ///< The trial stress was not admissible.
+
+  /// How the update of a single point ended.
+  [[nodiscard]] UpdateStatus status() const requires std::same_as<Real, double> {
+    if (failed) return UpdateStatus::failed;
+    return apex ? UpdateStatus::apex : UpdateStatus::ok;
+  }
 };
+
+/// Outcome of the stress update of one point.
+using UpdateOutcome = BasicUpdateOutcome<double>;
 
 /// Round-off allowance of a yield function relative to the sum of the magnitudes of its terms.
 ///

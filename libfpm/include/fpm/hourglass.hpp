@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "fpm/types.hpp"
 
@@ -19,25 +20,25 @@ namespace fpm {
 /// so everything a row needs are its moments of du and those of e(n), which are constant in a step.
 
 /// What a row's pair control knows before the step.
-template <int Dim>
+template <int Dim, class Real = double>
 struct PairRow {
-  Vector<Dim> first_moment;   ///< [1/m] sum kappa X
-  Tensor<Dim> second_moment;  ///< [-] sum kappa X x X
-  Vector<Dim> memory_first;   ///< [1/m] sum kappa e(n)
-  Tensor<Dim> memory_second;  ///< [-] sum kappa e(n) x X
-  Vector<Dim> position;       ///< [m] x_a(n)
-  Tensor<Dim> gradient;       ///< [-] F_a(n)
+  Vector<Dim, Real> first_moment;   ///< [1/m] sum kappa X
+  Tensor<Dim, Real> second_moment;  ///< [-] sum kappa X x X
+  Vector<Dim, Real> memory_first;   ///< [1/m] sum kappa e(n)
+  Tensor<Dim, Real> memory_second;  ///< [-] sum kappa e(n) x X
+  Vector<Dim, Real> position;       ///< [m] x_a(n)
+  Tensor<Dim, Real> gradient;       ///< [-] F_a(n)
 };
 
 /// Response of one row: what `MomentOperator::scatter` wants, and what acts on the row itself.
-template <int Dim>
+template <int Dim, class Real = double>
 struct PairResponse {
-  double stiffness;         ///< k: acts on the field at the neighbour
-  Vector<Dim> constant;     ///< c
-  Tensor<Dim> on_position;  ///< A, acts on x_b(n)
-  Tensor<Dim> affine;       ///< B, acts on kappa X
-  Vector<Dim> own_force;    ///< force on the row itself, -k sum kappa y
-  Tensor<Dim> stress;       ///< addition to the row's nominal stress, -k sum kappa y x X
+  Real stiffness;                 ///< k: acts on the field at the neighbour
+  Vector<Dim, Real> constant;     ///< c
+  Tensor<Dim, Real> on_position;  ///< A, acts on x_b(n)
+  Tensor<Dim, Real> affine;       ///< B, acts on kappa X
+  Vector<Dim, Real> own_force;    ///< force on the row itself, -k sum kappa y
+  Tensor<Dim, Real> stress;       ///< addition to the row's nominal stress, -k sum kappa y x X
 };
 
 /// Pair forces of one row; linear in (field, gradient_increment, defect), so the same function
@@ -46,11 +47,15 @@ struct PairResponse {
 /// @param field  value of du (or v) at the row
 /// @param first,second  moments sum kappa (du_b - du_a) and sum (du_b - du_a) x kappa X
 /// @param gradient_increment  dF_a = sum (du_b - du_a) x G_ab
-template <int Dim>
-PairResponse<Dim> pair_response(double stiffness, const PairRow<Dim>& row, const Vector<Dim>& field,
-                                const Vector<Dim>& first, const Tensor<Dim>& second,
-                                const Tensor<Dim>& gradient_increment, const Tensor<Dim>& defect) {
-  PairResponse<Dim> response;
+template <int Dim, class Real>
+PairResponse<Dim, Real> pair_response(
+    const Real& stiffness, const PairRow<Dim, Real>& row,
+    const std::type_identity_t<Vector<Dim, Real>>& field,
+    const std::type_identity_t<Vector<Dim, Real>>& first,
+    const std::type_identity_t<Tensor<Dim, Real>>& second,
+    const std::type_identity_t<Tensor<Dim, Real>>& gradient_increment,
+    const std::type_identity_t<Tensor<Dim, Real>>& defect) {
+  PairResponse<Dim, Real> response;
   response.stiffness = stiffness;
   response.on_position = stiffness * defect;
   response.constant = -stiffness * field - response.on_position * row.position;

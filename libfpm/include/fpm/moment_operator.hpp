@@ -104,6 +104,11 @@ class MomentOperator {
     return Eigen::Map<const Tensor<Dim>>(second_moment_.data() + row * Dim * Dim);
   }
 
+  /// The same as arrays over the rows: component i of the first moments, one per row; the second
+  /// moments, Dim^2 per row, column-major.
+  const double* first_moments(int i) const { return first_moment_.col(i).data(); }
+  const double* second_moments() const { return second_moment_.data(); }
+
   /// Calls visit(neighbour, weights) for every entry of a row: weights points to channel_count()
   /// values. For set-up and output; the hot paths are gather and scatter.
   template <class Visitor>

@@ -10,13 +10,14 @@ namespace fpm {
 /// Index of a particle, a neighbour or a ghost; 32 bits halve the traffic of the neighbour lists.
 using Index = std::int32_t;
 
-/// A vector of the Dim-dimensional space.
-template <int Dim>
-using Vector = Eigen::Matrix<double, Dim, 1>;
+/// A vector of the Dim-dimensional space. `Real` is double, or a type with the arithmetic of double
+/// that holds the numbers of several particles side by side (the lanes of a vector register).
+template <int Dim, class Real = double>
+using Vector = Eigen::Matrix<Real, Dim, 1>;
 
-/// A second-order tensor of the Dim-dimensional space.
-template <int Dim>
-using Tensor = Eigen::Matrix<double, Dim, Dim>;
+/// A second-order tensor of the Dim-dimensional space; `Real` as for `Vector`.
+template <int Dim, class Real = double>
+using Tensor = Eigen::Matrix<Real, Dim, Dim>;
 
 /// A nodal field, component-major: column i holds component i of every particle (n x Dim).
 /// The same memory seen as one vector of length n Dim is what a solver works on.
