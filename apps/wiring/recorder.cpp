@@ -4,6 +4,7 @@
 
 #include "wiring/checkpoint.hpp"
 #include "wiring/checkpoint_folder.hpp"
+#include "wiring/diagnosis.hpp"
 #include "wiring/particle_fields.hpp"
 
 namespace wiring {
@@ -54,6 +55,8 @@ template <int Dim>
 std::optional<std::filesystem::path> make_room(const RunFolder& folder,
                                                const RunStart<Dim>& start) {
   if (!same_folder(folder, start)) return folder.set_previous_aside();
+  std::error_code ignored;
+  std::filesystem::remove(folder.failure(), ignored);  // of a run that now goes on
   set_aside_later(folder.checkpoints(), start.state.programme.step);
   return std::nullopt;
 }
@@ -133,6 +136,15 @@ void Recorder<Dim>::finish(const std::string& reason, const Eigen::VectorXd& rea
   progress_.finish();
   if (!interrupted && frames_.lacks(state_.programme.step)) write_frame(reaction);
   if (checkpointed_step_ != state_.programme.step) write_checkpoint(reason, reaction);
+}
+
+template <int Dim>
+void Recorder<Dim>::write_failure(const StepResult& result, const Eigen::VectorXd& reaction) {
+  auto fields = particle_fields(model_, state_, reaction, {});
+  for (PointField& field : failure_fields(model_, result)) fields.push_back(std::move(field));
+  const CurveRow& row = history_.back();
+  wiring::write_frame(folder_.failure(), row.step, time_of(row, scene_),
+                      current_points(model_, state_), fields);
 }
 
 template <int Dim>

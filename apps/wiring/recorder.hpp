@@ -36,6 +36,10 @@ class Recorder {
   /// state unless there is one.
   void finish(const std::string& reason, const Eigen::VectorXd& reaction, bool interrupted);
 
+  /// Writes what a failed attempt left to the folder's failure file, beside the fields of the last
+  /// converged state.
+  void write_failure(const StepResult& result, const Eigen::VectorXd& reaction);
+
   /// One line for the user and the log.
   void say(const std::string& line);
   Log& log() { return log_; }

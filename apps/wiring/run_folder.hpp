@@ -25,6 +25,7 @@ class RunFolder {
   [[nodiscard]] std::filesystem::path curve() const { return path_ / "curve.csv"; }
   [[nodiscard]] std::filesystem::path series() const { return path_ / "run.hdf.series"; }
   [[nodiscard]] std::filesystem::path log() const { return path_ / "run.log"; }
+  [[nodiscard]] std::filesystem::path failure() const { return path_ / "failure.hdf"; }
   [[nodiscard]] std::filesystem::path frames() const { return path_ / "frames"; }
   [[nodiscard]] std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
 

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <chrono>
 
+#include "wiring/diagnosis.hpp"
 #include "wiring/recorder.hpp"
 #include "wiring/run_report.hpp"
 #include "wiring/scene_derived.hpp"
@@ -133,13 +134,15 @@ class Run {
 
   ExitCode advance(State<Dim>& state, LoadStepper<Dim>& stepper, Recorder<Dim>& recorder,
                    const RunFolder& folder) {
-    const auto& reaction = stepper.equilibrium().unmasked_residual();
+    // Of the last converged step, whatever is tried after it.
+    Eigen::VectorXd reaction = Eigen::VectorXd::Zero(model_.unknowns());
     while (!stepper.finished()) {
       if (!stop_.now().empty()) return interrupt(recorder, reaction);
       const ProgrammeState before = state.programme;
       const StepResult result =
           stepper.advance([&](const jfnk::Iteration&) { return stop_.now().empty(); });
       if (result.outcome == StepOutcome::converged) {
+        reaction = stepper.equilibrium().unmasked_residual();
         recorder.take(result.record, reaction);
         continue;
       }
@@ -164,9 +167,11 @@ class Run {
 
   ExitCode fail(const State<Dim>& state, const StepResult& result, Recorder<Dim>& recorder,
                 const Eigen::VectorXd& reaction, const RunFolder& folder) {
-    recorder.finish("no convergence", reaction, false);
-    const std::string why =
-        failure_report(scene_, model_, state, result, recorder.history().back().max_plastic_strain);
+    recorder.finish(result.outcome == StepOutcome::hopeless ? "no hope" : "no convergence",
+                    reaction, false);
+    recorder.write_failure(result, reaction);
+    const std::string why = failure_report(scene_, model_, state, result) +
+                            "\n  fields: " + folder.failure().string();
     report(recorder, folder);
     if (!scene_.programme.stop_at_failure) {
       recorder.say("the programme ends here, as programme.stop_at_failure = false asks: " + why);

@@ -15,24 +15,6 @@ double mebibytes(std::size_t bytes) {
   return static_cast<double>(bytes) / (1024.0 * 1024.0);
 }
 
-// The one setting that is most likely to help.
-std::string advice(const Scene& scene, const StepResult& result, double max_plastic_strain) {
-  const bool finite = scene.approximation.kinematics == KinematicsKind::finite_strain;
-  if (!scene.research.enabled && finite && max_plastic_strain > scene.research.trigger) {
-    return "neighbourhoods are strained beyond research.trigger: resume with --set "
-           "research.enabled=true";
-  }
-  if (result.status == jfnk::Status::evaluation_limit) {
-    return fmt::format("resume with --set solver.max_evaluations_per_step={}",
-                       4 * scene.solver.max_evaluations_per_step);
-  }
-  if (scene.drive.kind == DriveKind::load) {
-    return "the load may be beyond what the body carries: drive a displacement instead";
-  }
-  return fmt::format("resume with --set programme.minimum_increment_ratio={:.2g}",
-                     scene.programme.minimum_increment_ratio / 64.0);
-}
-
 }  // namespace
 
 std::string check_report(const Scene& scene, std::size_t particles, std::size_t ghosts,
@@ -48,21 +30,6 @@ std::string check_report(const Scene& scene, std::size_t particles, std::size_t 
   line("checkpoint", fmt::format("at least {:.1f} MiB each", mebibytes(state_bytes)));
   line("steps", fmt::format("{} planned", nominal_steps(scene)));
   return out;
-}
-
-template <int Dim>
-std::string failure_report(const Scene& scene, const Model<Dim>& model, const State<Dim>& state,
-                           const StepResult& result, double max_plastic_strain) {
-  std::string where;
-  if (result.worst_particle >= 0) {
-    const Eigen::Matrix<double, 1, Dim> now = model.particles.position.row(result.worst_particle) +
-                                              state.displacement.row(result.worst_particle);
-    where = fmt::format(" Worst at particle {}, now at ({:.6g}) m.", result.worst_particle,
-                        fmt::join(now.data(), now.data() + Dim, ", "));
-  }
-  return fmt::format(
-      "no convergence at the smallest increment after load {:.6g}: {}.{} Advice: {}.",
-      state.programme.load, result.reason, where, advice(scene, result, max_plastic_strain));
 }
 
 std::string end_report(const Scene& scene, const std::vector<CurveRow>& history, double elapsed,
@@ -97,10 +64,5 @@ std::string end_report(const Scene& scene, const std::vector<CurveRow>& history,
   out.pop_back();  // whoever says it ends the line
   return out;
 }
-
-template std::string failure_report<2>(const Scene&, const Model<2>&, const State<2>&,
-                                       const StepResult&, double);
-template std::string failure_report<3>(const Scene&, const Model<3>&, const State<3>&,
-                                       const StepResult&, double);
 
 }  // namespace wiring

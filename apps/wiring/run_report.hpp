@@ -3,10 +3,8 @@
 #include <cstddef>
 #include <string>
 
-#include "wiring/model.hpp"
 #include "wiring/recorder.hpp"
 #include "wiring/scene.hpp"
-#include "wiring/stepper.hpp"
 
 namespace wiring {
 
@@ -14,12 +12,6 @@ namespace wiring {
 /// @param bytes  of the state and of all that works on it
 std::string check_report(const Scene& scene, std::size_t particles, std::size_t ghosts,
                          std::size_t bytes, std::size_t state_bytes);
-
-/// Why a step failed at the smallest increment, where, and the one setting to change.
-/// @param max_plastic_strain  the largest one of the last converged state
-template <int Dim>
-std::string failure_report(const Scene& scene, const Model<Dim>& model, const State<Dim>& state,
-                           const StepResult& result, double max_plastic_strain);
 
 /// What a run came to, and where its files are.
 std::string end_report(const Scene& scene, const std::vector<CurveRow>& history, double elapsed,

@@ -152,6 +152,7 @@ struct Programme {
   int easy_steps = 10;
   int easy_evaluations = 10;
   int hard_evaluations = 120;
+  int patience = 128;
   bool stop_at_failure = true;
   bool operator==(const Programme&) const = default;
 };

@@ -64,6 +64,7 @@ LoadStepper<Dim>::LoadStepper(const Scene& scene, const Model<Dim>& model, State
       use_preconditioner_(resolve_solver(scene.solver).preconditioner != PreconditionerKind::none),
       solver_(solver_options(scene)),
       nominal_increment_(1.0 / static_cast<double>(nominal_steps(scene))),
+      patience_(scene.programme.patience, nominal_increment_, state.programme.load),
       increment_(model.unknowns()) {
   if (state_.programme.next_increment <= 0.0) state_.programme.next_increment = nominal_increment_;
 }
@@ -120,12 +121,7 @@ bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult&
   result.status = report.status;
   if (report.converged()) return true;
   result.reason = report.reason;
-  result.worst_particle = -1;
-  if (equilibrium_.failure().particle >= 0) {
-    result.worst_particle = equilibrium_.failure().particle;
-  } else if (report.worst_component >= 0) {
-    result.worst_particle = static_cast<fpm::Index>(report.worst_component % model_.size());
-  }
+  result.folded_particle = equilibrium_.failure().particle;
   if (report.status == jfnk::Status::stopped) result.outcome = StepOutcome::stopped;
   return false;
 }
@@ -158,14 +154,29 @@ StepResult LoadStepper<Dim>::advance(const Watch& watch) {
       return result;
     }
     if (result.outcome == StepOutcome::stopped) return result;
+    patience_.attempted();
+    if (patience_.lost()) return give_up(StepOutcome::hopeless, result);
     ++result.record.cuts;
     programme.next_increment = 0.5 * increment;
     programme.easy_steps = 0;
     if (programme.next_increment < nominal_increment_ * scene_.programme.minimum_increment_ratio) {
-      result.outcome = StepOutcome::minimum_increment;
-      return result;
+      return give_up(StepOutcome::minimum_increment, result);
     }
   }
+}
+
+// Looks once more at the best of the last attempt, for the report.
+template <int Dim>
+StepResult& LoadStepper<Dim>::give_up(StepOutcome outcome, StepResult& result) {
+  result.outcome = outcome;
+  result.attempts = patience_.attempts();
+  result.patience_mark = patience_.mark();
+  if (!increment_.allFinite()) return result;
+  Eigen::VectorXd residual(increment_.size());
+  if (equilibrium_(increment_, residual) != jfnk::Evaluation::ok) return result;
+  result.attempt = increment_;
+  result.residual = std::move(residual);
+  return result;
 }
 
 template <int Dim>
@@ -178,6 +189,8 @@ void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
   ++programme.step;
   programme.load = 1.0 - programme.load - increment < end_slack ? 1.0 : programme.load + increment;
   programme.last_increment = increment;
+  patience_.attempted();
+  patience_.reached(programme.load);
   programme.hourglass_work += forces.hourglass_work;
   programme.external_work += forces.external_work;
 

@@ -6,6 +6,7 @@
 #include "jfnk/solver.hpp"
 #include "wiring/equilibrium.hpp"
 #include "wiring/model.hpp"
+#include "wiring/patience.hpp"
 #include "wiring/preconditioner.hpp"
 #include "wiring/scene.hpp"
 #include "wiring/state.hpp"
@@ -37,6 +38,7 @@ struct StepRecord {
 enum class StepOutcome {
   converged,          // the state holds the new step
   minimum_increment,  // cut back to the minimum without convergence; the state is the last good one
+  hopeless,           // patience lost after a failed attempt; the state is the last good one
   stopped,            // the observer asked to stop; the state is the last good one
 };
 
@@ -44,8 +46,13 @@ struct StepResult {
   StepOutcome outcome = StepOutcome::converged;
   StepRecord record;
   jfnk::Status status = jfnk::Status::converged;  // of the last attempt
-  std::string reason;                             // why the last attempt failed, and where
-  fpm::Index worst_particle = -1;
+  std::string reason;                             // why the last attempt failed
+  // Of the last attempt, if the stepper gave up:
+  fpm::Index folded_particle = -1;  // could not be evaluated: inverted or not finite
+  Eigen::VectorXd attempt;          // [m] increment of the lowest residual met, or empty
+  Eigen::VectorXd residual;         // [N/m or N] at it, 0 at prescribed unknowns, or empty
+  int attempts = 0;                 // at steps, since the load was `patience_mark`
+  double patience_mark = 0.0;
 };
 
 /// Advances a state through the load programme, one converged step at a time: predictor, solve,
@@ -73,6 +80,7 @@ class LoadStepper {
   void set_prescribed(double increment, Eigen::VectorXd& u) const;
   bool predict_by_tangent(double increment, Eigen::VectorXd& u, StepRecord& record);
   bool solve(Eigen::VectorXd& u, const Watch& watch, StepResult& result);
+  StepResult& give_up(StepOutcome outcome, StepResult& result);
   void finish_step(double increment, StepRecord& record);
   void choose_next_increment(const StepRecord& record);
 
@@ -84,6 +92,7 @@ class LoadStepper {
   bool use_preconditioner_ = true;
   jfnk::Solver solver_;
   double nominal_increment_ = 1.0;  // of the load parameter
+  Patience patience_;
   Eigen::VectorXd increment_;
 };
 

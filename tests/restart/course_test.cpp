@@ -4,12 +4,15 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <thread>
 
 #include "restart.hpp"
 #include "wiring/curve.hpp"
+#include "wiring/hdf5_file.hpp"
 #include "wiring/scene_changes.hpp"
 #include "wiring/scene_reader.hpp"
 #include "wiring/stop_signals.hpp"
@@ -116,8 +119,9 @@ TEST(Failure, NamesTheLastGoodCheckpointAndResumesWithTheAdvice) {
   const auto checkpoint = checkpoint_of(run, 10);
   EXPECT_EQ(last_checkpoint(run), checkpoint);
   EXPECT_THAT(log_of(run), HasSubstr("the last good checkpoint is " + checkpoint.string()));
-  EXPECT_THAT(log_of(run), HasSubstr("Worst at particle "));
-  EXPECT_THAT(log_of(run), HasSubstr("Advice: resume with --set "
+  EXPECT_THAT(log_of(run), HasSubstr("limits: the evaluations of a step"));
+  EXPECT_THAT(log_of(run), ContainsRegex("% of the residual .squared.: particle [0-9]+, now at "));
+  EXPECT_THAT(log_of(run), HasSubstr("advice: resume with --set "
                                      "solver.max_evaluations_per_step=40"));
   // What was tried in vain has left no trace in the state.
   EXPECT_THAT(differing_fields(checkpoint_of(whole, 10), checkpoint),
@@ -125,6 +129,40 @@ TEST(Failure, NamesTheLastGoodCheckpointAndResumesWithTheAdvice) {
   const Outcome resumed = fpm_run_in(run, footing, {"--resume"});
   EXPECT_EQ(resumed.code, ExitCode::done) << resumed.err;
   EXPECT_THAT(resumed.out, HasSubstr("changed: solver.max_evaluations_per_step: 10 -> 400"));
+}
+
+// The same, but free to cut back for ever: patience ends it.
+TEST(Failure, WithoutHopeEndsByPatience) {
+  const TemporaryFolder folder;
+  const auto whole = folder / "whole", run = folder / "run";
+  ASSERT_EQ(fpm_run_in(whole, footing).code, ExitCode::done);
+  auto arguments = hopeless(whole);
+  arguments.back() = "programme.minimum_increment_ratio=1e-30";
+  arguments.insert(arguments.end(), {"--set", "programme.patience=5"});
+  ASSERT_EQ(fpm_run_in(run, footing, arguments).code, ExitCode::not_converged);
+  EXPECT_THAT(log_of(run), ContainsRegex("no hope after load 0.5: 5 attempts at a step since load "
+                                         "0.5 have not gained one nominal step"));
+  EXPECT_THAT(log_of(run), HasSubstr("the last good checkpoint is "));
+  EXPECT_EQ(last_checkpoint(run), checkpoint_of(run, 10));
+}
+
+TEST(Failure, LeavesItsFieldsUntilTheRunGoesOn) {
+  const TemporaryFolder folder;
+  const auto whole = folder / "whole", run = folder / "run";
+  ASSERT_EQ(fpm_run_in(whole, footing).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(run, footing, hopeless(whole)).code, ExitCode::not_converged);
+  EXPECT_THAT(log_of(run), HasSubstr("fields: " + (run / "failure.hdf").string()));
+  {
+    const auto file = Hdf5File::open(run / "failure.hdf");
+    for (const char* field : {"residual", "attempt"}) {
+      const auto values = file.read_all<double>(std::string("/VTKHDF/PointData/") + field);
+      EXPECT_TRUE(std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) << field;
+      EXPECT_TRUE(std::ranges::any_of(values, [](double v) { return v != 0.0; })) << field;
+    }
+    EXPECT_FALSE(file.read_all<double>("/VTKHDF/PointData/stress").empty());
+  }
+  ASSERT_EQ(fpm_run_in(run, footing, {"--resume"}).code, ExitCode::done);
+  EXPECT_FALSE(std::filesystem::exists(run / "failure.hdf"));
 }
 
 TEST(Failure, IsTheResultWhereTheSceneSaysSo) {
@@ -151,7 +189,7 @@ TEST(Failure, OfStrainedNeighbourhoodsAdvisesReSearchWhichHappensBeforeTheNextSt
   without.insert(without.end(), {"--set", "research.enabled=false"});
   with.emplace_back("--resume");
   ASSERT_EQ(fpm_run_in(run, footing, without).code, ExitCode::not_converged);
-  EXPECT_THAT(log_of(run), HasSubstr("Advice: neighbourhoods are strained beyond "
+  EXPECT_THAT(log_of(run), HasSubstr("advice: neighbourhoods are strained beyond "
                                      "research.trigger: resume with --set research.enabled=true"));
   with.insert(with.end(), {"--max-wall", "0.000000001s"});
   EXPECT_THAT(fpm_run_in(run, footing, with).out, ContainsRegex("\n[1-9][0-9]* rows re-searched"));
