@@ -50,8 +50,9 @@ std::string what_limits(const StepResult& result) {
 template <int Dim>
 std::string advice(const Scene& scene, const State<Dim>& state, const StepResult& result) {
   const bool plastic = state.layout.plastic && state.layout.finite;
-  const bool strained = plastic && (state.plastic_strain - state.plastic_strain_at_search)
-                                           .maxCoeff() > scene.research.trigger;
+  const bool strained =
+      plastic &&
+      (state.plastic_strain - state.plastic_strain_at_search).maxCoeff() > scene.research.trigger;
   if (!scene.research.enabled && strained) {
     return "neighbourhoods are strained beyond research.trigger: resume with --set "
            "research.enabled=true";
@@ -68,9 +69,10 @@ std::string advice(const Scene& scene, const State<Dim>& state, const StepResult
     return "the load may be beyond what the body carries: drive a displacement instead";
   }
   if (result.outcome == StepOutcome::hopeless) {
-    return fmt::format("a looser tolerance, if its error is acceptable: resume with --set "
-                       "solver.tolerance={:.2g}",
-                       3.0 * resolve_solver(scene.solver).tolerance);
+    return fmt::format(
+        "a looser tolerance, if its error is acceptable: resume with --set "
+        "solver.tolerance={:.2g}",
+        3.0 * resolve_solver(scene.solver).tolerance);
   }
   return fmt::format("resume with --set programme.minimum_increment_ratio={:.2g}",
                      scene.programme.minimum_increment_ratio / 64.0);
@@ -109,8 +111,8 @@ std::string condition_of(const State<Dim>& state, fpm::Index a) {
   }
   if (state.layout.finite) {
     const Eigen::Map<const fpm::Tensor<Dim>> f(state.deformation_gradient.col(a).data());
-    words.push_back(fmt::format("volume ratio {:.3g}",
-                                state.searched_volume_ratio[a] * f.determinant()));
+    words.push_back(
+        fmt::format("volume ratio {:.3g}", state.searched_volume_ratio[a] * f.determinant()));
   }
   return words.empty() ? "" : fmt::format(" ({})", fmt::join(words, ", "));
 }

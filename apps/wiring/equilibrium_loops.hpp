@@ -332,8 +332,7 @@ struct LoopsOf {
       if constexpr (Law::mixed) {
         strain.template tail<6>() = detail::flat(direction.second_gradient);
       }
-      const auto stress =
-          product<size, Real>(e.tangent_.data() + StressTangents::at(a, 0), strain);
+      const auto stress = product<size, Real>(e.tangent_.data() + StressTangents::at(a, 0), strain);
       const Tensor<Real> nominal = Eigen::Map<const Tensor<Real>>(stress.data());
       fpm::BasicSecondGradient<Real> second;
       if constexpr (Law::mixed) {

@@ -22,16 +22,21 @@ struct LaneMask {
   LaneMask() = default;
   explicit LaneMask(const Register& b) : bits(b) {}
   // Copied as a register (see Lanes).
-  // NOLINTNEXTLINE(modernize-use-equals-default)
+  // NOLINTBEGIN(modernize-use-equals-default)
   LaneMask(const LaneMask& other) : bits(other.bits) {}
   LaneMask& operator=(const LaneMask& other) {
     bits = other.bits;
     return *this;
   }
+  // NOLINTEND(modernize-use-equals-default)
 
   bool operator[](int lane) const { return bits[lane] != 0; }
-  friend LaneMask operator&(const LaneMask& a, const LaneMask& b) { return LaneMask(a.bits & b.bits); }
-  friend LaneMask operator|(const LaneMask& a, const LaneMask& b) { return LaneMask(a.bits | b.bits); }
+  friend LaneMask operator&(const LaneMask& a, const LaneMask& b) {
+    return LaneMask(a.bits & b.bits);
+  }
+  friend LaneMask operator|(const LaneMask& a, const LaneMask& b) {
+    return LaneMask(a.bits | b.bits);
+  }
   friend LaneMask operator!(const LaneMask& a) { return LaneMask(~a.bits); }
 };
 
@@ -46,19 +51,19 @@ class Lanes {
  public:
   using Register = double __attribute__((vector_size(lane_count * sizeof(double))));
   /// A register at any address: one move, where std::memcpy would make two.
-  using Unaligned = double
-      __attribute__((vector_size(lane_count * sizeof(double)), aligned(sizeof(double)), may_alias));
+  using Unaligned __attribute__((aligned(sizeof(double)), may_alias)) = Register;
 
   Lanes() = default;
   Lanes(double all) : v_(Register{} + all) {}  // NOLINT(google-explicit-constructor): as for double
   explicit Lanes(Register v) : v_(v) {}
   // A trivial copy is made in halves, for which a load of the whole must wait; this one is not.
-  // NOLINTNEXTLINE(modernize-use-equals-default)
+  // NOLINTBEGIN(modernize-use-equals-default)
   Lanes(const Lanes& other) : v_(other.v_) {}
   Lanes& operator=(const Lanes& other) {
     v_ = other.v_;
     return *this;
   }
+  // NOLINTEND(modernize-use-equals-default)
 
   double operator[](int lane) const { return v_[lane]; }
 
@@ -155,8 +160,8 @@ void load_columns(const double* column, Lanes* out) {
   for (; k + 4 <= Count; k += 4) {
     const double* part = column + k;
     detail::transpose(load<Lanes>(part).values(), load<Lanes>(part + Count).values(),
-                      load<Lanes>(part + 2 * Count).values(), load<Lanes>(part + 3 * Count).values(),
-                      out + k);
+                      load<Lanes>(part + 2 * Count).values(),
+                      load<Lanes>(part + 3 * Count).values(), out + k);
   }
   for (; k < Count; ++k) {
     out[k] = Lanes(Lanes::Register{column[k], column[Count + k], column[2 * Count + k],
@@ -174,8 +179,16 @@ struct NumTraits<wiring::Lanes> : GenericNumTraits<wiring::Lanes> {
   using NonInteger = wiring::Lanes;
   using Nested = wiring::Lanes;
   using Literal = double;
+  // NOLINTBEGIN(readability-identifier-naming): Eigen's names
   enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 0 };
   enum { ReadCost = 1, AddCost = 1, MulCost = 1 };
+  // NOLINTEND(readability-identifier-naming)
+};
+
+// Arrays of lanes lie as lanes do; Eigen would ask for less, which Clang takes for an error.
+template <int Size>
+struct internal::compute_default_alignment<wiring::Lanes, Size> {
+  enum { value = 0 };
 };
 
 }  // namespace Eigen

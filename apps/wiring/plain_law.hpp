@@ -31,8 +31,8 @@ void PlainLaw<Dim, Finite>::respond(const Material& material, const ParticleStar
   using namespace constitutive;
   if constexpr (Finite) {
     const detail::CurrentGradient<Dim, Real> now(start.gradient, increment.gradient);
-    const auto motion = objective_increment(
-        increment.gradient, detail::midpoint(start.gradient, increment.gradient));
+    const auto motion = objective_increment(increment.gradient,
+                                            detail::midpoint(start.gradient, increment.gradient));
     const auto trial = elastic_trial<Dim>(start.point.stress, motion, material.moduli);
     const auto outcome = update(material, trial, start.point, response.point);
     response.admissible = now.admissible() & motion.is_admissible() & !outcome.failed;
@@ -63,8 +63,8 @@ constitutive::Mask<Real> PlainLaw<Dim, Finite>::linearise(
   respond(material, start, increment, base);
   if constexpr (Finite) {
     const detail::CurrentGradient<Dim, Real> now(start.gradient, increment.gradient);
-    const auto motion = objective_increment(
-        increment.gradient, detail::midpoint(start.gradient, increment.gradient));
+    const auto motion = objective_increment(increment.gradient,
+                                            detail::midpoint(start.gradient, increment.gradient));
     const auto trial = elastic_trial<Dim>(start.point.stress, motion, material.moduli);
     const auto on_trial = trial_tangent(material, trial, start.point);
     const Real volume = start.reference_volume * now.determinant;

@@ -56,8 +56,7 @@ RunFolder::~RunFolder() {
 
 std::optional<std::filesystem::path> RunFolder::set_previous_aside() const {
   std::vector<std::filesystem::path> results;
-  for (const auto& result :
-       {curve(), series(), log(), failure(), frames(), checkpoints()}) {
+  for (const auto& result : {curve(), series(), log(), failure(), frames(), checkpoints()}) {
     if (std::filesystem::exists(result)) results.push_back(result);
   }
   if (results.empty()) return std::nullopt;

@@ -170,8 +170,8 @@ class Run {
     recorder.finish(result.outcome == StepOutcome::hopeless ? "no hope" : "no convergence",
                     reaction, false);
     recorder.write_failure(result, reaction);
-    const std::string why = failure_report(scene_, model_, state, result) +
-                            "\n  fields: " + folder.failure().string();
+    const std::string why =
+        failure_report(scene_, model_, state, result) + "\n  fields: " + folder.failure().string();
     report(recorder, folder);
     if (!scene_.programme.stop_at_failure) {
       recorder.say("the programme ends here, as programme.stop_at_failure = false asks: " + why);

@@ -30,10 +30,11 @@ TableInfo programme() {
             .doc = "A step is easy below this many evaluations of residual and Jacobian action."})
       .key("hard_evaluations", &Programme::hard_evaluations,
            {.range = at_least(1), .doc = "Above this many evaluations the next step is halved."})
-      .key("patience", &Programme::patience,
-           {.range = at_least(0),
-            .doc = "A run is given up as hopeless when so many attempts at a step, converged or cut "
-                   "back, have not gained one nominal step; 0: never."})
+      .key(
+          "patience", &Programme::patience,
+          {.range = at_least(0),
+           .doc = "A run is given up as hopeless when so many attempts at a step, converged or cut "
+                  "back, have not gained one nominal step; 0: never."})
       .key("stop_at_failure", &Programme::stop_at_failure,
            {.doc = "A step that fails at the smallest increment ends the run: true, with exit code "
                    "3; false, with code 0, its last state being the result (a load driven to "

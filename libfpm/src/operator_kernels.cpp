@@ -18,8 +18,7 @@ namespace {
 constexpr int lanes = 4;
 using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
 // One move from any address, where std::memcpy would make two.
-using UnalignedLanes = double
-    __attribute__((vector_size(lanes * sizeof(double)), aligned(sizeof(double)), may_alias));
+using UnalignedLanes __attribute__((aligned(sizeof(double)), may_alias)) = Lanes;
 using Segment = SegmentedRows::Segment;
 
 FPM_INLINE Lanes load(const double* p) {

@@ -173,8 +173,7 @@ void expect_lanes_move_like_points() {
     }
     for (int e = 0; e < Dim * Dim; ++e) {
       const auto entry = [&](const auto& of) {
-        return make_lanes(
-            [&](int lane) { return of[static_cast<std::size_t>(lane)].data()[e]; });
+        return make_lanes([&](int lane) { return of[static_cast<std::size_t>(lane)].data()[e]; });
       };
       wide_change.data()[e] = entry(change);
       wide_direction.data()[e] = entry(direction);

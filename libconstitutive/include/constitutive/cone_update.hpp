@@ -32,9 +32,8 @@ template <ConeMaterial Material, int Dim, class Real>
 BasicUpdateOutcome<Real> update(const Material& material,
                                 const std::type_identity_t<StressVector<Dim, Real>>& trial,
                                 const PointState<Dim, Real>& s0, PointState<Dim, Real>& s1) {
-  const MixedResult<1, Dim, Real> r =
-      mixed_return(material, detail::single_point_trial<Dim>(trial), detail::whole_weight,
-                   s0.plastic_volume_strain);
+  const MixedResult<1, Dim, Real> r = mixed_return(material, detail::single_point_trial<Dim>(trial),
+                                                   detail::whole_weight, s0.plastic_volume_strain);
   const StressVector<Dim, Real> returned = detail::recompose<Dim>(r.pressure, r.deviator[0]);
   const Mask<Real>& failed = r.outcome.failed;
   const Mask<Real> flows = r.outcome.plastic & !failed;

@@ -39,8 +39,8 @@ BasicCone<Real> yield_cone(const VonMises& m,
 template <class Real = double>
 BasicCone<Real> yield_cone(const DruckerPrager& m,
                            const std::type_identity_t<Real>& plastic_volume_strain) {
-  const Real beta = select(plastic_volume_strain >= Real(m.dilation_cutoff), Real(0),
-                           Real(m.cone.beta));
+  const Real beta =
+      select(plastic_volume_strain >= Real(m.dilation_cutoff), Real(0), Real(m.cone.beta));
   return {.alpha = m.cone.alpha, .beta = beta, .strength = m.cone.strength};
 }
 

@@ -26,8 +26,8 @@ struct MixedTrial {
 /// Stress of a block after the return; if it failed, everything but `outcome` is unspecified.
 template <std::size_t M, int Dim = 2, class Real = double>
 struct [[nodiscard]] MixedResult {
-  BasicUpdateOutcome<Real> outcome;  ///< Plastic if at least one sub-point yields.
-  Real pressure = 0;                 ///< Mean stress of the block [Pa].
+  BasicUpdateOutcome<Real> outcome;                 ///< Plastic if at least one sub-point yields.
+  Real pressure = 0;                                ///< Mean stress of the block [Pa].
   std::array<StressVector<Dim, Real>, M> deviator;  ///< s_k = factor_k s_k,tr [Pa].
   std::array<Real, M> factor;  ///< Y / J_k of a yielding sub-point, 1 of an elastic one, 0 apex.
   std::array<Mask<Real>, M> yields;   ///< Whether sub-point k flows (all do at the apex).

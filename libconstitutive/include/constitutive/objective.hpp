@@ -132,7 +132,11 @@ StressVector<2, Real> rotate(const StressVector<2, Real>& v, const SpatialMatrix
 template <class Real>
 StressVector<3, Real> rotate(const StressVector<3, Real>& v, const SpatialMatrix<3, Real>& q) {
   const SpatialMatrix<3, Real> m = q * spatial_part<3>(v) * q.transpose();
-  return {m(0, 0), m(1, 1), m(2, 2), (m(0, 1) + m(1, 0)) / 2, (m(1, 2) + m(2, 1)) / 2,
+  return {m(0, 0),
+          m(1, 1),
+          m(2, 2),
+          (m(0, 1) + m(1, 0)) / 2,
+          (m(1, 2) + m(2, 1)) / 2,
           (m(2, 0) + m(0, 2)) / 2};
 }
 

@@ -12,7 +12,7 @@ template <int Dim, class Real = double>
 struct PointState {
   /// Cauchy stress [Pa], tension positive.
   StressVector<Dim, Real> stress = StressVector<Dim, Real>::Zero();
-  Real plastic_strain = 0;  ///< Accumulated sum of sqrt(2/3 de_p : de_p), whole tensor [-].
+  Real plastic_strain = 0;         ///< Accumulated sum of sqrt(2/3 de_p : de_p), whole tensor [-].
   Real plastic_volume_strain = 0;  ///< Accumulated sum of tr(de_p), dilation positive [-].
 
   /// Calls visitor(name, field) for every field, in a fixed order: the one list of what lives here.

@@ -31,8 +31,7 @@ Vector<2, Real> subpoint_offset(std::size_t k, const Real& reference_volume) {
 
 /// H xi: change of the deformation gradient from the particle to the sub-point.
 template <class Real>
-Tensor<2, Real> second_gradient_at(const BasicSecondGradient<Real>& h,
-                                   const Vector<2, Real>& xi) {
+Tensor<2, Real> second_gradient_at(const BasicSecondGradient<Real>& h, const Vector<2, Real>& xi) {
   Tensor<2, Real> change;
   change.col(0) = h.col(0) * xi[0] + h.col(1) * xi[1];
   change.col(1) = h.col(1) * xi[0] + h.col(2) * xi[1];
