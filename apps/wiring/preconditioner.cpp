@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "wiring/local_response.hpp"
+
 namespace wiring {
 namespace {
 
@@ -195,9 +197,69 @@ void TwoLevelPreconditioner<Dim>::add_grid_supports(
   }
 }
 
+// Elastic stiffness of the grid by quadrature over the particles, whose interpolation is kept. A
+// node meets its 3^Dim neighbours only: their blocks are summed in place, for a list of every
+// particle's contributions would be the largest thing in memory.
+template <int Dim>
+std::vector<Eigen::Triplet<double>> TwoLevelPreconditioner<Dim>::grid_stiffness(
+    const Model<Dim>& model) {
+  constexpr int corners = 1 << Dim;
+  constexpr int block_size = Dim * Dim;
+  constexpr int slots = Dim == 2 ? 9 : 27;
+  using Tensor = fpm::Tensor<Dim>;
+  corner_.resize(corners, size_);
+  weight_.resize(corners, size_);
+  Eigen::MatrixXd blocks = Eigen::MatrixXd::Zero(slots * block_size, nodes_);
+  Eigen::Matrix<fpm::Index, corners, 1> nodes;
+  Eigen::Matrix<double, corners, 1> values;
+  Eigen::Matrix<double, Dim, corners> gradients;
+  for (Eigen::Index a = 0; a < size_; ++a) {
+    interpolation_of(model.particles.position.row(a), nodes, values, gradients);
+    corner_.col(a) = nodes;
+    weight_.col(a) = values.template cast<float>();
+    const constitutive::ElasticModuli m = moduli_of(model, a);
+    const double volume = model.particles.volume[a];
+    const double penalty = penalty_factor *
+                           model.youngs_modulus[model.material[static_cast<std::size_t>(a)]] *
+                           std::pow(volume, 1.0 - 2.0 / Dim);
+    for (int p = 0; p < corners; ++p) {
+      for (int q = 0; q < corners; ++q) {
+        Tensor block = volume * elastic_block<Dim>(m, fpm::Vector<Dim>(gradients.col(p)),
+                                                   fpm::Vector<Dim>(gradients.col(q)));
+        for (int i = 0; i < Dim; ++i) {
+          if (prescribed_[static_cast<std::size_t>(i * size_ + a)] != 0) {
+            block(i, i) += penalty * values[p] * values[q];
+          }
+        }
+        int slot = 0;
+        for (int i = Dim - 1; i >= 0; --i) slot = 3 * slot + 1 + ((q >> i) & 1) - ((p >> i) & 1);
+        blocks.col(nodes[p]).template segment<block_size>(slot * block_size) += detail::flat(block);
+      }
+    }
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(blocks.size()));
+  for (fpm::Index node = 0; node < nodes_; ++node) {
+    for (int slot = 0; slot < slots; ++slot) {
+      const Eigen::Map<const Tensor> block(blocks.col(node).data() + slot * block_size);
+      if ((block.array() == 0.0).all()) continue;  // also what lies beyond the grid
+      fpm::Index other = node, stride = 1;
+      for (int i = 0, rest = slot; i < Dim; ++i, rest /= 3) {
+        other += (rest % 3 - 1) * stride;
+        stride *= cells_[i] + 1;
+      }
+      for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) {
+          entries.emplace_back(node * Dim + i, other * Dim + j, block(i, j));
+        }
+      }
+    }
+  }
+  return entries;
+}
+
 template <int Dim>
 void TwoLevelPreconditioner<Dim>::build_grid(const Model<Dim>& model, double grid_spacing) {
-  const auto& position = model.particles.position;
   origin_ = model.box_min;
   const fpm::Vector<Dim> extent = model.box_max - origin_;
   nodes_ = 1;
@@ -206,38 +268,7 @@ void TwoLevelPreconditioner<Dim>::build_grid(const Model<Dim>& model, double gri
     cell_[i] = extent[i] / cells_[i];
     nodes_ *= cells_[i] + 1;
   }
-  constexpr int corners = 1 << Dim;
-  corner_.resize(corners, size_);
-  weight_.resize(corners, size_);
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(size_ * corners * corners * Dim * Dim));
-  Eigen::Matrix<fpm::Index, corners, 1> nodes;
-  Eigen::Matrix<double, corners, 1> values;
-  Eigen::Matrix<double, Dim, corners> gradients;
-  for (Eigen::Index a = 0; a < size_; ++a) {
-    interpolation_of(position.row(a), nodes, values, gradients);
-    corner_.col(a) = nodes;
-    weight_.col(a) = values.template cast<float>();
-    const constitutive::ElasticModuli m = moduli_of(model, a);
-    const double penalty = penalty_factor *
-                           model.youngs_modulus[model.material[static_cast<std::size_t>(a)]] *
-                           std::pow(model.particles.volume[a], 1.0 - 2.0 / Dim);
-    for (int p = 0; p < corners; ++p) {
-      for (int q = 0; q < corners; ++q) {
-        fpm::Tensor<Dim> block =
-            model.particles.volume[a] * elastic_block<Dim>(m, fpm::Vector<Dim>(gradients.col(p)),
-                                                           fpm::Vector<Dim>(gradients.col(q)));
-        for (int i = 0; i < Dim; ++i) {
-          if (prescribed_[static_cast<std::size_t>(i * size_ + a)] != 0) {
-            block(i, i) += penalty * values[p] * values[q];
-          }
-          for (int j = 0; j < Dim; ++j) {
-            entries.emplace_back(nodes[p] * Dim + i, nodes[q] * Dim + j, block(i, j));
-          }
-        }
-      }
-    }
-  }
+  std::vector<Eigen::Triplet<double>> entries = grid_stiffness(model);
   add_grid_supports(model, entries);
   Eigen::SparseMatrix<double> stiffness(nodes_ * Dim, nodes_ * Dim);
   stiffness.setFromTriplets(entries.begin(), entries.end());

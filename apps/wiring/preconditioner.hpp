@@ -37,6 +37,7 @@ class TwoLevelPreconditioner {
   using Blocks = Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic>;
   void build_blocks(const Model<Dim>& model, const fpm::MomentOperator<Dim>& op);
   void build_grid(const Model<Dim>& model, double grid_spacing);
+  std::vector<Eigen::Triplet<double>> grid_stiffness(const Model<Dim>& model);
   void add_penalty_blocks(const Model<Dim>& model, Blocks& sum) const;
   void invert_blocks(const Blocks& sum);
   void add_grid_supports(const Model<Dim>& model,

@@ -48,6 +48,11 @@ MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const MirrorGhosts<Di
     first_moment_.setZero(size_, Dim);
     second_moment_.setZero(static_cast<Eigen::Index>(size_) * Dim * Dim);
   }
+  std::size_t entries = 0;
+  for (Index a = 0; a < size_; ++a) entries += rows.neighbours(a).size();
+  weighted.id.reserve(entries);
+  weighted.weight.reserve(entries * static_cast<std::size_t>(weighted.channels));
+  weighted.offset.reserve(static_cast<std::size_t>(size_) + 1);
   RowGeometry<Dim> geometry;
   RowWeights<Dim> weights;
   for (Index a = 0; a < size_; ++a) {
@@ -82,7 +87,8 @@ MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const MirrorGhosts<Di
   if (channels.pair) std::fill_n(in_sum.begin() + Dim, 1 + Dim, char{0});
   const Index nodes = size_ + ghosts_.size();
   forward_ = detail::segment(weighted, block_rows, nodes);
-  transposed_ = detail::segment(detail::transpose(weighted, nodes, in_sum), block_rows, size_);
+  weighted = detail::transpose(weighted, nodes, in_sum);
+  transposed_ = detail::segment(weighted, block_rows, size_);
 }
 
 template <int Dim>
