@@ -8,7 +8,7 @@
 #include <iterator>
 #include <new>
 
-#include "wiring/durable_file.hpp"
+#include "wiring/file_error.hpp"
 #include "wiring/nearest_name.hpp"
 #include "wiring/scene_derived.hpp"
 #include "wiring/scene_names.hpp"

@@ -51,7 +51,7 @@ TEST_F(DamagedCheckpoint, IsRefusedAndTheNextOlderUsableOneNamed) {
   overwrite(newer, bytes_of_file(newer).substr(0, 5000));
   const Outcome outcome = fpm_run_in(run_, block, {"--resume=" + newest.string()});
   EXPECT_EQ(outcome.code, ExitCode::checkpoint_unusable);
-  EXPECT_THAT(outcome.err, HasSubstr("/state/particles/stress"));
+  EXPECT_THAT(outcome.err, HasSubstr("is damaged: its bytes are not those that were sealed"));
   EXPECT_THAT(outcome.err,
               HasSubstr("the next older usable one is " + checkpoint_of(run_, 4).string()));
 }
@@ -62,11 +62,11 @@ TEST_F(DamagedCheckpoint, IsPassedOverWithAWarningWhenNoneIsNamed) {
   const Outcome outcome = fpm_run_in(run_, block, {"--resume"});
   EXPECT_EQ(outcome.code, ExitCode::done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("resuming from " + checkpoint_of(run_, 5).string()));
-  EXPECT_THAT(bytes_of_file(run_ / "run.log"), HasSubstr("step-000006.hdf: /state/particles"));
+  EXPECT_THAT(bytes_of_file(run_ / "run.log"), HasSubstr("step-000006.hdf: is damaged"));
 }
 
 TEST_F(DamagedCheckpoint, IsNeverReplacedByAStartFromZero) {
-  for (int step = 1; step <= 6; ++step) overwrite(checkpoint_of(run_, step), "not HDF5");
+  for (int step = 0; step <= 6; ++step) overwrite(checkpoint_of(run_, step), "not HDF5");
   const std::string curve = bytes_of_file(run_ / "curve.csv");
   const Outcome outcome = fpm_run_in(run_, block, {"--resume"});
   EXPECT_EQ(outcome.code, ExitCode::checkpoint_unusable);
@@ -115,21 +115,13 @@ TEST_F(DamagedCheckpoint, CutAnywhereIsRefused) {
   }
 }
 
-TEST_F(DamagedCheckpoint, FromAnotherProgramOrANewerOneIsRefusedByName) {
+TEST_F(DamagedCheckpoint, FromAnotherProgramIsRefused) {
   const auto file = run_ / "other.hdf";
   Hdf5File::create(file).close();
   const std::string from = "--resume=" + file.string();
   EXPECT_THAT(fpm_run_in(run_, block, {from}).err, HasSubstr("is no checkpoint of this program"));
-  {
-    Hdf5File newer = Hdf5File::create(file);
-    const std::int64_t schema = checkpoint_schema + 1;
-    newer.write<std::int64_t>("/meta/schema", std::span(&schema, 1), {1});
-    newer.write_text("/meta/versions", "fpm-run 9.8.7");
-    newer.close();
-  }
-  const Outcome outcome = fpm_run_in(run_, block, {from});
-  EXPECT_EQ(outcome.code, ExitCode::checkpoint_unusable);
-  EXPECT_THAT(outcome.err, HasSubstr("has checkpoint schema 2 (written by fpm-run 9.8.7)"));
+  overwrite(file, "step,load\n");
+  EXPECT_THAT(fpm_run_in(run_, block, {from}).err, HasSubstr("is no checkpoint of this program"));
 }
 
 TEST(ContentDigest, DependsOnNamesAndEveryBitButNotOnTheOrder) {
