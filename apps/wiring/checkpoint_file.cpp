@@ -159,6 +159,11 @@ void write_digest(Hdf5File& file, const ContentDigest& digest) {
   file.write<std::int64_t>(digest_path, std::span(&value, 1), {1});
 }
 
+bool is_checkpoint(const std::filesystem::path& file) {
+  if (has_seal(file) || step_of(file)) return true;
+  return Hdf5File::open(file).has(schema_path);  // one of the first schema under another name
+}
+
 Hdf5File open_checkpoint(const std::filesystem::path& path, CheckpointNotes& notes) {
   require_unbroken_seal(path);
   Hdf5File file = Hdf5File::open(path);

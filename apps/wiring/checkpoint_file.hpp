@@ -53,6 +53,10 @@ void write_notes(Hdf5File& file, const CheckpointNotes& notes, ContentDigest& di
 /// Writes the digest of everything; the last dataset.
 void write_digest(Hdf5File& file, const ContentDigest& digest);
 
+/// Whether a file is a checkpoint, sound or not, rather than a frame.
+/// @throws FileError if it is neither.
+[[nodiscard]] bool is_checkpoint(const std::filesystem::path& file);
+
 /// Opens a checkpoint and reads all of it once: seal, schema, checksums, digest and notes are
 /// sound, and notes and state are of one step.
 /// @param[out] notes  what it holds beside the state

@@ -103,6 +103,10 @@ void write_seal(const std::filesystem::path& file, std::int64_t schema, const st
   if (failure != 0) throw system_error(file, "cannot be written", failure);
 }
 
+bool has_seal(const std::filesystem::path& file) {
+  return beginning_of(file).starts_with(first_line);
+}
+
 std::optional<FileSeal> read_seal(const std::filesystem::path& file) {
   const std::string text = beginning_of(file);
   if (!text.starts_with(first_line)) return std::nullopt;

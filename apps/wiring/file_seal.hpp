@@ -30,6 +30,9 @@ inline constexpr std::uint64_t seal_size = 512;
 void write_seal(const std::filesystem::path& file, std::int64_t schema, const std::string& writer,
                 const SystemCalls& system = system_calls());
 
+/// Whether a file begins as a sealed one does.
+[[nodiscard]] bool has_seal(const std::filesystem::path& file);
+
 /// The seal of a file, or nothing if it begins otherwise.
 /// @throws FileError if it begins as a seal but is none.
 [[nodiscard]] std::optional<FileSeal> read_seal(const std::filesystem::path& file);

@@ -56,11 +56,12 @@ std::vector<Ancestor> parse_lineage(std::string_view text) {
   std::vector<Ancestor> ancestors;
   try {
     const toml::table tree = toml::parse(text);
-    if (const toml::array* list = tree[table_name].as_array()) {
-      for (const toml::node& node : *list) {
-        if (const toml::table* table = node.as_table()) ancestors.push_back(parsed(*table));
-      }
+    const toml::node* list = tree.get(table_name);
+    if (list == nullptr) return ancestors;
+    if (!list->is_array_of_tables()) {
+      throw std::invalid_argument(fmt::format("{} is no list of tables", table_name));
     }
+    for (const toml::node& node : *list->as_array()) ancestors.push_back(parsed(*node.as_table()));
   } catch (const toml::parse_error& failure) {
     throw std::invalid_argument(std::string(failure.description()));
   }

@@ -140,6 +140,7 @@ std::string Recorder<Dim>::why_checkpoint_is_due() const {
   const Output& output = scene_.output;
   const bool by_step =
       output.checkpoints_every > 0 && state_.programme.step % output.checkpoints_every == 0;
+  if (by_step && output.checkpoints_every == 1) return "every step";
   if (by_step) return fmt::format("every {} steps", output.checkpoints_every);
   constexpr double minute = 60.0;  // [s]
   const double waited = (elapsed() - checkpointed_at_) / minute;

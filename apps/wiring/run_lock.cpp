@@ -92,6 +92,17 @@ RunLock::RunLock(const std::filesystem::path& folder, const SystemCalls& system)
   (void)write_all(system, file_, std::as_bytes(std::span(owner)), 0);
 }
 
+LockOwner lock_owner(const std::filesystem::path& folder, const SystemCalls& system) {
+  const int file = system.open((folder / "run.lock").c_str(), O_RDONLY, 0);
+  if (file < 0) return {};
+  LockOwner owner{owner_in(file), false};
+  if (system.flock(file, LOCK_SH | LOCK_NB) != 0) {
+    owner.alive = errno == EWOULDBLOCK || (is_without_locks(errno) && may_live(owner.name));
+  }
+  system.close(file);
+  return owner;
+}
+
 RunLock::~RunLock() {
   (void)system_.ftruncate(file_, 0);
   system_.close(file_);

@@ -29,4 +29,15 @@ class RunLock {
   std::string dead_owner_;
 };
 
+/// Who has, or died having, the lock of a folder.
+struct LockOwner {
+  std::string name;  // "process 1234 on host since 2024-05-17T08:30:00Z", or "" if nobody has
+  bool alive = false;
+};
+
+/// Looks at a lock without taking it. Where the file system has no locks, an owner who may be alive
+/// is.
+[[nodiscard]] LockOwner lock_owner(const std::filesystem::path& folder,
+                                   const SystemCalls& system = system_calls());
+
 }  // namespace wiring
