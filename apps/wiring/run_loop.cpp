@@ -39,6 +39,14 @@ class StopReasons {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
+std::string what_is_left(const std::filesystem::path& checkpoint) {
+  if (checkpoint.empty()) return "; there is no checkpoint yet";
+  std::error_code failure;
+  const bool exists = std::filesystem::exists(checkpoint, failure);
+  return (exists ? "; the last good checkpoint is " : "; gone is the last checkpoint, ") +
+         checkpoint.string();
+}
+
 /// A word as a shell reads it back.
 std::string quoted(const std::string& word) {
   const auto plain = [](unsigned char c) {
@@ -93,10 +101,7 @@ class Run {
       }
       return advance(start.state, stepper, recorder, *folder);
     } catch (const FileError& failure) {
-      const std::string last = recorder.last_checkpoint().string();
-      throw FileError(failure.file(),
-                      failure.reason() + (last.empty() ? "; there is no checkpoint yet"
-                                                       : "; the last good checkpoint is " + last));
+      throw FileError(failure.file(), failure.reason() + what_is_left(recorder.last_checkpoint()));
     }
   }
 
