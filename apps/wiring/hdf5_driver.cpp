@@ -29,6 +29,7 @@ struct DriverInfo {
 struct OpenFile : H5FD_t {
   DriverInfo info{};
   int number = -1;
+  bool writable = false;
   struct stat status {};
   haddr_t allocated = 0;  // bytes that HDF5 has handed out ("end of allocation")
   haddr_t size = 0;       // of the file on disk
@@ -61,13 +62,15 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t access_list, haddr_t) 
     if (file->number >= 0) info->system->close(file->number);
     return nullptr;
   }
+  file->writable = (flags & H5F_ACC_RDWR) != 0;
   file->size = static_cast<haddr_t>(file->status.st_size);
   return file.release();
 }
 
 herr_t close_file(H5FD_t* base) {
   const std::unique_ptr<OpenFile> file(&of(base));
-  if (file->info.system->close(file->number) != 0) note(*file, errno);
+  // HDF5 opens a file once for several readers: whose report this was may be gone.
+  if (file->info.system->close(file->number) != 0 && file->writable) note(*file, errno);
   return 0;
 }
 
