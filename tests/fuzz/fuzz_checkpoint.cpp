@@ -2,6 +2,7 @@
 // them, and as fpm-info asks what they are.
 #include "memory_file.hpp"
 #include "wiring/checkpoint.hpp"
+#include "wiring/scene_derived.hpp"
 #include "wiring/state_file.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // What stands behind a checkpoint's checksums: its texts (scene, archive, lineage, curve), as a
 // program with an error might have written them. The input is these texts, each ended by a zero.
-#include <array>
+#include <algorithm>
 #include <span>
 #include <string>
 

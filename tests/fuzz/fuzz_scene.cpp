@@ -1,5 +1,6 @@
 // A scene file of any content, with a setting of any content: the text before a zero is the scene,
 // what follows a setting. A scene that is accepted must print to one that is accepted and equal.
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
