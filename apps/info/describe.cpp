@@ -6,8 +6,10 @@
 #include <iterator>
 #include <vector>
 
+#include "info/describe_checkpoint.hpp"
 #include "wiring/curve.hpp"
 #include "wiring/hdf5_file.hpp"
+#include "wiring/run_lock.hpp"
 #include "wiring/vtkhdf.hpp"
 
 namespace {
@@ -93,15 +95,17 @@ std::string curve_summary(const std::filesystem::path& curve) {
   }
 }
 
+std::string lock_summary(const std::filesystem::path& folder) {
+  const wiring::LockOwner owner = wiring::lock_owner(folder);
+  if (owner.alive) return "running: " + owner.name;
+  return owner.name.empty() ? "not running" : "killed, or its machine went down: " + owner.name;
+}
+
 std::string checkpoint_summary(const std::filesystem::path& checkpoint) {
   try {
-    const Hdf5File file = Hdf5File::open(checkpoint);
-    std::string text;
-    for (const std::string& name : file.list_attributes("/")) {
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name,
-                          attribute_text(file.read_attribute("/", name)));
-    }
-    return text;
+    wiring::CheckpointNotes notes;
+    (void)wiring::open_checkpoint(checkpoint, notes);
+    return checkpoint_line(notes);
   } catch (const FileError& failure) {
     return "UNUSABLE: " + failure.reason();
   }
@@ -110,10 +114,19 @@ std::string checkpoint_summary(const std::filesystem::path& checkpoint) {
 }  // namespace
 
 std::string describe_file(const std::filesystem::path& path) {
-  const Hdf5File file = Hdf5File::open(path);
+  wiring::CheckpointNotes notes;
+  const bool checkpoint = wiring::is_checkpoint(path);
+  const Hdf5File file = checkpoint ? wiring::open_checkpoint(path, notes) : Hdf5File::open(path);
   std::string out = fmt::format("{} ({} bytes)\n", path.string(), std::filesystem::file_size(path));
-  describe_group(out, file, "/", 1);
+  if (checkpoint) out += describe_checkpoint(notes) + "  contents\n";
+  describe_group(out, file, "/", checkpoint ? 2 : 1);
   return out;
+}
+
+std::string scene_in(const std::filesystem::path& checkpoint) {
+  wiring::CheckpointNotes notes;
+  (void)wiring::open_checkpoint(checkpoint, notes);
+  return notes.scene;
 }
 
 std::string describe_folder(const std::filesystem::path& folder) {
@@ -124,6 +137,7 @@ std::string describe_folder(const std::filesystem::path& folder) {
   const auto line = [&out](std::string_view name, const std::string& value) {
     fmt::format_to(std::back_inserter(out), "  {:<12} {}\n", name, value);
   };
+  line("run", lock_summary(folder));
   const auto curve = folder / "curve.csv";
   line("curve", std::filesystem::exists(curve) ? curve_summary(curve) : "none");
   const auto frames = hdf_files(folder / "frames");

@@ -16,18 +16,28 @@ using wiring::ExitCode;
 
 constexpr const char* usage =
     "Usage: fpm-info FILE|FOLDER ...\n"
+    "       fpm-info --scene CHECKPOINT\n"
     "\n"
-    "Says what checkpoints, frames (*.hdf) or output folders of fpm-run hold: step and versions,\n"
-    "groups, datasets with type, shape and unit.\n"
+    "Says what checkpoints, frames (*.hdf) or output folders of fpm-run hold. Of a checkpoint:\n"
+    "step, when, why and by which versions it was written, from which others it comes, and what a\n"
+    "run that goes on from it may change; then groups, datasets with type, shape and unit. Every\n"
+    "byte of a checkpoint is checked. Of a folder: whether a run is at work in it, and each\n"
+    "checkpoint.\n"
+    "\n"
+    "  --scene  prints the scene that a checkpoint was written with, every key, as a scene file\n"
     "\n"
     "Exit codes: 0 done, 2 wrong use, 4 a file is unusable.\n";
 
-ExitCode describe_all(const std::vector<std::string>& paths) {
+std::string described(const std::string& path, bool scene) {
+  if (scene) return scene_in(path);
+  return std::filesystem::is_directory(path) ? describe_folder(path) : describe_file(path);
+}
+
+ExitCode describe_all(const std::vector<std::string>& paths, bool scene) {
   ExitCode code = ExitCode::done;
   for (const std::string& path : paths) {
     try {
-      const bool folder = std::filesystem::is_directory(path);
-      std::cout << (folder ? describe_folder(path) : describe_file(path));
+      std::cout << described(path, scene);
     } catch (const wiring::FileError& failure) {
       std::cerr << "error: " << failure.what() << '\n';
       code = ExitCode::checkpoint_unusable;
@@ -37,7 +47,13 @@ ExitCode describe_all(const std::vector<std::string>& paths) {
 }
 
 ExitCode run(const std::vector<std::string>& arguments) {
+  std::vector<std::string> paths;
+  bool scene = false;
   for (const std::string& argument : arguments) {
+    if (argument == "--scene") {
+      scene = true;
+      continue;
+    }
     if (argument == "--help") {
       std::cout << usage;
       return ExitCode::done;
@@ -50,12 +66,13 @@ ExitCode run(const std::vector<std::string>& arguments) {
       std::cerr << "error: " << argument << ": no such option\nTry fpm-info --help.\n";
       return ExitCode::input_refused;
     }
+    paths.push_back(argument);
   }
-  if (arguments.empty()) {
+  if (paths.empty()) {
     std::cerr << "error: FILE or FOLDER is missing\nTry fpm-info --help.\n";
     return ExitCode::input_refused;
   }
-  return describe_all(arguments);
+  return describe_all(paths, scene);
 }
 
 }  // namespace

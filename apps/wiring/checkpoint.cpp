@@ -8,6 +8,8 @@
 #include <sstream>
 
 #include "constitutive/serialization.hpp"
+#include "wiring/durable_file.hpp"
+#include "wiring/file_seal.hpp"
 #include "wiring/particle_fields.hpp"
 #include "wiring/scene_print.hpp"
 #include "wiring/scene_reader.hpp"
@@ -61,18 +63,25 @@ CheckpointNotes notes_for(const Scene& scene) {
 
 template <int Dim>
 void write_checkpoint(const std::filesystem::path& path, const Model<Dim>& model, State<Dim>& state,
-                      const CheckpointNotes& notes, std::span<const PointField> fields) {
-  write_durably(path, [&](const std::filesystem::path& temporary) {
-    Hdf5File file = Hdf5File::create(temporary);
+                      const CheckpointNotes& notes, std::span<const PointField> fields, int deflate,
+                      const SystemCalls& system) {
+  const auto fill = [&](const std::filesystem::path& temporary) {
+    const Hdf5Layout layout{.deflate = deflate, .user_block = seal_size};
+    Hdf5File file = Hdf5File::create(temporary, layout, system);
     ContentDigest digest;
     write_notes(file, notes, digest);
     write_state(file, state, digest);
     write_vtkhdf(file, current_points(model, state), fields);
-    seal(file, digest);
+    write_digest(file, digest);
     file.close();
+    write_seal(temporary, checkpoint_schema, notes.versions, system);
     CheckpointNotes read_back;
     (void)open_checkpoint(temporary, read_back);
-  });
+    if (read_back.digest != digest.value()) {
+      throw FileError(temporary, "does not read back as it was written");
+    }
+  };
+  write_durably(path, fill, system);
 }
 
 Scene scene_of(const std::filesystem::path& path, const CheckpointNotes& notes) {
@@ -104,8 +113,10 @@ bool adapt_programme(const Scene& former, const Scene& scene, ProgrammeState& pr
 }
 
 template void write_checkpoint<2>(const std::filesystem::path&, const Model<2>&, State<2>&,
-                                  const CheckpointNotes&, std::span<const PointField>);
+                                  const CheckpointNotes&, std::span<const PointField>, int,
+                                  const SystemCalls&);
 template void write_checkpoint<3>(const std::filesystem::path&, const Model<3>&, State<3>&,
-                                  const CheckpointNotes&, std::span<const PointField>);
+                                  const CheckpointNotes&, std::span<const PointField>, int,
+                                  const SystemCalls&);
 
 }  // namespace wiring

@@ -10,15 +10,17 @@
 
 namespace wiring {
 
-/// The notes of a scene's checkpoints; reason, parent, time and history remain to be set.
+/// The notes of a scene's checkpoints; reason, lineage, time and history remain to be set.
 [[nodiscard]] CheckpointNotes notes_for(const Scene& scene);
 
 /// Writes a checkpoint durably: the name holds either its old content or a whole new checkpoint
 /// that has been read back once. ParaView opens it by `fields`.
+/// @param deflate  compression, see Hdf5Layout
 /// @throws std::logic_error if the state is not finite; FileError.
 template <int Dim>
 void write_checkpoint(const std::filesystem::path& path, const Model<Dim>& model, State<Dim>& state,
-                      const CheckpointNotes& notes, std::span<const PointField> fields);
+                      const CheckpointNotes& notes, std::span<const PointField> fields,
+                      int deflate = 0, const SystemCalls& system = system_calls());
 
 /// The scene a checkpoint was written with.
 /// @throws FileError if the notes hold no such scene, or if the materials this program makes of it

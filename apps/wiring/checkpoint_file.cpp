@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <ctime>
+#include <fstream>
+
+#include "wiring/checkpoint_folder.hpp"
+#include "wiring/file_seal.hpp"
 
 namespace wiring {
 
@@ -11,6 +14,8 @@ namespace {
 
 const std::string schema_path = "/meta/schema";
 const std::string dimension_path = "/meta/dimension";
+const std::string lineage_path = "/meta/lineage";
+const std::string parent_path = "/meta/parent";  // of schema 1
 const std::string curve_path = "/history/curve";
 const std::string step_path = "/state/programme/step";
 const std::string digest_path = "/digest";
@@ -50,30 +55,72 @@ std::vector<CurveRow> history_of(const Hdf5File& file) {
   return rows;
 }
 
-void require_schema(const Hdf5File& file) {
-  if (!file.has(schema_path)) throw FileError(file.file(), "is no checkpoint of this program");
-  const std::int64_t schema = number_at(file, schema_path);
-  if (schema == checkpoint_schema) return;
-  const std::string versions = file.read_text("/meta/versions");
-  throw FileError(file.file(), fmt::format("has checkpoint schema {} (written by {}); this program "
-                                           "reads schema {}",
-                                           schema, versions, checkpoint_schema));
+FileError unknown_schema(const std::filesystem::path& file, std::int64_t schema,
+                         const std::string& writer) {
+  return {file, fmt::format("has checkpoint schema {} (written by {}); this program reads schemas "
+                            "1 to {}",
+                            schema, writer, checkpoint_schema)};
 }
 
-void require_digest(const Hdf5File& file) {
+bool begins_as_hdf5(const std::filesystem::path& file) {
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(signature.size(), '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  return text == signature;
+}
+
+/// Holds the seal against the file, before HDF5 sees a byte of it.
+void require_unbroken_seal(const std::filesystem::path& path) {
+  std::error_code failure;
+  if (!std::filesystem::exists(path, failure)) throw FileError(path, "there is no such file");
+  if (const auto seal = read_seal(path)) {
+    require_unbroken(path, *seal);
+    if (seal->schema > checkpoint_schema) throw unknown_schema(path, seal->schema, seal->writer);
+  } else if (!begins_as_hdf5(path)) {
+    throw FileError(path, "is no checkpoint of this program, or its beginning is lost");
+  }
+}
+
+std::int64_t known_schema_of(const Hdf5File& file) {
+  if (!file.has(schema_path)) throw FileError(file.file(), "is no checkpoint of this program");
+  const std::int64_t schema = number_at(file, schema_path);
+  if (schema < 1 || schema > checkpoint_schema) {
+    throw unknown_schema(file.file(), schema, file.read_text("/meta/versions"));
+  }
+  if (schema > 1 && !read_seal(file.file())) throw FileError(file.file(), "has lost its seal");
+  return schema;
+}
+
+std::int64_t sound_digest_of(const Hdf5File& file) {
   if (!file.has(digest_path)) throw FileError(file.file(), "is not complete");
   ContentDigest digest;
   for (const std::string& group : digested_groups) add_group(digest, file, group);
   if (digest.value() != number_at(file, digest_path)) {
     throw FileError(file.file(), "its datasets are not those it was written with");
   }
+  return digest.value();
+}
+
+std::vector<Ancestor> lineage_of(const Hdf5File& file, std::int64_t schema) {
+  try {
+    if (schema > 1) return parse_lineage(file.read_text(lineage_path));
+  } catch (const std::invalid_argument& failure) {
+    throw FileError(file.file(), lineage_path + ": " + failure.what());
+  }
+  const std::string parent = file.read_text(parent_path);
+  if (parent.empty()) return {};
+  return {Ancestor{parent, step_of(parent).value_or(0), "", "", {}}};
 }
 
 CheckpointNotes notes_of(const Hdf5File& file) {
   CheckpointNotes notes;
+  notes.schema = known_schema_of(file);
+  notes.digest = sound_digest_of(file);
   CheckpointNotes::for_each_text(notes, [&](const char* name, std::string& text) {
     text = file.read_text(std::string("/meta/") + name);
   });
+  notes.lineage = lineage_of(file, notes.schema);
   notes.dimension = static_cast<int>(number_at(file, dimension_path));
   notes.history = history_of(file);
   const std::int64_t step = number_at(file, step_path);
@@ -84,15 +131,6 @@ CheckpointNotes notes_of(const Hdf5File& file) {
 }
 
 }  // namespace
-
-std::string time_stamp() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text.data();
-}
 
 std::string curve_text(int dimension, const std::vector<CurveRow>& rows) {
   std::string text = curve_header(dimension) + "\n";
@@ -106,6 +144,7 @@ void write_notes(Hdf5File& file, const CheckpointNotes& notes, ContentDigest& di
   CheckpointNotes::for_each_text(notes, [&](const char* name, const std::string& text) {
     put_text(file, std::string("/meta/") + name, text, digest);
   });
+  put_text(file, lineage_path, lineage_text(notes.lineage), digest);
   put_text(file, curve_path, curve_text(notes.dimension, notes.history), digest);
 
   const CurveRow& last = notes.history.back();
@@ -115,15 +154,19 @@ void write_notes(Hdf5File& file, const CheckpointNotes& notes, ContentDigest& di
   file.write_attribute("/", "reason", notes.reason);
 }
 
-void seal(Hdf5File& file, const ContentDigest& digest) {
+void write_digest(Hdf5File& file, const ContentDigest& digest) {
   const std::int64_t value = digest.value();
   file.write<std::int64_t>(digest_path, std::span(&value, 1), {1});
 }
 
+bool is_checkpoint(const std::filesystem::path& file) {
+  if (has_seal(file) || step_of(file)) return true;
+  return Hdf5File::open(file).has(schema_path);  // one of the first schema under another name
+}
+
 Hdf5File open_checkpoint(const std::filesystem::path& path, CheckpointNotes& notes) {
+  require_unbroken_seal(path);
   Hdf5File file = Hdf5File::open(path);
-  require_schema(file);
-  require_digest(file);
   notes = notes_of(file);
   return file;
 }

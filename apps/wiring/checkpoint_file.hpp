@@ -8,26 +8,31 @@
 #include "wiring/content_digest.hpp"
 #include "wiring/curve.hpp"
 #include "wiring/hdf5_file.hpp"
+#include "wiring/lineage.hpp"
 
 namespace wiring {
 
-/// Layout of checkpoint files; raised when a reader of the former one would go wrong.
-inline constexpr std::int64_t checkpoint_schema = 1;
+/// Layout of checkpoint files; raised when a reader of the former one would go wrong. Older ones
+/// are read: 1 had no seal, and of the lineage only the parent's name.
+inline constexpr std::int64_t checkpoint_schema = 2;
 
 /// What a checkpoint holds beside the mechanical state. It makes a checkpoint sufficient by itself:
 /// a run goes on from it though the rest of its folder is lost.
 struct CheckpointNotes {
   std::string title;
-  std::string scene;      // every key of the scene in force, as TOML
-  std::string materials;  // Boost archive of the material parameters
-  std::string versions;   // of the program and its libraries
-  std::string created;    // UTC, ISO 8601
-  std::string reason;     // why it was written
-  std::string parent;     // the checkpoint this run was resumed from, or ""
+  std::string scene;              // every key of the scene in force, as TOML
+  std::string materials;          // Boost archive of the material parameters
+  std::string versions;           // of the program and its libraries
+  std::string created;            // UTC, ISO 8601
+  std::string reason;             // why it was written
+  std::vector<Ancestor> lineage;  // the checkpoints the run went on from, oldest first
   int dimension = 2;
   std::vector<CurveRow> history;  // the curve up to and including the checkpoint's step
+  // Of the file rather than in it; known once it is opened.
+  std::int64_t schema = checkpoint_schema;
+  std::int64_t digest = 0;
 
-  /// Calls visit(name, text) for each text, in the order of the file.
+  /// Calls visit(name, text) for each plain text, in the order of the file.
   template <class Self, class Visitor>
   static void for_each_text(Self& self, Visitor&& visit) {
     visit("title", self.title);
@@ -36,12 +41,8 @@ struct CheckpointNotes {
     visit("versions", self.versions);
     visit("created", self.created);
     visit("reason", self.reason);
-    visit("parent", self.parent);
   }
 };
-
-/// Now, UTC, as `2024-05-17T08:30:00Z`.
-[[nodiscard]] std::string time_stamp();
 
 /// A curve file's content.
 [[nodiscard]] std::string curve_text(int dimension, const std::vector<CurveRow>& rows);
@@ -49,11 +50,15 @@ struct CheckpointNotes {
 /// Writes /meta and /history, and as attributes of "/" what a look from outside wants.
 void write_notes(Hdf5File& file, const CheckpointNotes& notes, ContentDigest& digest);
 
-/// Writes the digest of everything, which makes the file a whole checkpoint; call last.
-void seal(Hdf5File& file, const ContentDigest& digest);
+/// Writes the digest of everything; the last dataset.
+void write_digest(Hdf5File& file, const ContentDigest& digest);
 
-/// Opens a checkpoint and reads all of it once: schema, checksums, digest and notes are sound, and
-/// notes and state are of one step.
+/// Whether a file is a checkpoint, sound or not, rather than a frame.
+/// @throws FileError if it is neither.
+[[nodiscard]] bool is_checkpoint(const std::filesystem::path& file);
+
+/// Opens a checkpoint and reads all of it once: seal, schema, checksums, digest and notes are
+/// sound, and notes and state are of one step.
 /// @param[out] notes  what it holds beside the state
 /// @throws FileError saying what is wrong with it.
 [[nodiscard]] Hdf5File open_checkpoint(const std::filesystem::path& path, CheckpointNotes& notes);

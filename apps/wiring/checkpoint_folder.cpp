@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "wiring/checkpoint_file.hpp"
+#include "wiring/durable_file.hpp"
 
 namespace wiring {
 
@@ -59,25 +60,30 @@ std::optional<std::filesystem::path> newest_usable(const std::filesystem::path& 
   return std::nullopt;
 }
 
-void remove_older(const std::filesystem::path& folder, std::int64_t step, int kept) {
-  int seen = 0;
-  for (const std::filesystem::path& path : list_checkpoints(folder)) {
-    if (*step_of(path) > step || ++seen <= kept) continue;
-    std::error_code ignored;  // one too many does no harm
-    std::filesystem::remove(path, ignored);
+void remove_older(const std::filesystem::path& folder, std::int64_t step,
+                  const Retention& retention, const SystemCalls& system) {
+  auto oldest_first = list_checkpoints(folder);
+  std::erase_if(oldest_first, [&](const auto& path) { return *step_of(path) > step; });
+  std::ranges::reverse(oldest_first);
+  const auto newest = static_cast<std::size_t>(std::max(retention.newest, 1));
+  std::int64_t last_stretch = -1;
+  for (std::size_t i = 0; i + newest < oldest_first.size(); ++i) {
+    const std::int64_t stretch =
+        retention.every > 0 ? *step_of(oldest_first[i]) / retention.every : last_stretch;
+    const bool stays = stretch != last_stretch;
+    last_stretch = stretch;
+    if (!stays) system.unlink(oldest_first[i].c_str());  // one too many does no harm
   }
 }
 
 std::vector<std::filesystem::path> set_aside_later(const std::filesystem::path& folder,
-                                                   std::int64_t step) {
+                                                   std::int64_t step, const SystemCalls& system) {
   std::vector<std::filesystem::path> renamed;
   for (const std::filesystem::path& path : list_checkpoints(folder)) {
     if (*step_of(path) <= step) continue;
     std::filesystem::path aside = path;
     aside += ".set-aside";
-    std::error_code failure;
-    std::filesystem::rename(path, aside, failure);
-    if (failure) throw FileError(path, "cannot be set aside: " + failure.message());
+    rename_durably(path, aside, system);
     renamed.push_back(aside);
   }
   return renamed;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "wiring/system_calls.hpp"
+
 namespace wiring {
 
 /// File name of the checkpoint of a step, `step-000120.hdf`.
@@ -25,13 +27,21 @@ namespace wiring {
     const std::filesystem::path& folder, std::vector<std::string>& objections,
     std::optional<std::int64_t> before = {});
 
-/// Removes all but the `kept` newest checkpoints up to and including `step`.
-void remove_older(const std::filesystem::path& folder, std::int64_t step, int kept);
+/// Which checkpoints stay.
+struct Retention {
+  int newest = 3;
+  int every = 0;  // steps: the first one at or after each multiple of these stays for good; 0: none
+};
+
+/// Removes all checkpoints up to and including `step` but those that stay.
+void remove_older(const std::filesystem::path& folder, std::int64_t step,
+                  const Retention& retention, const SystemCalls& system = system_calls());
 
 /// Renames the checkpoints later than `step` to `*.hdf.set-aside`: they belong to a course of the
 /// run that is given up, and must be neither taken for its newest nor lost.
 /// @return their new names.
 std::vector<std::filesystem::path> set_aside_later(const std::filesystem::path& folder,
-                                                   std::int64_t step);
+                                                   std::int64_t step,
+                                                   const SystemCalls& system = system_calls());
 
 }  // namespace wiring

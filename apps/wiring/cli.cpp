@@ -8,7 +8,7 @@
 #include <iterator>
 #include <new>
 
-#include "wiring/durable_file.hpp"
+#include "wiring/file_error.hpp"
 #include "wiring/nearest_name.hpp"
 #include "wiring/scene_derived.hpp"
 #include "wiring/scene_names.hpp"
@@ -34,6 +34,8 @@ constexpr std::string_view examples =
     "  fpm-run share/scenes/footing.toml --check\n"
     "  fpm-run share/scenes/footing.toml --set geometry.spacing=0.005 --out out/fine\n"
     "  fpm-run share/scenes/footing.toml --resume --set research.enabled=true\n"
+    "  fpm-run share/scenes/footing.toml --resume out/footing/checkpoints/step-000120.hdf \\\n"
+    "    --out out/branch --set solver.tolerance=3e-4\n"
     "\n"
     "Exit codes: 0 done, 1 internal error, 2 input refused, 3 not converged,\n"
     "4 file or checkpoint unusable, 75 interrupted and resumable.\n";

@@ -16,17 +16,6 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
   return hash ^ (hash >> 32U);
 }
 
-std::uint64_t hash_of(std::span<const std::byte> content, std::uint64_t hash) {
-  while (!content.empty()) {
-    std::uint64_t word = 0;
-    const std::size_t size = std::min(content.size(), sizeof word);
-    std::memcpy(&word, content.data(), size);
-    hash = mixed(hash, word);
-    content = content.subspan(size);
-  }
-  return hash;
-}
-
 template <class T>
 void add_values(ContentDigest& digest, const Hdf5File& file, const std::string& path) {
   const std::vector<T> values = file.read_all<T>(path);
@@ -36,10 +25,12 @@ void add_values(ContentDigest& digest, const Hdf5File& file, const std::string& 
 // A damaged extent must not make the reader ask for more memory than there is.
 void require_plausible_size(const Hdf5File& file, const std::string& path,
                             const DatasetInfo& info) {
+  constexpr double most_values_per_byte = 1032.0 / sizeof(std::int32_t);  // the limit of deflate
   const auto room = static_cast<double>(std::filesystem::file_size(file.file()));
   const double values = std::accumulate(info.shape.begin(), info.shape.end(), 1.0,
                                         [](double a, std::size_t b) { return a * double(b); });
-  if (values > room) throw FileError(file.file(), path + " claims more values than the file holds");
+  if (values > most_values_per_byte * room)
+    throw FileError(file.file(), path + " claims more values than the file holds");
 }
 
 void add_dataset(ContentDigest& digest, const Hdf5File& file, const std::string& path) {
@@ -60,6 +51,18 @@ void add_dataset(ContentDigest& digest, const Hdf5File& file, const std::string&
 }
 
 }  // namespace
+
+std::uint64_t hash_of(std::span<const std::byte> content, std::uint64_t seed) {
+  std::uint64_t hash = seed;
+  while (!content.empty()) {
+    std::uint64_t word = 0;
+    const std::size_t size = std::min(content.size(), sizeof word);
+    std::memcpy(&word, content.data(), size);
+    hash = mixed(hash, word);
+    content = content.subspan(size);
+  }
+  return hash;
+}
 
 void ContentDigest::add(std::string_view path, std::span<const std::byte> content) {
   const std::uint64_t name = hash_of(std::as_bytes(std::span(path)), path.size());

@@ -9,6 +9,10 @@
 
 namespace wiring {
 
+/// A 64-bit hash that changes with any single 8-byte word; no cryptographic one.
+/// @param seed  the hash of what came before, a multiple of 8 bytes
+[[nodiscard]] std::uint64_t hash_of(std::span<const std::byte> content, std::uint64_t seed);
+
 /// A 64-bit digest of datasets, whatever their order. It tells damage from soundness beyond the
 /// checksums of single chunks (a dataset missing or exchanged); it is no cryptographic hash.
 class ContentDigest {

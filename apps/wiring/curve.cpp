@@ -1,12 +1,11 @@
 #include "wiring/curve.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <stdexcept>
+
+#include "wiring/durable_file.hpp"
 
 namespace wiring {
 
@@ -119,18 +118,14 @@ std::vector<CurveRow> read_curve(const std::filesystem::path& file) {
   return rows;
 }
 
-CurveFile::CurveFile(const std::filesystem::path& file)
-    : file_(file), stream_(std::fopen(file.c_str(), "ae")) {
-  if (!stream_) throw FileError(file_, std::string("cannot be opened: ") + std::strerror(errno));
-}
-
-CurveFile CurveFile::create(const std::filesystem::path& file, int dimension) {
-  write_text_durably(file, curve_header(dimension) + "\n");
-  return CurveFile(file);
+CurveFile CurveFile::create(const std::filesystem::path& file, int dimension,
+                            const SystemCalls& system) {
+  write_text_durably(file, curve_header(dimension) + "\n", system);
+  return {file, system};
 }
 
 CurveFile CurveFile::resume(const std::filesystem::path& file, const std::filesystem::path& source,
-                            int dimension, std::int64_t step) {
+                            int dimension, std::int64_t step, const SystemCalls& system) {
   const std::string text = read_text(source);
   std::string_view rest = text, line;
   if (!next_line(rest, line) || line != curve_header(dimension)) {
@@ -151,22 +146,8 @@ CurveFile CurveFile::resume(const std::filesystem::path& file, const std::filesy
   if (reached < step && step > 0) {
     throw FileError(source, fmt::format("has no row of step {}, which the checkpoint is of", step));
   }
-  write_text_durably(file, std::string_view(text).substr(0, kept));
-  return CurveFile(file);
-}
-
-void CurveFile::append(const CurveRow& row) {
-  const std::string line = curve_line(row) + "\n";
-  const bool written = std::fwrite(line.data(), 1, line.size(), stream_.get()) == line.size();
-  if (!written || std::fflush(stream_.get()) != 0) {
-    throw FileError(file_, std::string("cannot be written: ") + std::strerror(errno));
-  }
-}
-
-void CurveFile::sync() {
-  if (::fsync(::fileno(stream_.get())) != 0) {
-    throw FileError(file_, std::string("cannot be forced to disk: ") + std::strerror(errno));
-  }
+  write_text_durably(file, std::string_view(text).substr(0, kept), system);
+  return {file, system};
 }
 
 }  // namespace wiring

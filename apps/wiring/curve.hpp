@@ -1,15 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include "wiring/durable_file.hpp"
+#include "wiring/output_file.hpp"
 
 namespace wiring {
 
@@ -62,7 +60,8 @@ struct CurveColumn {
 class CurveFile {
  public:
   /// Begins a new curve; an old file of that name is replaced.
-  [[nodiscard]] static CurveFile create(const std::filesystem::path& file, int dimension);
+  [[nodiscard]] static CurveFile create(const std::filesystem::path& file, int dimension,
+                                        const SystemCalls& system = system_calls());
 
   /// Goes on with the rows of `source` up to and including `step`; later rows, and a last line that
   /// a killed run left unfinished, are dropped. Kept lines are copied as they are. `file` and
@@ -70,22 +69,20 @@ class CurveFile {
   /// @throws FileError if `source` does not reach `step` or is broken before it.
   [[nodiscard]] static CurveFile resume(const std::filesystem::path& file,
                                         const std::filesystem::path& source, int dimension,
-                                        std::int64_t step);
+                                        std::int64_t step,
+                                        const SystemCalls& system = system_calls());
 
   /// Adds a row.
   /// @throws FileError if it cannot be written.
-  void append(const CurveRow& row);
+  void append(const CurveRow& row) { file_.write(curve_line(row) + "\n"); }
   /// Forces all rows to disk; call before a checkpoint that counts on them.
-  void sync();
+  void sync() { file_.sync(); }
 
  private:
-  explicit CurveFile(const std::filesystem::path& file);
+  CurveFile(const std::filesystem::path& file, const SystemCalls& system)
+      : file_(OutputFile::append(file, system)) {}
 
-  struct Close {
-    void operator()(std::FILE* stream) const { std::fclose(stream); }
-  };
-  std::filesystem::path file_;
-  std::unique_ptr<std::FILE, Close> stream_;
+  OutputFile file_;
 };
 
 }  // namespace wiring

@@ -9,55 +9,27 @@
 #include <sstream>
 #include <utility>
 
+#include "wiring/output_file.hpp"
+
 namespace wiring {
 
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
-  throw FileError(file, what + ": " + std::strerror(errno));
-}
-
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  Descriptor(const std::filesystem::path& file, int flags)
-      : file_(file), number_(::open(file.c_str(), flags | O_CLOEXEC)) {
-    if (number_ < 0) fail(file_, "cannot be opened");
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-
-  void sync() const {
-    if (::fsync(number_) != 0) fail(file_, "cannot be forced to disk");
-  }
-
-  /// Some file systems report a failed write only here.
-  void close() {
-    if (::close(std::exchange(number_, -1)) != 0) fail(file_, "cannot be closed");
-  }
-
- private:
-  std::filesystem::path file_;
-  int number_;
-};
-
 /// Removes the temporary file unless it has got its name.
 class Cleaner {
  public:
-  explicit Cleaner(std::filesystem::path file) : file_(std::move(file)) {}
+  Cleaner(std::filesystem::path file, const SystemCalls& system)
+      : file_(std::move(file)), system_(system) {}
   Cleaner(const Cleaner&) = delete;
   Cleaner& operator=(const Cleaner&) = delete;
   ~Cleaner() {
-    std::error_code ignored;
-    if (!kept_) std::filesystem::remove(file_, ignored);
+    if (!kept_) system_.unlink(file_.c_str());  // if it cannot, the next run does
   }
   void keep() { kept_ = true; }
 
  private:
   std::filesystem::path file_;
+  const SystemCalls& system_;
   bool kept_ = false;
 };
 
@@ -67,50 +39,67 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-void sync_to_disk(const std::filesystem::path& file_or_folder) {
-  Descriptor descriptor(file_or_folder, O_RDONLY);
-  descriptor.sync();
-  descriptor.close();
+void sync_to_disk(const std::filesystem::path& file_or_folder, const SystemCalls& system) {
+  const int file = system.open(file_or_folder.c_str(), O_RDONLY, 0);
+  if (file < 0) throw system_error(file_or_folder, "cannot be opened", errno);
+  const int failure = system.fsync(file) != 0 ? errno : 0;
+  system.close(file);
+  if (failure != 0) throw system_error(file_or_folder, "cannot be forced to disk", failure);
 }
 
 void write_durably(const std::filesystem::path& file,
-                   const std::function<void(const std::filesystem::path& temporary)>& fill) {
+                   const std::function<void(const std::filesystem::path& temporary)>& fill,
+                   const SystemCalls& system) {
   // The process id keeps two runs from writing one temporary file.
   std::filesystem::path temporary = file;
   temporary += ".tmp-" + std::to_string(::getpid());
-  Cleaner cleaner(temporary);
+  Cleaner cleaner(temporary, system);
   fill(temporary);
-  sync_to_disk(temporary);
-  if (::rename(temporary.c_str(), file.c_str()) != 0) fail(file, "cannot get its name");
+  sync_to_disk(temporary, system);
+  if (system.rename(temporary.c_str(), file.c_str()) != 0) {
+    throw system_error(file, "cannot get its name", errno);
+  }
   cleaner.keep();
-  sync_to_disk(folder_of(file));
+  sync_to_disk(folder_of(file), system);
 }
 
-void write_text_durably(const std::filesystem::path& file, std::string_view text) {
-  write_durably(file, [&](const std::filesystem::path& temporary) {
-    std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
-    if (!stream) fail(temporary, "cannot be created");
-    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-    stream.close();
-    if (!stream) fail(temporary, "cannot be written");
-  });
+void write_text_durably(const std::filesystem::path& file, std::string_view text,
+                        const SystemCalls& system) {
+  const auto fill = [&](const std::filesystem::path& temporary) {
+    OutputFile out = OutputFile::create(temporary, system);
+    out.write(text);
+    out.close();
+  };
+  write_durably(file, fill, system);
+}
+
+void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to,
+                    const SystemCalls& system) {
+  if (system.rename(from.c_str(), to.c_str()) != 0) {
+    throw system_error(from, "cannot be renamed to " + to.filename().string(), errno);
+  }
+  sync_to_disk(folder_of(to), system);
 }
 
 std::string read_text(const std::filesystem::path& file) {
   std::error_code failure;
   if (std::filesystem::is_directory(file, failure)) throw FileError(file, "is a folder");
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) fail(file, "cannot be opened");
+  if (!stream) throw system_error(file, "cannot be opened", errno);
   std::ostringstream text;
   text << stream.rdbuf();
-  if (stream.bad() || text.bad()) fail(file, "cannot be read");
+  if (stream.bad() || text.bad()) throw system_error(file, "cannot be read", errno);
   return text.str();
 }
 
-void create_folder(const std::filesystem::path& folder) {
+void create_folder(const std::filesystem::path& folder, const SystemCalls& system) {
   std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
+  if (std::filesystem::is_directory(folder, failure)) return;
+  const std::filesystem::path parent = folder_of(folder);
+  if (parent != folder) create_folder(parent, system);
+  std::filesystem::create_directory(folder, failure);
   if (failure) throw FileError(folder, "cannot be created: " + failure.message());
+  sync_to_disk(parent, system);
 }
 
 }  // namespace wiring

@@ -26,13 +26,15 @@ void remove_later(const std::filesystem::path& folder, std::int64_t step) {
 
 }  // namespace
 
-Frames::Frames(const RunFolder& folder, int every, std::int64_t step,
+Frames::Frames(const RunFolder& folder, const Output& output, std::int64_t step,
                std::optional<double> last_time)
     : folder_(folder.frames()),
-      every_(every),
-      series_(last_time ? FrameSeries::resume(folder.series(), *last_time)
-                        : FrameSeries(folder.series())) {
-  if (every_ > 0) create_folder(folder_);
+      system_(folder.system()),
+      every_(output.frames_every),
+      deflate_(output.compression),
+      series_(last_time ? FrameSeries::resume(folder.series(), *last_time, system_)
+                        : FrameSeries(folder.series(), system_)) {
+  if (every_ > 0) create_folder(folder_, system_);
   if (last_time) remove_later(folder_, step);
 }
 
@@ -51,7 +53,7 @@ bool Frames::lacks(std::int64_t step) const {
 
 void Frames::write(std::int64_t step, double time, std::span<const double> points,
                    std::span<const PointField> fields) {
-  write_frame(folder_ / name(step), step, time, points, fields);
+  write_frame(folder_ / name(step), step, time, points, fields, deflate_, system_);
   series_.append("frames/" + name(step), time);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wiring/run_folder.hpp"
+#include "wiring/scene.hpp"
 #include "wiring/vtkhdf.hpp"
 
 namespace wiring {
@@ -14,10 +15,11 @@ namespace wiring {
 /// The frames of a run, `frames/frame-000120.hdf` of the steps asked for, and their series file.
 class Frames {
  public:
-  /// @param every  converged steps between frames; 0: none at all
+  /// @param output  how often, and how compressed
   /// @param last_time  of the curve a run goes on with: later frames are removed; absent: a new run
   /// @throws FileError if the folder or the series cannot be read or written.
-  Frames(const RunFolder& folder, int every, std::int64_t step, std::optional<double> last_time);
+  Frames(const RunFolder& folder, const Output& output, std::int64_t step,
+         std::optional<double> last_time);
 
   [[nodiscard]] bool due(std::int64_t step) const;
   /// Whether a frame of this step is still to be written if the run ends at it.
@@ -30,7 +32,9 @@ class Frames {
 
  private:
   std::filesystem::path folder_;
+  const SystemCalls& system_;
   int every_;
+  int deflate_;
   FrameSeries series_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "wiring/hdf5_driver.hpp"
 #include "wiring/hdf5_handle.hpp"
 
 namespace wiring {
@@ -95,27 +96,48 @@ void read_values(hid_t dataset, const std::filesystem::path& file, const std::st
 
 }  // namespace
 
-Hdf5File Hdf5File::create(const std::filesystem::path& file, int deflate) {
+Hdf5File::Hdf5File(std::filesystem::path file, int deflate)
+    : file_(std::move(file)), report_(std::make_unique<hdf5::DriverReport>()), deflate_(deflate) {}
+
+Hdf5File Hdf5File::create(const std::filesystem::path& file, const Hdf5Layout& layout,
+                          const SystemCalls& system) {
   const Silence silence;
-  const hid_t id = check(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), file,
-                         "cannot be created");
-  return {file, id, deflate};
+  const std::string what = "cannot be created";
+  Hdf5File made(file, layout.deflate);
+  const Handle creation(check(H5Pcreate(H5P_FILE_CREATE), file, what), H5Pclose);
+  check(H5Pset_userblock(creation.id(), layout.user_block), file, what);
+  const Handle access(check(H5Pcreate(H5P_FILE_ACCESS), file, what), H5Pclose);
+  check(hdf5::use_driver(access.id(), system, *made.report_), file, what);
+  made.id_ = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation.id(), access.id());
+  if (made.report_->not_opened != 0) throw system_error(file, what, made.report_->not_opened);
+  check(made.id_, file, what);
+  return made;
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& file) {
   const Silence silence;
   std::error_code failure;
   if (!std::filesystem::exists(file, failure)) throw FileError(file, "there is no such file");
-  const hid_t id =
-      check(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), file, "is no whole HDF5 file");
-  return {file, id, 0};
+  Hdf5File opened(file, 0);
+  const Handle access(check(H5Pcreate(H5P_FILE_ACCESS), file, "cannot be opened"), H5Pclose);
+  check(hdf5::use_driver(access.id(), system_calls(), *opened.report_), file, "cannot be opened");
+  opened.id_ = H5Fopen(file.c_str(), H5F_ACC_RDONLY, access.id());
+  if (opened.report_->not_opened != 0) {
+    throw system_error(file, "cannot be opened", opened.report_->not_opened);
+  }
+  check(opened.id_, file, "is no whole HDF5 file");
+  return opened;
 }
 
 Hdf5File::Hdf5File(Hdf5File&& other) noexcept
-    : file_(std::move(other.file_)), id_(std::exchange(other.id_, -1)), deflate_(other.deflate_) {}
+    : file_(std::move(other.file_)),
+      report_(std::move(other.report_)),
+      id_(std::exchange(other.id_, -1)),
+      deflate_(other.deflate_) {}
 
 Hdf5File& Hdf5File::operator=(Hdf5File&& other) noexcept {
   std::swap(file_, other.file_);
+  std::swap(report_, other.report_);
   std::swap(id_, other.id_);
   std::swap(deflate_, other.deflate_);
   return *this;
@@ -127,11 +149,16 @@ Hdf5File::~Hdf5File() {
   H5Fclose(id_);
 }
 
+void Hdf5File::require_written(const std::string& what) const {
+  if (report_->failure != 0) throw system_error(file_, what, report_->failure);
+}
+
 void Hdf5File::close() {
   const Silence silence;
   if (id_ < 0) return;
-  check(H5Fflush(id_, H5F_SCOPE_GLOBAL), file_, "cannot be flushed");
-  check(H5Fclose(std::exchange(id_, -1)), file_, "cannot be closed");
+  const bool closed = H5Fclose(std::exchange(id_, -1)) >= 0;
+  require_written("cannot be written");
+  check(closed ? 0 : -1, file_, "cannot be closed");
 }
 
 template <class T>
@@ -151,6 +178,7 @@ void Hdf5File::write(const std::string& path, std::span<const T> values, const S
             file_, path + " cannot be written");
     }
   }
+  require_written("cannot be written");
   if (!unit.empty()) write_attribute(path, "unit", std::string(unit));
 }
 

@@ -2,13 +2,15 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include "wiring/durable_file.hpp"
+#include "wiring/file_error.hpp"
+#include "wiring/system_calls.hpp"
 
 namespace wiring {
 
@@ -25,6 +27,16 @@ struct DatasetInfo {
   std::string unit;  // "" if none was given
 };
 
+/// How a new file is laid out.
+struct Hdf5Layout {
+  int deflate = 0;  // 0: as is; 1 (fast) .. 9 (small): compressed, at the price of time
+  std::uint64_t user_block = 0;  // [bytes] left to the caller at the beginning: 0, 512, 1024, ...
+};
+
+namespace hdf5 {
+struct DriverReport;
+}
+
 /// One HDF5 file, plain enough for h5py and ParaView: chunked datasets with checksums, units as
 /// attributes. Paths are absolute ("/state/stress"); missing groups on the way are made.
 ///
@@ -33,8 +45,10 @@ struct DatasetInfo {
 class Hdf5File {
  public:
   /// Makes a new file, replacing an old one.
-  /// @param deflate  0: as is; 1 (fast) .. 9 (small): compressed, at the price of time
-  [[nodiscard]] static Hdf5File create(const std::filesystem::path& file, int deflate = 0);
+  /// @param system  must outlive the file
+  [[nodiscard]] static Hdf5File create(const std::filesystem::path& file,
+                                       const Hdf5Layout& layout = {},
+                                       const SystemCalls& system = system_calls());
   /// Opens a file for reading.
   [[nodiscard]] static Hdf5File open(const std::filesystem::path& file);
 
@@ -78,11 +92,12 @@ class Hdf5File {
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
  private:
-  Hdf5File(std::filesystem::path file, std::int64_t id, int deflate)
-      : file_(std::move(file)), id_(id), deflate_(deflate) {}
+  Hdf5File(std::filesystem::path file, int deflate);
+  void require_written(const std::string& what) const;
 
   std::filesystem::path file_;
-  std::int64_t id_ = -1;  // hid_t
+  std::unique_ptr<hdf5::DriverReport> report_;  // HDF5 knows it by its address
+  std::int64_t id_ = -1;                        // hid_t
   int deflate_ = 0;
 };
 

@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "wiring/durable_file.hpp"
+#include "wiring/file_error.hpp"
 
 namespace wiring::hdf5 {
 

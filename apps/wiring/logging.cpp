@@ -5,7 +5,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <unistd.h>
 
-#include "wiring/durable_file.hpp"
+#include "wiring/file_error.hpp"
 
 namespace wiring {
 

@@ -5,7 +5,9 @@
 #include "wiring/checkpoint.hpp"
 #include "wiring/checkpoint_folder.hpp"
 #include "wiring/diagnosis.hpp"
+#include "wiring/durable_file.hpp"
 #include "wiring/particle_fields.hpp"
+#include "wiring/time_stamp.hpp"
 
 namespace wiring {
 
@@ -57,22 +59,23 @@ std::optional<std::filesystem::path> make_room(const RunFolder& folder,
   if (!same_folder(folder, start)) return folder.set_previous_aside();
   std::error_code ignored;
   std::filesystem::remove(folder.failure(), ignored);  // of a run that now goes on
-  set_aside_later(folder.checkpoints(), start.state.programme.step);
+  set_aside_later(folder.checkpoints(), start.state.programme.step, folder.system());
   return std::nullopt;
 }
 
 template <int Dim>
 CurveFile curve_for(const RunFolder& folder, const RunStart<Dim>& start) {
-  if (start.history.empty()) return CurveFile::create(folder.curve(), Dim);
-  write_text_durably(folder.curve(), curve_text(Dim, start.history));
-  return CurveFile::resume(folder.curve(), folder.curve(), Dim, start.history.back().step);
+  if (start.history.empty()) return CurveFile::create(folder.curve(), Dim, folder.system());
+  write_text_durably(folder.curve(), curve_text(Dim, start.history), folder.system());
+  return CurveFile::resume(folder.curve(), folder.curve(), Dim, start.history.back().step,
+                           folder.system());
 }
 
 template <int Dim>
 Frames frames_for(const RunFolder& folder, const Scene& scene, const RunStart<Dim>& start) {
-  if (start.history.empty()) return {folder, scene.output.frames_every, 0, std::nullopt};
+  if (start.history.empty()) return {folder, scene.output, 0, std::nullopt};
   const CurveRow& last = start.history.back();
-  return {folder, scene.output.frames_every, last.step, time_of(last, scene)};
+  return {folder, scene.output, last.step, time_of(last, scene)};
 }
 
 }  // namespace
@@ -91,13 +94,13 @@ Recorder<Dim>::Recorder(const RunRequest& request, const RunFolder& folder, cons
       curve_(curve_for(folder, start)),
       frames_(frames_for(folder, request.scene, start)),
       progress_(out, progress_mode(request.quiet), terminal_width()) {
-  create_folder(folder_.checkpoints());
+  create_folder(folder_.checkpoints(), folder_.system());
   if (previous_) say(fmt::format("results of an earlier run are now in {}", previous_->string()));
   if (!history_.empty()) {
-    notes_.parent = start.checkpoint.string();
+    notes_.lineage = start.lineage;
     last_checkpoint_ = start.checkpoint;
     if (same_folder(folder, start)) checkpointed_step_ = history_.back().step;
-    earlier_ = history_.back().wall;
+    earlier_ = checkpointed_at_ = history_.back().wall;
     for (const CurveRow& row : history_) {
       cuts_ += row.cuts;
       researched_ += row.researched_rows;
@@ -106,7 +109,9 @@ Recorder<Dim>::Recorder(const RunRequest& request, const RunFolder& folder, cons
   }
   history_.push_back(row_of(StepRecord{}, scene_, 0.0));
   curve_.append(history_.back());
-  if (frames_.due(0)) write_frame(Eigen::VectorXd::Zero(model_.unknowns()));
+  const Eigen::VectorXd no_reaction = Eigen::VectorXd::Zero(model_.unknowns());
+  if (frames_.due(0)) write_frame(no_reaction);
+  write_checkpoint("start of the run", no_reaction);
 }
 
 template <int Dim>
@@ -126,8 +131,22 @@ void Recorder<Dim>::take(const StepRecord& record, const Eigen::VectorXd& reacti
   log_.info(progress_line(status(record), no_limit));
   // The frame first: a run that goes on from the checkpoint does not write it again.
   if (frames_.due(record.step)) write_frame(reaction);
-  const int every = scene_.output.checkpoints_every;
-  if (every > 0 && record.step % every == 0) write_checkpoint("as scheduled", reaction);
+  const std::string why = why_checkpoint_is_due();
+  if (!why.empty()) write_checkpoint(why, reaction);
+}
+
+template <int Dim>
+std::string Recorder<Dim>::why_checkpoint_is_due() const {
+  const Output& output = scene_.output;
+  const bool by_step =
+      output.checkpoints_every > 0 && state_.programme.step % output.checkpoints_every == 0;
+  if (by_step && output.checkpoints_every == 1) return "every step";
+  if (by_step) return fmt::format("every {} steps", output.checkpoints_every);
+  constexpr double minute = 60.0;  // [s]
+  const double waited = (elapsed() - checkpointed_at_) / minute;
+  const bool by_time =
+      output.checkpoints_every_minutes > 0.0 && waited >= output.checkpoints_every_minutes;
+  return by_time ? fmt::format("every {} minutes", output.checkpoints_every_minutes) : "";
 }
 
 template <int Dim>
@@ -144,7 +163,8 @@ void Recorder<Dim>::write_failure(const StepResult& result, const Eigen::VectorX
   for (PointField& field : failure_fields(model_, result)) fields.push_back(std::move(field));
   const CurveRow& row = history_.back();
   wiring::write_frame(folder_.failure(), row.step, time_of(row, scene_),
-                      current_points(model_, state_), fields);
+                      current_points(model_, state_), fields, scene_.output.compression,
+                      folder_.system());
 }
 
 template <int Dim>
@@ -164,15 +184,18 @@ template <int Dim>
 void Recorder<Dim>::write_checkpoint(const std::string& reason, const Eigen::VectorXd& reaction) {
   curve_.sync();
   notes_.reason = reason;
-  notes_.created = time_stamp();
+  notes_.created = time_stamp(folder_.system().time());
   notes_.history = history_;
   const std::int64_t step = state_.programme.step;
   const std::filesystem::path path = folder_.checkpoints() / checkpoint_name(step);
   wiring::write_checkpoint(path, model_, state_, notes_,
-                           particle_fields(model_, state_, reaction, scene_.output.fields));
+                           particle_fields(model_, state_, reaction, scene_.output.fields),
+                           scene_.output.compression, folder_.system());
   last_checkpoint_ = path;
   checkpointed_step_ = step;
-  remove_older(folder_.checkpoints(), step, scene_.output.checkpoints_kept);
+  checkpointed_at_ = elapsed();
+  const Retention retention{scene_.output.checkpoints_kept, scene_.output.checkpoints_kept_every};
+  remove_older(folder_.checkpoints(), step, retention, folder_.system());
 }
 
 template <int Dim>

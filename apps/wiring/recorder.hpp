@@ -53,6 +53,7 @@ class Recorder {
  private:
   void write_frame(const Eigen::VectorXd& reaction);
   void write_checkpoint(const std::string& reason, const Eigen::VectorXd& reaction);
+  [[nodiscard]] std::string why_checkpoint_is_due() const;
   ProgressStatus status(const StepRecord& record) const;
 
   const Scene& scene_;
@@ -65,6 +66,7 @@ class Recorder {
   double earlier_ = 0.0;  // [s] of the run before the checkpoint
   std::filesystem::path last_checkpoint_;
   std::int64_t checkpointed_step_ = -1;
+  double checkpointed_at_ = 0.0;  // [s] of elapsed()
   std::int64_t cuts_ = 0;
   std::int64_t researched_ = 0;
 

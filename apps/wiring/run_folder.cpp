@@ -1,12 +1,7 @@
 #include "wiring/run_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -16,18 +11,9 @@ namespace wiring {
 
 namespace {
 
-int locked(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "run.lock";
-  const int lock = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (lock < 0) throw FileError(file, std::string("cannot be opened: ") + std::strerror(errno));
-  if (::flock(lock, LOCK_EX | LOCK_NB) != 0) {
-    const bool taken = errno == EWOULDBLOCK;
-    const std::string reason = taken ? "another run is writing here; choose another --out"
-                                     : std::string("cannot be locked: ") + std::strerror(errno);
-    ::close(lock);
-    throw FileError(folder, reason);
-  }
-  return lock;
+std::filesystem::path made(std::filesystem::path folder, const SystemCalls& system) {
+  create_folder(folder, system);
+  return folder;
 }
 
 // The temporary files of write_durably; whoever wrote them is gone, for the lock is ours.
@@ -44,14 +30,9 @@ void remove_unfinished(const std::filesystem::path& folder) {
 
 }  // namespace
 
-RunFolder::RunFolder(std::filesystem::path path) : path_(std::move(path)) {
-  create_folder(path_);
-  lock_ = locked(path_);
+RunFolder::RunFolder(std::filesystem::path path, const SystemCalls& system)
+    : system_(system), path_(made(std::move(path), system)), lock_(path_, system) {
   for (const auto& folder : {path_, frames(), checkpoints()}) remove_unfinished(folder);
-}
-
-RunFolder::~RunFolder() {
-  ::close(lock_);
 }
 
 std::optional<std::filesystem::path> RunFolder::set_previous_aside() const {
@@ -64,12 +45,11 @@ std::optional<std::filesystem::path> RunFolder::set_previous_aside() const {
   for (int number = 1; previous.empty() || std::filesystem::exists(previous); ++number) {
     previous = path_ / fmt::format("previous-{}", number);
   }
-  create_folder(previous);
+  create_folder(previous, system_);
   for (const auto& result : results) {
-    std::error_code failure;
-    std::filesystem::rename(result, previous / result.filename(), failure);
-    if (failure) throw FileError(result, "cannot be moved aside: " + failure.message());
+    rename_durably(result, previous / result.filename(), system_);
   }
+  sync_to_disk(path_, system_);
   return previous;
 }
 

@@ -3,24 +3,28 @@
 #include <filesystem>
 #include <optional>
 
+#include "wiring/run_lock.hpp"
+#include "wiring/system_calls.hpp"
+
 namespace wiring {
 
 /// The output folder of one run, held by a lock while this object lives: a second run in it is
-/// refused. The lock is the system's (flock) and ends with its process, however that ends.
+/// refused.
 class RunFolder {
  public:
   /// Makes the folder if need be and takes its lock; removes what a killed run left unfinished.
-  /// @throws FileError if the folder cannot be made, or another run has it.
-  explicit RunFolder(std::filesystem::path path);
-  RunFolder(const RunFolder&) = delete;
-  RunFolder& operator=(const RunFolder&) = delete;
-  ~RunFolder();
+  /// @param system  by which all its files are written; must outlive it
+  /// @throws FileError if the folder cannot be made, or another run has it: it says which.
+  explicit RunFolder(std::filesystem::path path, const SystemCalls& system = system_calls());
 
   /// Moves the results of an earlier run to `previous-1`, `previous-2`, ... in the folder: a
   /// forgotten --resume must not cost a night's work.
   /// @return where they are now, or nothing if there were none.
   [[nodiscard]] std::optional<std::filesystem::path> set_previous_aside() const;
 
+  /// Who had the folder and died in it, see RunLock.
+  [[nodiscard]] const std::string& dead_owner() const { return lock_.dead_owner(); }
+  [[nodiscard]] const SystemCalls& system() const { return system_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::filesystem::path curve() const { return path_ / "curve.csv"; }
   [[nodiscard]] std::filesystem::path series() const { return path_ / "run.hdf.series"; }
@@ -30,8 +34,9 @@ class RunFolder {
   [[nodiscard]] std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
 
  private:
+  const SystemCalls& system_;
   std::filesystem::path path_;
-  int lock_ = -1;
+  RunLock lock_;
 };
 
 }  // namespace wiring

@@ -27,8 +27,7 @@ class StopReasons {
 
   /// "" to go on.
   [[nodiscard]] std::string now() const {
-    if (signals_.received() == SIGINT) return "interrupted by SIGINT";
-    if (signals_.received() != 0) return "interrupted by SIGTERM";
+    if (signals_.received() != 0) return fmt::format("interrupted by {}", signals_.name());
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin_;
     if (max_wall_ && wall.count() >= *max_wall_) return "interrupted by --max-wall";
     return "";
@@ -39,6 +38,14 @@ class StopReasons {
   std::optional<double> max_wall_;  // [s]
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
+
+std::string what_is_left(const std::filesystem::path& checkpoint) {
+  if (checkpoint.empty()) return "; there is no checkpoint yet";
+  std::error_code failure;
+  const bool exists = std::filesystem::exists(checkpoint, failure);
+  return (exists ? "; the last good checkpoint is " : "; gone is the last checkpoint, ") +
+         checkpoint.string();
+}
 
 /// A word as a shell reads it back.
 std::string quoted(const std::string& word) {
@@ -61,15 +68,21 @@ std::string command_to_resume(const RunRequest& request) {
 template <int Dim>
 class Run {
  public:
-  Run(const RunRequest& request, std::ostream& out, std::ostream& err)
+  Run(const RunRequest& request, std::ostream& out, std::ostream& err, const SystemCalls& system)
       : request_(request),
         scene_(request.scene),
         out_(out),
         err_(err),
+        system_(system),
         stop_(request.max_wall_s),
         model_(build_model<Dim>(scene_)) {}
 
   ExitCode operator()() {
+    // Held before its checkpoints are read: nobody else adds one meanwhile. A folder that is not
+    // there is made only once the run is known to begin.
+    std::optional<RunFolder> folder;
+    const bool exists = std::filesystem::is_directory(request_.directory);
+    if (exists && !request_.check_only) folder.emplace(request_.directory, system_);
     RunStart<Dim> start = start_of(request_, model_);
     for (const std::string& refusal : start.refusals) err_ << "error: " << refusal << '\n';
     if (!start.refusals.empty()) return ExitCode::input_refused;
@@ -77,21 +90,18 @@ class Run {
     if (request_.check_only) return check(start, stepper);
     if (stepper.finished()) return say_finished(start);
 
-    const RunFolder folder(request_.directory);
-    Recorder<Dim> recorder(request_, folder, model_, start, start.state, out_);
+    if (!folder) folder.emplace(request_.directory, system_);
+    Recorder<Dim> recorder(request_, *folder, model_, start, start.state, out_);
     try {
-      introduce(start, recorder);
+      introduce(start, *folder, recorder);
       if (start.research_changed && scene_.research.enabled) {
         // The rule is new: a state that no step leads on from must not wait for one.
         const Eigen::Index rows = stepper.research();
         if (rows > 0) recorder.say(fmt::format("{} rows re-searched", rows));
       }
-      return advance(start.state, stepper, recorder, folder);
+      return advance(start.state, stepper, recorder, *folder);
     } catch (const FileError& failure) {
-      const std::string last = recorder.last_checkpoint().string();
-      throw FileError(failure.file(),
-                      failure.reason() + (last.empty() ? "; there is no checkpoint yet"
-                                                       : "; the last good checkpoint is " + last));
+      throw FileError(failure.file(), failure.reason() + what_is_left(recorder.last_checkpoint()));
     }
   }
 
@@ -120,13 +130,19 @@ class Run {
                        start.state.programme.step, start.state.programme.load);
   }
 
-  void introduce(const RunStart<Dim>& start, Recorder<Dim>& recorder) {
+  void introduce(const RunStart<Dim>& start, const RunFolder& folder, Recorder<Dim>& recorder) {
     recorder.log().info(fmt::format("fpm-run {}, {}; scene {}, {} threads", version,
                                     library_versions, request_.scene_file.string(),
                                     omp_get_max_threads()));
     recorder.say(fmt::format("{}: {} particles, {} steps planned, output in {}",
                              scene_.title.empty() ? request_.scene_file.string() : scene_.title,
                              model_.size(), nominal_steps(scene_), request_.directory.string()));
+    if (!folder.dead_owner().empty()) {
+      recorder.say(
+          fmt::format("the last run here ({}) ended without a word: it was killed, or its "
+                      "machine went down",
+                      folder.dead_owner()));
+    }
     for (const std::string& warning : start.warnings) recorder.log().warning(warning);
     if (!start.checkpoint.empty()) recorder.say(resumed_line(start));
     for (const SceneChange& change : start.changes) recorder.say("changed: " + change.text());
@@ -192,6 +208,7 @@ class Run {
   const Scene& scene_;
   std::ostream& out_;
   std::ostream& err_;
+  const SystemCalls& system_;
   StopReasons stop_;
   Model<Dim> model_;
 };
@@ -206,10 +223,11 @@ int thread_count(int asked, std::int64_t particles) {
       std::min<std::int64_t>(omp_get_max_threads(), particles / particles_per_thread + 1));
 }
 
-ExitCode run_programme(const RunRequest& request, std::ostream& out, std::ostream& err) {
+ExitCode run_programme(const RunRequest& request, std::ostream& out, std::ostream& err,
+                       const SystemCalls& system) {
   omp_set_num_threads(thread_count(request.threads, particle_count(request.scene.geometry)));
-  if (request.scene.geometry.dimension == 2) return Run<2>(request, out, err)();
-  return Run<3>(request, out, err)();
+  if (request.scene.geometry.dimension == 2) return Run<2>(request, out, err, system)();
+  return Run<3>(request, out, err, system)();
 }
 
 }  // namespace wiring

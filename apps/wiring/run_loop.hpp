@@ -4,6 +4,7 @@
 
 #include "wiring/exit_code.hpp"
 #include "wiring/run_request.hpp"
+#include "wiring/system_calls.hpp"
 
 namespace wiring {
 
@@ -13,8 +14,9 @@ namespace wiring {
 /// @param err  what is refused; warnings and failures go to standard error by the log
 /// @throws FileError if a checkpoint is unusable or a result cannot be written; the message names
 /// the last good checkpoint.
+/// @param system  by which all results are written
 [[nodiscard]] ExitCode run_programme(const RunRequest& request, std::ostream& out,
-                                     std::ostream& err);
+                                     std::ostream& err, const SystemCalls& system = system_calls());
 
 /// Threads for a body: those asked for, else as many as OpenMP offers and the body keeps busy.
 [[nodiscard]] int thread_count(int asked, std::int64_t particles);

@@ -41,6 +41,20 @@ std::vector<std::string> refusals_among(const std::vector<SceneChange>& changes)
   return refusals;
 }
 
+std::vector<Ancestor> lineage_from(const std::filesystem::path& checkpoint,
+                                   const CheckpointNotes& notes,
+                                   const std::vector<SceneChange>& changes) {
+  Ancestor parent{std::filesystem::absolute(checkpoint).lexically_normal().string(),
+                  notes.history.back().step,
+                  notes.created,
+                  identity_of(notes.digest),
+                  {}};
+  for (const SceneChange& change : changes) parent.changed.push_back(change.text());
+  std::vector<Ancestor> lineage = notes.lineage;
+  lineage.push_back(std::move(parent));
+  return lineage;
+}
+
 template <int Dim>
 void resume(const std::filesystem::path& checkpoint, const Scene& scene, const Model<Dim>& model,
             RunStart<Dim>& start) {
@@ -52,6 +66,7 @@ void resume(const std::filesystem::path& checkpoint, const Scene& scene, const M
   start.refusals = refusals_among(start.changes);
   if (!start.refusals.empty()) return;
   start.state = read_state(file, model);
+  start.lineage = lineage_from(checkpoint, notes, start.changes);
   start.history = std::move(notes.history);
   start.research_changed = former.research != scene.research;
   if (!adapt_programme(former, scene, start.state.programme)) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wiring/curve.hpp"
+#include "wiring/lineage.hpp"
 #include "wiring/model.hpp"
 #include "wiring/run_request.hpp"
 #include "wiring/scene_changes.hpp"
@@ -18,6 +19,7 @@ struct RunStart {
   State<Dim> state;
   std::vector<CurveRow> history;      // the curve so far; empty: a fresh run
   std::filesystem::path checkpoint;   // where the state is from; empty: a fresh run
+  std::vector<Ancestor> lineage;      // of the state, its checkpoint last
   std::vector<SceneChange> changes;   // since the checkpoint, all allowed
   std::vector<std::string> refusals;  // why the run may not go on; the state is then not to be used
   std::vector<std::string> warnings;  // newer checkpoints that are damaged

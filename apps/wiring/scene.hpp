@@ -182,7 +182,10 @@ struct Output {
   std::optional<std::string> directory;  // absent: out/<stem of the scene file>
   int frames_every = 10;
   int checkpoints_every = 10;
+  double checkpoints_every_minutes = 15.0;
   int checkpoints_kept = 3;
+  int checkpoints_kept_every = 0;
+  int compression = 0;
   std::vector<std::string> fields;  // empty: all
   bool operator==(const Output&) const = default;
 };

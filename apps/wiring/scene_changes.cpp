@@ -33,6 +33,11 @@ bool may_change_on_resume(std::string_view key) {
          std::ranges::any_of(free_tables, [&](auto table) { return key.starts_with(table); });
 }
 
+std::string what_may_change() {
+  return fmt::format("{}, {}*; the number of threads; nothing else", fmt::join(free_keys, ", "),
+                     fmt::join(free_tables, "*, "));
+}
+
 std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after) {
   std::vector<SceneChange> changes;
   for (const TableInfo& table : scene_tables()) {

@@ -25,6 +25,9 @@ struct SceneChange {
 /// state belongs to: body, approximation, materials, supports, loads.
 [[nodiscard]] bool may_change_on_resume(std::string_view key);
 
+/// These keys in words.
+[[nodiscard]] std::string what_may_change();
+
 /// Every key whose value differs, in the order of the scene file.
 [[nodiscard]] std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after);
 

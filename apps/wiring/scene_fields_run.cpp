@@ -104,9 +104,21 @@ TableInfo output() {
            {.range = at_least(0), .doc = "Converged steps between frames for ParaView; 0: none."})
       .key("checkpoints_every", &Output::checkpoints_every,
            {.range = at_least(0),
-            .doc = "Converged steps between checkpoints; 0: only at the end or when stopped."})
+            .doc = "Converged steps between checkpoints; 0: not by steps. There is always one of "
+                   "the start, of the end, and of a run that is stopped."})
+      .key("checkpoints_every_minutes", &Output::checkpoints_every_minutes,
+           {.unit = "min",
+            .range = at_least(0.0),
+            .doc = "Minutes after which the next converged step has a checkpoint in any case; 0: "
+                   "not by time."})
       .key("checkpoints_kept", &Output::checkpoints_kept,
            {.range = at_least(1), .doc = "Newest checkpoints kept."})
+      .key("checkpoints_kept_every", &Output::checkpoints_kept_every,
+           {.range = at_least(0),
+            .doc = "Besides, the first checkpoint at or after each multiple of so many steps is "
+                   "kept for good; 0: none."})
+      .key("compression", &Output::compression,
+           {.range = between(0, 9), .doc = "Of checkpoints and frames: 0 none, 1 fast .. 9 small."})
       .key("fields", &Output::fields,
            {.need = Need::optional, .doc = "Particle fields in the frames.", .absent = "all"})
       .among(output_field_names)

@@ -8,6 +8,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "wiring/durable_file.hpp"
+
 namespace wiring {
 
 namespace {
@@ -77,18 +79,21 @@ void write_vtkhdf(Hdf5File& file, std::span<const double> points,
 }
 
 void write_frame(const std::filesystem::path& path, std::int64_t step, double time,
-                 std::span<const double> points, std::span<const PointField> fields) {
-  write_durably(path, [&](const std::filesystem::path& temporary) {
-    Hdf5File file = Hdf5File::create(temporary);
+                 std::span<const double> points, std::span<const PointField> fields, int deflate,
+                 const SystemCalls& system) {
+  const auto fill = [&](const std::filesystem::path& temporary) {
+    Hdf5File file = Hdf5File::create(temporary, {.deflate = deflate}, system);
     file.write_attribute("/", "step", step);
     file.write_attribute("/", "time", time);
     write_vtkhdf(file, points, fields);
     file.close();
-  });
+  };
+  write_durably(path, fill, system);
 }
 
-FrameSeries FrameSeries::resume(std::filesystem::path file, double time) {
-  FrameSeries series(std::move(file));
+FrameSeries FrameSeries::resume(std::filesystem::path file, double time,
+                                const SystemCalls& system) {
+  FrameSeries series(std::move(file), system);
   if (!std::filesystem::exists(series.file_)) return series;
   const std::string text = read_text(series.file_);
   if (!text.starts_with(series_head) || !text.ends_with(series_tail)) {
@@ -118,7 +123,7 @@ void FrameSeries::write() const {
                    time_opens, entries_[i].time, entry_closes, i + 1 < entries_.size() ? "," : "");
   }
   text += series_tail;
-  write_text_durably(file_, text);
+  write_text_durably(file_, text, *system_);
 }
 
 }  // namespace wiring

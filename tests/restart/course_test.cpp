@@ -62,7 +62,7 @@ TEST(Signal, StopsInTheMiddleOfAStepAndTheResumedRunIsBitIdentical) {
   const TemporaryFolder folder;
   const auto whole = folder / "whole";
   ASSERT_EQ(fpm_run_in(whole, footing, many_steps).code, ExitCode::done);
-  for (const int number : {SIGINT, SIGTERM}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     const auto stopped = folder / std::to_string(number);
     std::thread sender = signal_after_rows(stopped, 5, number);
     const Outcome outcome = fpm_run_in(stopped, footing, many_steps);

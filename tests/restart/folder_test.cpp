@@ -2,6 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
 #include <fstream>
 
 #include "restart.hpp"
@@ -14,6 +19,7 @@
 namespace wiring::test {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -60,9 +66,9 @@ TEST(OutputFolder, KeepsLaterCheckpointsOfACourseThatIsGivenUpUnderAnotherName) 
             ExitCode::interrupted);
   EXPECT_EQ(last_checkpoint(run), checkpoint_of(run, 2));
   EXPECT_THAT(names_in(run / "checkpoints"),
-              ElementsAre("step-000001.hdf", "step-000002.hdf", "step-000003.hdf.set-aside",
-                          "step-000004.hdf.set-aside", "step-000005.hdf.set-aside",
-                          "step-000006.hdf.set-aside"));
+              ElementsAre("step-000000.hdf", "step-000001.hdf", "step-000002.hdf",
+                          "step-000003.hdf.set-aside", "step-000004.hdf.set-aside",
+                          "step-000005.hdf.set-aside", "step-000006.hdf.set-aside"));
 }
 
 TEST(OutputFolder, ThatLostItsCurveGetsItBackFromTheCheckpoint) {
@@ -101,12 +107,104 @@ TEST(OutputFolder, KeepsTheNewestCheckpointsOnly) {
   EXPECT_THAT(names_in(run / "checkpoints"), ElementsAre("step-000004.hdf", "step-000006.hdf"));
 }
 
+TEST(OutputFolder, KeepsTheFirstCheckpointOfEveryStretchForGood) {
+  const TemporaryFolder folder;
+  const auto stays = [&](std::vector<int> steps, const Retention& retention) {
+    std::vector<int> left;
+    for (const int step : steps) {
+      std::ofstream(folder / checkpoint_name(step)) << "x";
+      remove_older(folder.path(), step, retention);
+    }
+    for (const auto& path : list_checkpoints(folder.path())) {
+      left.insert(left.begin(), static_cast<int>(*step_of(path)));
+      std::filesystem::remove(path);
+    }
+    return left;
+  };
+  const std::vector<int> steps{0, 10, 20, 30, 40, 50, 60, 70};
+  EXPECT_EQ(stays(steps, {.newest = 2}), (std::vector{60, 70}));
+  EXPECT_EQ(stays(steps, {.newest = 2, .every = 20}), (std::vector{0, 20, 40, 60, 70}));
+  // 50 comes before 75 and 75 itself never comes: the first after each multiple of 25.
+  EXPECT_EQ(stays(steps, {.newest = 1, .every = 25}), (std::vector{0, 30, 50, 70}));
+  EXPECT_EQ(stays({0, 7, 31, 33, 64}, {.newest = 1, .every = 30}), (std::vector{0, 31, 64}));
+}
+
+TEST(OutputFolder, HasACheckpointBeforeTheFirstStep) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(fpm_run_in(folder / "run", block).code, ExitCode::done);
+  EXPECT_TRUE(std::filesystem::exists(checkpoint_of(folder / "run", 0)));
+}
+
+TEST(OutputFolder, HasCheckpointsByTimeToo) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  const std::string at_once = "output.checkpoints_every_minutes=1e-9";
+  ASSERT_EQ(fpm_run_in(run, block, {"--set", "output.checkpoints_every=0", "--set", at_once}).code,
+            ExitCode::done);
+  for (int step = 0; step <= 6; ++step) {
+    EXPECT_TRUE(std::filesystem::exists(checkpoint_of(run, step))) << step;
+  }
+}
+
 TEST(OutputFolder, IsRefusedToASecondRun) {
   const TemporaryFolder folder;
   const RunFolder held(folder / "run");
   const Outcome second = fpm_run_in(folder / "run", block);
   EXPECT_EQ(second.code, ExitCode::checkpoint_unusable);
-  EXPECT_THAT(second.err, HasSubstr("another run is writing here"));
+  EXPECT_THAT(second.err, HasSubstr("another run is writing here (process " +
+                                    std::to_string(::getpid()) + " on "));
+  EXPECT_EQ(fpm_run_in(folder / "run", block, {"--resume"}).err, second.err);
+}
+
+// A process that takes the lock of a folder and is killed.
+void die_in(const std::filesystem::path& folder) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const RunFolder held(folder);
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+}
+
+TEST(OutputFolder, OfADeadOwnerIsTakenAndTheOwnerNamed) {
+  const TemporaryFolder folder;
+  die_in(folder / "run");
+  const std::string owner = bytes_of_file(folder / "run" / "run.lock");
+  EXPECT_THAT(owner, ContainsRegex("^process [0-9]+ on .* since 2[0-9-]*T[0-9:]*Z\n$"));
+  const Outcome outcome = fpm_run_in(folder / "run", block);
+  EXPECT_EQ(outcome.code, ExitCode::done) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("the last run here (" + owner.substr(0, owner.size() - 1) +
+                                     ") ended without a word"));
+  // Whoever ends in good order leaves no such trace.
+  EXPECT_EQ(bytes_of_file(folder / "run" / "run.lock"), "");
+}
+
+// Some network disks have no locks.
+TEST(OutputFolder, WithoutLocksIsHeldByTheWordOfAnOwnerWhoMayLive) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  SystemCalls without = system_calls();
+  without.flock = [](int, int) {
+    errno = ENOLCK;
+    return -1;
+  };
+  create_folder(run);
+  const auto refused = [&] {
+    try {
+      const RunFolder held(run, without);
+      return std::string();
+    } catch (const FileError& failure) {
+      return failure.reason();
+    }
+  };
+  std::ofstream(run / "run.lock") << "process 1 on another-host since 2024-05-17T08:30:00Z\n";
+  EXPECT_THAT(refused(), HasSubstr("(process 1 on another-host since 2024-05-17T08:30:00Z)"));
+  EXPECT_THAT(refused(), HasSubstr("or remove run.lock if that run is gone"));
+  die_in(run);
+  EXPECT_EQ(refused(), "");
+  EXPECT_EQ(refused(), "");  // given back
 }
 
 TEST(OutputFolder, LosesTemporaryFilesOfAKilledRun) {

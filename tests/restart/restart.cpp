@@ -96,15 +96,17 @@ checkpoints_kept = 100
 )";
 
 Outcome fpm_run_in(const std::filesystem::path& folder, const std::string& scene,
-                   const std::vector<std::string>& arguments) {
+                   const std::vector<std::string>& arguments, const SystemCalls& system) {
   std::filesystem::path file = folder;
   file += ".toml";
   std::ofstream(file) << scene;
   std::vector<std::string> all{file.string(), "--out", folder.string()};
   all.insert(all.end(), arguments.begin(), arguments.end());
   std::ostringstream out, err;
-  const ExitCode code = fpm_run(
-      all, out, err, [&](const RunRequest& request) { return run_programme(request, out, err); });
+  const auto run = [&](const RunRequest& request) {
+    return run_programme(request, out, err, system);
+  };
+  const ExitCode code = fpm_run(all, out, err, run);
   return {code, out.str(), err.str()};
 }
 

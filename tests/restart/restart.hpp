@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wiring/exit_code.hpp"
+#include "wiring/system_calls.hpp"
 #include "wiring/temporary_folder.hpp"
 
 namespace wiring::test {
@@ -23,7 +24,8 @@ extern const std::string block;
 
 /// The program fpm-run with a scene that is written beside the output folder.
 Outcome fpm_run_in(const std::filesystem::path& folder, const std::string& scene,
-                   const std::vector<std::string>& arguments = {});
+                   const std::vector<std::string>& arguments = {},
+                   const SystemCalls& system = system_calls());
 
 /// The checkpoint of the largest step in an output folder.
 std::filesystem::path last_checkpoint(const std::filesystem::path& folder);

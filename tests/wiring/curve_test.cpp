@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "temporary_folder.hpp"
+#include "wiring/durable_file.hpp"
 
 namespace wiring {
 namespace {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "temporary_folder.hpp"
+#include "wiring/durable_file.hpp"
 
 namespace wiring {
 namespace {
@@ -64,7 +65,7 @@ TEST(Hdf5File, KeepsManyChunksAndCompressesOnRequest) {
   std::vector<double> values(400000);
   std::iota(values.begin(), values.end(), 0.0);
   for (const int deflate : {0, 4}) {
-    Hdf5File file = Hdf5File::create(folder / std::to_string(deflate), deflate);
+    Hdf5File file = Hdf5File::create(folder / std::to_string(deflate), {.deflate = deflate});
     file.write<double>("/values", values, {100000, 4});
     file.close();
     EXPECT_EQ(Hdf5File::open(folder / std::to_string(deflate)).read_all<double>("/values"), values);

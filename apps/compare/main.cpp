@@ -1,0 +1,154 @@
+// fpm-compare: the largest difference per field of two checkpoints, frames, curves or runs.
+
+#include <fmt/format.h>
+
+#include <boost/program_options.hpp>
+#include <charconv>
+#include <cmath>
+#include <exception>
+#include <iostream>
+
+#include "compare/difference.hpp"
+#include "compare/report.hpp"
+#include "wiring/exit_code.hpp"
+#include "wiring/file_error.hpp"
+#include "wiring/version.hpp"
+
+namespace {
+
+namespace po = boost::program_options;
+using wiring::ExitCode;
+using Texts = std::vector<std::string>;
+
+constexpr std::string_view usage =
+    "Usage: fpm-compare A B [options]\n"
+    "\n"
+    "Prints the largest difference per field of two checkpoints, frames (*.hdf), curves (*.csv) "
+    "or\n"
+    "output folders (their newest usable checkpoints, with the curve so far). Without a tolerance\n"
+    "fields must be identical bit by bit; wall times are never compared.\n";
+
+constexpr std::string_view notes =
+    "PATTERN is a field's name or its last part, with * and ? as in a shell. A difference passes "
+    "if\n"
+    "it is at most the absolute tolerance plus the relative one times the field's largest\n"
+    "magnitude; of several for a field the last counts.\n"
+    "\n"
+    "Examples:\n"
+    "  fpm-compare out/a out/b\n"
+    "  fpm-compare a/curve.csv b/curve.csv --relative 1e-6 --ignore '*evaluations'\n"
+    "  fpm-compare a.hdf b.hdf --only stress --absolute stress=1.0\n"
+    "\n"
+    "Exit codes: 0 all pass, 1 internal error, 2 wrong use, 3 different, 4 a file is unusable.\n";
+
+/// The command line cannot be understood.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+po::options_description options() {
+  po::options_description all("Options");
+  all.add_options()  //
+      ("relative", po::value<Texts>()->value_name("[PATTERN=]X")->composing(),
+       "let differences up to X times the field's largest magnitude pass; may be repeated")  //
+      ("absolute", po::value<Texts>()->value_name("[PATTERN=]X")->composing(),
+       "let differences up to X, in the field's unit, pass; may be repeated")  //
+      ("only", po::value<Texts>()->value_name("PATTERN")->composing(),
+       "compare these fields only; may be repeated")  //
+      ("ignore", po::value<Texts>()->value_name("PATTERN")->composing(),
+       "do not compare these fields; may be repeated")                      //
+      ("quiet", po::bool_switch(), "print nothing; the exit code says it")  //
+      ("version", po::bool_switch(), "print the version")                   //
+      ("help", po::bool_switch(), "print this help");
+  return all;
+}
+
+po::variables_map parse(const Texts& arguments) {
+  po::options_description all = options();
+  all.add_options()("file", po::value<Texts>());
+  po::positional_options_description positional;
+  positional.add("file", -1);
+  const int strict = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+  po::variables_map values;
+  try {
+    po::store(
+        po::command_line_parser(arguments).options(all).positional(positional).style(strict).run(),
+        values);
+  } catch (const po::error& failure) {
+    throw UsageError(failure.what());
+  }
+  return values;
+}
+
+Texts texts(const po::variables_map& values, const char* name) {
+  return values.count(name) == 0 ? Texts{} : values[name].as<Texts>();
+}
+
+std::vector<Tolerance> tolerances(const po::variables_map& values, const char* name) {
+  std::vector<Tolerance> all;
+  for (const std::string& text : texts(values, name)) {
+    const std::size_t equals = text.rfind('=');
+    Tolerance tolerance;
+    if (equals != std::string::npos) tolerance.pattern = text.substr(0, equals);
+    const std::string number = equals == std::string::npos ? text : text.substr(equals + 1);
+    const char* end = number.data() + number.size();
+    const auto [stop, failure] = std::from_chars(number.data(), end, tolerance.value);
+    const bool sound = failure == std::errc{} && stop == end && std::isfinite(tolerance.value) &&
+                       tolerance.value >= 0.0 && !tolerance.pattern.empty();
+    if (!sound) {
+      throw UsageError(
+          fmt::format("--{}: found {}; allowed is a number >= 0, or PATTERN=number", name, text));
+    }
+    all.push_back(tolerance);
+  }
+  return all;
+}
+
+ExitCode compare(const po::variables_map& values) {
+  const Texts files = texts(values, "file");
+  if (files.size() != 2)
+    throw UsageError(fmt::format("{} files given; two are compared", files.size()));
+  const Request request{tolerances(values, "absolute"), tolerances(values, "relative"),
+                        texts(values, "only"), texts(values, "ignore")};
+  const Source a = open_source(files[0]), b = open_source(files[1]);
+  const std::vector<Difference> all = differences(a, b, request);
+  if (all.empty()) throw UsageError("there is no such field; without --only all are shown");
+  if (!values["quiet"].as<bool>()) {
+    std::cout << fmt::format("A: {}: {}\nB: {}: {}\n", files[0], a.what, files[1], b.what)
+              << comparison_report(a, all);
+  }
+  for (const Difference& difference : all) {
+    if (!difference.passes) return ExitCode::not_converged;
+  }
+  return ExitCode::done;
+}
+
+ExitCode run(const Texts& arguments) {
+  const po::variables_map values = parse(arguments);
+  if (values["help"].as<bool>()) {
+    std::cout << usage << '\n' << options() << '\n' << notes;
+    return ExitCode::done;
+  }
+  if (values["version"].as<bool>()) {
+    std::cout << "fpm-compare " << wiring::version << '\n';
+    return ExitCode::done;
+  }
+  return compare(values);
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  try {
+    return wiring::to_int(run({words + 1, words + count}));
+  } catch (const UsageError& failure) {
+    std::cerr << "error: " << failure.what() << "\nTry fpm-compare --help.\n";
+    return wiring::to_int(ExitCode::input_refused);
+  } catch (const wiring::FileError& failure) {
+    std::cerr << "error: " << failure.what() << '\n';
+    return wiring::to_int(ExitCode::checkpoint_unusable);
+  } catch (const std::exception& failure) {
+    std::cerr << "internal error: " << failure.what() << "\nThis is a bug: please report it.\n";
+    return wiring::to_int(ExitCode::bug);
+  }
+}

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/difference.hpp"
+
+/// A table of the largest difference per field, where it is, and whether it passes; then one line
+/// that sums up.
+[[nodiscard]] std::string comparison_report(const Source& a,
+                                            const std::vector<Difference>& differences);

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "wiring/checkpoint_file.hpp"
+
+/// What a checkpoint is, when, why and by which versions it was written, from which others it
+/// comes, and what a run that goes on from it may change.
+[[nodiscard]] std::string describe_checkpoint(const wiring::CheckpointNotes& notes);
+
+/// One line: step, load, when and why.
+[[nodiscard]] std::string checkpoint_line(const wiring::CheckpointNotes& notes);

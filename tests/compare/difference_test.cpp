@@ -1,0 +1,156 @@
+#include "compare/difference.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "compare/report.hpp"
+
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Quantity field(std::vector<double> values, std::size_t components = 1) {
+  const std::size_t rows = values.size() / components;
+  return {"Pa", components == 1 ? std::vector{rows} : std::vector{rows, components},
+          std::move(values)};
+}
+
+Quantity list(std::vector<std::int64_t> values) {
+  return {"-", {values.size()}, std::move(values)};
+}
+
+Source source_of(const std::map<std::string, Quantity>& fields,
+                 std::vector<std::int64_t> steps = {}) {
+  Source source;
+  for (const auto& entry : fields) source.names.push_back(entry.first);
+  source.load = [fields](const std::string& name) { return fields.at(name); };
+  source.steps = std::move(steps);
+  return source;
+}
+
+TEST(Difference, IsTheLargestAndSaysWhereItIs) {
+  const Difference d =
+      difference_of(field({1, 2, 3, 4, -8, 6}, 2), field({1, 2.5, 3, 4, -7, 6.5}, 2));
+  EXPECT_FALSE(d.identical);
+  EXPECT_EQ(d.largest, 1.0);
+  EXPECT_EQ(d.relative, 1.0 / 8.0);
+  EXPECT_EQ(d.count, 3U);
+  EXPECT_EQ(d.row, 2U);
+  EXPECT_EQ(d.component, 0U);
+  EXPECT_EQ(d.first, -8.0);
+  EXPECT_EQ(d.second, -7.0);
+}
+
+TEST(Difference, OfEqualFieldsIsNoneNanIncluded) {
+  const Difference d = difference_of(field({1, nan, infinity}), field({1, nan, infinity}));
+  EXPECT_TRUE(d.identical);
+  EXPECT_EQ(d.largest, 0.0);
+}
+
+TEST(Difference, ThatIsOnlyInTheSignOfZeroIsNotIdentical) {
+  const Difference d = difference_of(field({0.0}), field({-0.0}));
+  EXPECT_FALSE(d.identical);
+  EXPECT_EQ(d.count, 0U);
+}
+
+TEST(Difference, ToANumberThatIsNotFiniteIsInfinite) {
+  for (const double bad : {nan, infinity, -infinity}) {
+    EXPECT_EQ(difference_of(field({1.0, 2.0}), field({1.0, bad})).largest, infinity);
+    EXPECT_EQ(difference_of(field({bad, 2.0}), field({1.0, 2.0})).largest, infinity);
+  }
+}
+
+TEST(Difference, OfIntegersSeesTheLastBit) {
+  const std::int64_t large = (std::int64_t{1} << 60) + 1;  // no double
+  const Difference d = difference_of(list({large}), list({large - 1}));
+  EXPECT_FALSE(d.identical);
+}
+
+TEST(Difference, OfFieldsThatDoNotMatchSaysWhy) {
+  EXPECT_THAT(difference_of(field({1, 2}), field({1, 2, 3})).obstacle, HasSubstr("shape 2 and 3"));
+  EXPECT_THAT(difference_of(field({1, 2}), field({1, 2}, 2)).obstacle,
+              HasSubstr("shape 2 and 1 x 2"));
+  Quantity other = field({1, 2});
+  other.unit = "kPa";
+  EXPECT_THAT(difference_of(field({1, 2}), other).obstacle, HasSubstr("unit Pa and kPa"));
+  Quantity integers = list({1, 2});
+  integers.unit = "Pa";
+  EXPECT_THAT(difference_of(field({1, 2}), integers).obstacle, HasSubstr("another type"));
+}
+
+TEST(Pattern, MatchesTheWholeNameOrItsLastPart) {
+  EXPECT_TRUE(matches("particles/stress", "stress"));
+  EXPECT_TRUE(matches("particles/stress", "particles/*"));
+  EXPECT_TRUE(matches("particles/stress", "s?ress"));
+  EXPECT_FALSE(matches("particles/stress", "strain"));
+  EXPECT_FALSE(matches("particles/stress", "rows/*"));
+}
+
+std::vector<std::string> failing(const Source& a, const Source& b, const Request& request) {
+  std::vector<std::string> names;
+  for (const Difference& d : differences(a, b, request)) {
+    if (!d.passes) names.push_back(d.name);
+  }
+  return names;
+}
+
+TEST(Tolerance, OfTheLastPatternThatMatchesCounts) {
+  const Source a = source_of({{"s/x", field({10.0})}, {"s/y", field({10.0})}});
+  const Source b = source_of({{"s/x", field({10.5})}, {"s/y", field({10.5})}});
+  EXPECT_THAT(failing(a, b, {}), ElementsAre("s/x", "s/y"));
+  EXPECT_THAT(failing(a, b, {.absolute = {{"*", 0.5}}}), ElementsAre());
+  EXPECT_THAT(failing(a, b, {.absolute = {{"*", 0.5}, {"y", 0.1}}}), ElementsAre("s/y"));
+  EXPECT_THAT(failing(a, b, {.absolute = {{"y", 0.1}, {"*", 0.5}}}), ElementsAre());
+  EXPECT_THAT(failing(a, b, {.relative = {{"*", 0.05}}}), ElementsAre());  // of 10.5
+  EXPECT_THAT(failing(a, b, {.relative = {{"*", 0.04}}}), ElementsAre("s/x", "s/y"));
+  EXPECT_THAT(failing(a, b, {.absolute = {{"*", 0.1}}, .relative = {{"*", 0.04}}}), ElementsAre());
+}
+
+TEST(Tolerance, LetsNothingThroughThatCannotBeCompared) {
+  const Source a = source_of({{"x", field({1.0})}, {"y", field({1.0})}, {"z", field({nan})}});
+  const Source b = source_of({{"x", field({1.0, 2.0})}, {"w", field({1.0})}, {"z", field({1.0})}});
+  const Request generous{.absolute = {{"*", 1e300}}, .relative = {{"*", 1e300}}};
+  EXPECT_THAT(failing(a, b, generous), ElementsAre("w", "x", "y", "z"));
+}
+
+TEST(Request, TakesSomeFieldsAndLeavesOthers) {
+  const Source a = source_of({{"x", field({1.0})}, {"y", field({1.0})}});
+  const Source b = source_of({{"x", field({1.0})}, {"y", field({2.0})}});
+  EXPECT_THAT(failing(a, b, {.only = {"x"}}), ElementsAre());
+  EXPECT_THAT(failing(a, b, {.ignored = {"y"}}), ElementsAre());
+  EXPECT_TRUE(differences(a, b, {.only = {"no such"}}).empty());
+}
+
+TEST(Curves, OfDifferentLengthAreComparedAtTheStepsTheyShare) {
+  const Source a = source_of({{"curve/p", field({0, 1, 2, 3})}, {"curve/step", list({0, 1, 2, 3})}},
+                             {0, 1, 2, 3});
+  const Source b =
+      source_of({{"curve/p", field({0, 2.5, 3})}, {"curve/step", list({0, 2, 3})}}, {0, 2, 3});
+  const auto all = differences(a, b, {});
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].largest, 0.5);
+  EXPECT_EQ(all[0].row, 2U);
+  EXPECT_THAT(all[1].obstacle, HasSubstr("1 steps only in A, 0 only in B"));
+  EXPECT_THAT(comparison_report(a, all), HasSubstr("2 and 2.5; 1 differ; step 2  <--"));
+}
+
+TEST(Report, SumsUp) {
+  const Source a = source_of({{"particles/x", field({1.0, 2.0})}, {"particles/y", field({1.0})}});
+  const Source b = source_of({{"particles/x", field({1.0, 2.5})}, {"particles/y", field({1.0})}});
+  EXPECT_THAT(comparison_report(a, differences(a, a, {})),
+              HasSubstr("all 2 fields are identical bit by bit"));
+  EXPECT_THAT(comparison_report(a, differences(a, b, {.absolute = {{"*", 1.0}}})),
+              HasSubstr("\n1 identical, 1 within tolerance"));
+  const std::string report = comparison_report(a, differences(a, b, {}));
+  EXPECT_THAT(report, HasSubstr("2 and 2.5; 1 differ; particle 1  <--"));
+  EXPECT_THAT(report, HasSubstr("DIFFERENT: 1 of 2 fields; 1 identical, 0 within tolerance"));
+}
+
+}  // namespace

@@ -1,0 +1,100 @@
+// Branches: whence a run comes is written in its checkpoints, and what it branches off from stays.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <stdexcept>
+
+#include "restart.hpp"
+#include "wiring/checkpoint_file.hpp"
+#include "wiring/lineage.hpp"
+
+namespace wiring::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+CheckpointNotes notes_in(const std::filesystem::path& checkpoint) {
+  CheckpointNotes notes;
+  (void)open_checkpoint(checkpoint, notes);
+  return notes;
+}
+
+Ancestor ancestor_at(const std::filesystem::path& checkpoint, std::vector<std::string> changed) {
+  const CheckpointNotes notes = notes_in(checkpoint);
+  return {checkpoint.string(), notes.history.back().step, notes.created, identity_of(notes.digest),
+          std::move(changed)};
+}
+
+std::map<std::string, std::string> content_of(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> content;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) content[entry.path().string()] = bytes_of_file(entry.path());
+  }
+  return content;
+}
+
+TEST(Branch, NamesItsParentAndLeavesItUntouched) {
+  const TemporaryFolder folder;
+  const auto trunk = folder / "trunk", branch = folder / "branch", twig = folder / "twig";
+  ASSERT_EQ(fpm_run_in(trunk, block).code, ExitCode::done);
+  EXPECT_THAT(notes_in(last_checkpoint(trunk)).lineage, IsEmpty());
+  const auto before = content_of(trunk);
+
+  const auto fork = checkpoint_of(trunk, 2);
+  ASSERT_EQ(fpm_run_in(branch, block,
+                       {"--resume=" + fork.string(), "--set", "solver.tolerance=1e-4", "--set",
+                        "output.checkpoints_every=2"})
+                .code,
+            ExitCode::done);
+  const Ancestor parent =
+      ancestor_at(fork, {"solver.tolerance: absent -> 0.0001", "output.checkpoints_every: 1 -> 2"});
+  EXPECT_EQ(content_of(trunk), before);
+  EXPECT_THAT(notes_in(checkpoint_of(branch, 4)).lineage, ElementsAre(parent));
+
+  const auto second = checkpoint_of(branch, 4);
+  const std::vector<std::string> on{"--resume=" + second.string(), "--set", "solver.tolerance=1e-4",
+                                    "--set", "output.checkpoints_every=2"};
+  ASSERT_EQ(fpm_run_in(twig, block, on).code, ExitCode::done);
+  EXPECT_THAT(notes_in(last_checkpoint(twig)).lineage,
+              ElementsAre(parent, ancestor_at(second, {})));
+}
+
+TEST(Branch, OverwritesNoOtherRun) {
+  const TemporaryFolder folder;
+  const auto trunk = folder / "trunk", other = folder / "other";
+  ASSERT_EQ(fpm_run_in(trunk, block).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(other, block).code, ExitCode::done);
+  const std::string curve = bytes_of_file(other / "curve.csv");
+  const Outcome outcome =
+      fpm_run_in(other, block, {"--resume=" + checkpoint_of(trunk, 2).string()});
+  ASSERT_EQ(outcome.code, ExitCode::done) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("results of an earlier run are now in "));
+  EXPECT_EQ(bytes_of_file(other / "previous-1" / "curve.csv"), curve);
+}
+
+TEST(Lineage, OfAnInterruptedRunCountsItsInterruptions) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  ASSERT_EQ(fpm_run_in(run, block, {"--max-wall", "0.000000001s"}).code, ExitCode::interrupted);
+  const Ancestor parent = ancestor_at(checkpoint_of(run, 0), {});
+  ASSERT_EQ(fpm_run_in(run, block, {"--resume"}).code, ExitCode::done);
+  EXPECT_THAT(notes_in(last_checkpoint(run)).lineage, ElementsAre(parent));
+}
+
+TEST(Lineage, ReadsBackFromItsText) {
+  const std::vector<Ancestor> ancestors{
+      {"/a b/\"quoted\"/step-000010.hdf", 10, "2024-05-17T08:30:00Z", "00ff00ff00ff00ff", {}},
+      {"C:\\back\\slash 'é'", 1234567890123, "", "", {"title: 'a' -> \"b\"", "x: 1 -> 2"}}};
+  EXPECT_EQ(parse_lineage(lineage_text(ancestors)), ancestors);
+  EXPECT_THAT(parse_lineage(lineage_text({})), IsEmpty());
+  for (const char* broken : {"[[ancestor]]\nstep = 1", "ancestor = [", "[[ancestor]]\nstep = 'x'",
+                             "ancestor = 3", "ancestor = [3]"}) {
+    EXPECT_THROW((void)parse_lineage(broken), std::invalid_argument) << broken;
+  }
+}
+
+}  // namespace
+}  // namespace wiring::test
