@@ -76,7 +76,7 @@ void write_checkpoint(const std::filesystem::path& path, const Model<Dim>& model
     file.close();
     write_seal(temporary, checkpoint_schema, notes.versions, system);
     CheckpointNotes read_back;
-    (void)open_checkpoint(temporary, read_back);
+    (void)open_just_sealed(temporary, read_back);
     if (read_back.digest != digest.value()) {
       throw FileError(temporary, "does not read back as it was written");
     }

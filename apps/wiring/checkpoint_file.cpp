@@ -166,6 +166,10 @@ bool is_checkpoint(const std::filesystem::path& file) {
 
 Hdf5File open_checkpoint(const std::filesystem::path& path, CheckpointNotes& notes) {
   require_unbroken_seal(path);
+  return open_just_sealed(path, notes);
+}
+
+Hdf5File open_just_sealed(const std::filesystem::path& path, CheckpointNotes& notes) {
   Hdf5File file = Hdf5File::open(path);
   notes = notes_of(file);
   return file;

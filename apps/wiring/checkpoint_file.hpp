@@ -63,4 +63,7 @@ void write_digest(Hdf5File& file, const ContentDigest& digest);
 /// @throws FileError saying what is wrong with it.
 [[nodiscard]] Hdf5File open_checkpoint(const std::filesystem::path& path, CheckpointNotes& notes);
 
+/// The same of a file that has just got its seal, for which all of it was read.
+[[nodiscard]] Hdf5File open_just_sealed(const std::filesystem::path& path, CheckpointNotes& notes);
+
 }  // namespace wiring

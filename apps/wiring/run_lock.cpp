@@ -8,9 +8,11 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <csignal>
 #include <span>
 #include <string_view>
+#include <thread>
 
 #include "wiring/output_file.hpp"
 #include "wiring/time_stamp.hpp"
@@ -63,10 +65,22 @@ std::string refusal(const std::string& owner) {
                      owner.empty() ? "" : " (" + owner + ")");
 }
 
+/// Takes the lock; waits a moment for whoever only looks at it (lock_owner).
+/// @return 0, or the errno of the failure
+int taken(int file, const SystemCalls& system) {
+  constexpr int attempts = 5;
+  constexpr std::chrono::milliseconds moment(20);
+  for (int attempt = 1;; ++attempt) {
+    if (system.flock(file, LOCK_EX | LOCK_NB) == 0) return 0;
+    if (errno != EWOULDBLOCK || attempt == attempts) return errno;
+    std::this_thread::sleep_for(moment);
+  }
+}
+
 /// Why the lock cannot be had, or "".
 std::string objection(int file, const SystemCalls& system, const std::filesystem::path& path) {
-  if (system.flock(file, LOCK_EX | LOCK_NB) == 0) return "";
-  const int failure = errno;
+  const int failure = taken(file, system);
+  if (failure == 0) return "";
   const std::string owner = owner_in(file);
   if (failure == EWOULDBLOCK) return refusal(owner);
   if (!is_without_locks(failure)) return system_error(path, "cannot be locked", failure).reason();
