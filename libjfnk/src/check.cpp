@@ -127,7 +127,7 @@ void check_action(Examination& e, int number_of_direction) {
 }
 
 /// Puts the numbers into words.
-void judge(Examination& e, bool own_action) {
+void judge(Examination& e, bool own_action, double options_noise) {
   CheckReport& report = e.report;
   // An action whose relative error is beyond this leads Krylov solvers astray.
   constexpr double usable_action = 1e-2;
@@ -154,7 +154,7 @@ void judge(Examination& e, bool own_action) {
     findings.push_back("differences of F do not settle (Taylor order " +
                        number(report.taylor_order) + " instead of 2): noise, or a kink at u");
   }
-  if (report.suggested_noise > 3.0 * Jacobian{}.noise) {
+  if (report.suggested_noise > options_noise) {
     findings.push_back("F carries noise of " + number(report.noise) +
                        ": set jacobian.noise = " + number(report.suggested_noise) +
                        ", and no tolerance below the noise");
@@ -204,12 +204,13 @@ CheckReport check(const ResidualRef& residual, const Vector& u, const Options& o
   for (int i = 0; i < std::max(directions, 1); ++i) check_action(e, i);
   if (std::isinf(report.taylor_order)) report.taylor_order = 0.0;
   // b^2 is the relative error of F; its size over the step is taken from the slope.
+  constexpr double noticeable = 3.0;
   const double size = std::max(e.base.norm, evaluator.product().norm(e.action));
   if (report.noise > 0.0 && size > 0.0) {
     const double b = std::sqrt(report.noise / size);
-    report.suggested_noise = std::clamp(b, options.jacobian.noise, 1e-2);
+    if (b > noticeable * options.jacobian.noise) report.suggested_noise = std::min(b, 1e-2);
   }
-  judge(e, !evaluator.differences());
+  judge(e, !evaluator.differences(), options.jacobian.noise);
   report.evaluations = counts.total();
   return report;
 }
