@@ -60,8 +60,8 @@ void check_repeatability(Examination& e) {
   detail::random_direction(8, e.evaluator.product(), e.direction);
   (void)e.look(1e-3 * e.scale);
   const bool after = again(third);
-  e.report.repeatable = e.report.deterministic && after && same_bits(second, e.base.r) &&
-                        same_bits(third, e.base.r);
+  e.report.repeatable =
+      e.report.deterministic && after && same_bits(second, e.base.r) && same_bits(third, e.base.r);
 }
 
 void check_noise(Examination& e) {
@@ -99,8 +99,7 @@ void check_action(Examination& e, int number_of_direction) {
     ++e.report.probes;
     if (e.look(t) != Outcome::ok) {
       ++e.report.probes_out_of_domain;
-      e.report.distance_to_domain_edge =
-          std::min(e.report.distance_to_domain_edge, t / e.scale);
+      e.report.distance_to_domain_edge = std::min(e.report.distance_to_domain_edge, t / e.scale);
       remainder[k] = std::numeric_limits<double>::quiet_NaN();
       continue;
     }
@@ -135,19 +134,22 @@ void judge(Examination& e, bool own_action, double options_noise) {
   auto& findings = report.findings;
   report.good = true;
   if (!report.deterministic) {
-    findings.push_back("F(u) differs when evaluated twice in a row: chance, threads or memory not "
-                       "initialised");
+    findings.push_back(
+        "F(u) differs when evaluated twice in a row: chance, threads or memory not "
+        "initialised");
     report.good = false;
   } else if (!report.repeatable) {
-    findings.push_back("F(u) differs after an evaluation elsewhere: F remembers; let it change its "
-                       "state in on_accept(u) only");
+    findings.push_back(
+        "F(u) differs after an evaluation elsewhere: F remembers; let it change its "
+        "state in on_accept(u) only");
     report.good = false;
   }
   const bool wrong = report.action_error > usable_action && report.taylor_order < usable_order;
   if (wrong && own_action) {
     findings.push_back("apply_jacobian differs from differences of F by " +
                        number(report.action_error) + " of itself, Taylor order " +
-                       number(report.taylor_order) + " instead of 2: it is wrong, or F has a kink "
+                       number(report.taylor_order) +
+                       " instead of 2: it is wrong, or F has a kink "
                        "at u");
     report.good = false;
   } else if (wrong) {
@@ -155,9 +157,8 @@ void judge(Examination& e, bool own_action, double options_noise) {
                        number(report.taylor_order) + " instead of 2): noise, or a kink at u");
   }
   if (report.suggested_noise > options_noise) {
-    findings.push_back("F carries noise of " + number(report.noise) +
-                       ": set jacobian.noise = " + number(report.suggested_noise) +
-                       ", and no tolerance below the noise");
+    findings.push_back("F carries noise of " + number(report.noise) + ": set jacobian.noise = " +
+                       number(report.suggested_noise) + ", and no tolerance below the noise");
   }
   if (report.probes_out_of_domain > 0) {
     findings.push_back("F has no value at " + number(report.distance_to_domain_edge) +

@@ -45,11 +45,12 @@ void Evaluator::to_solver_units(Vector& u) const {
   if (u_scaled()) u.array() /= options_.u_scale.array();
 }
 
-bool Evaluator::within_bounds(const Vector& physical) const {
+bool Evaluator::within_bounds(const Vector& u) {
+  const Vector& point = physical(u);
   const auto below = [](const Vector& a, const Vector& b) {
     return a.size() == 0 || b.size() == 0 || (a.array() <= b.array()).all();
   };
-  return below(options_.lower, physical) && below(physical, options_.upper);
+  return below(options_.lower, point) && below(point, options_.upper);
 }
 
 Outcome Evaluator::call(const Vector& u, Vector& r) {
@@ -143,7 +144,7 @@ Outcome Evaluator::difference(const Vector& v, Vector& Jv) {
   for (int attempt = 0; attempt < options_.jacobian.max_attempts; ++attempt) {
     if (limit_reached()) return Outcome::limit;
     probe = base_->u + eps * v;
-    if (within_bounds(physical(probe))) {
+    if (within_bounds(probe)) {
       ++counts_.difference_actions;
       const Outcome outcome = call(probe, Jv);
       if (outcome == Outcome::stopped) return outcome;

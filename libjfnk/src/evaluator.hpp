@@ -80,6 +80,9 @@ class Evaluator {
   /// Lets the residual change the step from u, and keeps it within the bounds.
   void filter(const Vector& u, Vector& step);
 
+  /// Whether u, in the solver's units, is between the bounds.
+  [[nodiscard]] bool within_bounds(const Vector& u);
+
   /// u in the caller's units.
   [[nodiscard]] const Vector& physical(const Vector& u);
   /// The caller's u in the solver's units.
@@ -114,7 +117,6 @@ class Evaluator {
   Outcome call(const Vector& u, Vector& r);
   Outcome difference(const Vector& v, Vector& Jv);
   [[nodiscard]] double difference_step(double v_norm) const;
-  [[nodiscard]] bool within_bounds(const Vector& physical) const;
   [[nodiscard]] bool u_scaled() const { return options_.u_scale.size() > 0; }
   [[nodiscard]] bool f_scaled() const { return options_.f_scale.size() > 0; }
 

@@ -7,8 +7,8 @@
 namespace jfnk::detail {
 namespace {
 
-// Part of the predicted reduction below which the radius shrinks, and above which it grows (Dennis &
-// Schnabel 1983).
+// Part of the predicted reduction below which the radius shrinks, and above which it grows (Dennis
+// & Schnabel 1983).
 constexpr double poor = 0.1;
 constexpr double good = 0.75;
 constexpr double radius_growth = 4.0;

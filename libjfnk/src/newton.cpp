@@ -17,8 +17,8 @@ Ending judge_progress(Solve& solve, double norm_before, const Iteration& line) {
   const double norm = solve.work.base.norm;
   const double promised = norm_before * (1.0 - line.linear_residual);
   course.poor_steps = norm_before - norm < poor * promised ? course.poor_steps + 1 : 0;
-  const bool suspicious = course.poor_steps >= too_many_poor ||
-                          (course.poor_steps > 0 && line.step_length < too_short);
+  const bool suspicious =
+      course.poor_steps >= too_many_poor || (course.poor_steps > 0 && line.step_length < too_short);
   if (suspicious && may_measure_noise(solve)) {
     Ending interrupted = Ending::go_on;
     if (adapt_to_noise(solve, interrupted)) course.poor_steps = 0;

@@ -11,6 +11,7 @@ namespace {
 Outcome look(Solve& solve, double h) {
   Workspace& work = solve.work;
   work.trial.u = work.best.u + h * work.step;
+  if (!solve.evaluator.within_bounds(work.trial.u)) return Outcome::out_of_domain;
   return solve.evaluator.evaluate(work.trial, &Counts::noise);
 }
 
@@ -23,13 +24,14 @@ Outcome sample(Solve& solve, double h, NoiseSamples& samples) {
       const Outcome outcome = look(solve, place * h);
       if (outcome != Outcome::ok) return outcome;
     }
-    project_sample(place == 0 ? solve.work.best.r : solve.work.trial.r, i, product, solve.work.direction,
-            samples);
+    project_sample(place == 0 ? solve.work.best.r : solve.work.trial.r, i, product,
+                   solve.work.direction, samples);
   }
   return Outcome::ok;
 }
 
-/// ||J d|| and ||F''|| along the unit direction d, over a distance at which noise does not reach them.
+/// ||J d|| and ||F''|| along the unit direction d, over a distance at which noise does not reach
+/// them.
 struct Shape {
   double slope = 0.0;
   double bend = 0.0;
@@ -91,8 +93,8 @@ bool adapt_to_noise(Solve& solve, Ending& ending) {
   if (outcome != Outcome::ok || noise < harmless * shape.slope * state.noise * scale) return false;
   // A straight F bears any step; its rounding then asks for no more than a hundredth of 1 + ||u||.
   constexpr double longest = 1e-2;
-  const double best = shape.bend > 0.0 ? std::pow(8.0, 0.25) * std::sqrt(noise / shape.bend)
-                                       : longest * scale;
+  const double best =
+      shape.bend > 0.0 ? std::pow(8.0, 0.25) * std::sqrt(noise / shape.bend) : longest * scale;
   const double b = std::min(best, longest * scale) / scale;
   if (b <= state.noise) return false;
   state.noise = b;

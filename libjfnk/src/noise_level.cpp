@@ -20,7 +20,7 @@ void random_direction(int stream, const InnerProductRef& product, Vector& direct
 }
 
 void project_sample(const Vector& r, int point, const InnerProductRef& product, Vector& signs,
-             NoiseSamples& samples) {
+                    NoiseSamples& samples) {
   for (int p = 0; p < noise_projections; ++p) {
     for (Eigen::Index i = 0; i < signs.size(); ++i) signs[i] = random_sign(i, p);
     samples[static_cast<std::size_t>(p)][static_cast<std::size_t>(point)] = product.dot(signs, r);

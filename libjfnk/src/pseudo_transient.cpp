@@ -62,7 +62,8 @@ Ending pseudo_transient_step(Solve& solve) {
       if (outcome == Outcome::stopped) return Ending::stopped;
       if (outcome == Outcome::limit) return Ending::limit;
       if (outcome == Outcome::ok && work.trial.norm <= greatest_rise * work.base.norm) {
-        course.time_step *= std::min(steady_growth * work.base.norm / work.trial.norm, greatest_growth);
+        course.time_step *=
+            std::min(steady_growth * work.base.norm / work.trial.norm, greatest_growth);
         line.step_length = 1.0;
         line.step_norm = product.norm(work.direction);
         std::swap(work.base, work.trial);

@@ -6,7 +6,6 @@
 namespace jfnk::detail {
 namespace {
 
-
 int newton_steps(const Options& options, int round) {
   const double steps = options.hybrid.newton_steps * std::pow(options.hybrid.back_off, round);
   return static_cast<int>(std::min(steps, 1e6));
@@ -185,9 +184,9 @@ Ending advance(Solve& solve) {
   if (is_final(ending)) return ending;
   if (ending == Ending::go_on) {
     ++course.stage_iterations;
-    const bool cured = course.stage == Stage::pseudo_transient &&
-                       solve.work.best.norm <=
-                           solve.options.pseudo_transient.gain * course.stage_start_norm;
+    const bool cured =
+        course.stage == Stage::pseudo_transient &&
+        solve.work.best.norm <= solve.options.pseudo_transient.gain * course.stage_start_norm;
     if (course.stage_iterations < course.stage_limit && !cured) return Ending::go_on;
     ending = Ending::schedule_done;
   }

@@ -13,8 +13,8 @@ namespace jfnk::detail {
 /// the ones before it, whatever the scale of the residual was at the time.
 class SecantMemory {
  public:
-  /// Allocates for n unknowns and `capacity` pairs, at most as many as all unknowns, and forgets all
-  /// pairs.
+  /// Allocates for n unknowns and `capacity` pairs, at most as many as all unknowns, and forgets
+  /// all pairs.
   void resize(Eigen::Index n, int capacity);
   /// Forgets all pairs.
   void clear();

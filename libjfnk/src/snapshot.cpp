@@ -173,8 +173,7 @@ void Solver::load(const Snapshot& snapshot) {
   read(version);
   if (version != detail::snapshot_version) {
     throw std::invalid_argument("jfnk::Solver::load: snapshot version " + std::to_string(version) +
-                                ", this library reads " +
-                                std::to_string(detail::snapshot_version));
+                                ", this library reads " + std::to_string(detail::snapshot_version));
   }
   read(method);
   read(n);

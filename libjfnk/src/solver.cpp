@@ -1,6 +1,7 @@
 #include "jfnk/solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -107,9 +108,10 @@ void finish(Solve& solve, Status status) {
   report.status = status;
   if (!report.history.empty()) {
     describe_best(solve);
-    solve.work.best.r.cwiseAbs().maxCoeff(&report.worst_component);
+    const Vector& r = solve.work.best.r;
+    if (r.size() > 0) r.cwiseAbs().maxCoeff(&report.worst_component);
     if (status != Status::converged) {
-      find_worst(solve.work.best.r, report.worst);
+      find_worst(r, report.worst);
       solve.return_to_best();
     }
   }
@@ -178,8 +180,8 @@ void require_fit(const Options& options, const ResidualRef& residual, const Vect
     const bool low = options.lower.size() > 0 && !(u[i] >= options.lower[i]);
     const bool high = options.upper.size() > 0 && !(u[i] <= options.upper[i]);
     if (!low && !high) continue;
-    throw std::invalid_argument("jfnk::Solver: u[" + std::to_string(i) + "] = " +
-                                std::to_string(u[i]) + " is outside its bounds");
+    throw std::invalid_argument("jfnk::Solver: u[" + std::to_string(i) +
+                                "] = " + std::to_string(u[i]) + " is outside its bounds");
   }
 }
 

@@ -42,9 +42,9 @@ struct Course {
   int round = 0;
   double stage_start_norm = 0.0;  ///< lowest ||F|| when the stage began
   // multisecant
-  double mark = 0.0;   ///< see Multisecant::patience
-  int last_fall = 0;   ///< evaluations at the mark
-  int wild = 0;        ///< points in a row far above the best
+  double mark = 0.0;  ///< see Multisecant::patience
+  int last_fall = 0;  ///< evaluations at the mark
+  int wild = 0;       ///< points in a row far above the best
   double mixing = 1.0;
   bool mixing_known = false;
   double expected_change = 0.0;  ///< of F in the first step, if an action foretold it
@@ -55,8 +55,8 @@ struct Course {
   int last_norms_count = 0;
   double window_norm = 0.0;  ///< ||F|| at the beginning of the window of stagnation
   int window_steps = 0;
-  int poor_steps = 0;        ///< in a row, that kept little of what the linear model promised
-  bool by_lines = false;     ///< line searches only
+  int poor_steps = 0;     ///< in a row, that kept little of what the linear model promised
+  bool by_lines = false;  ///< line searches only
   Ending newton_failure = Ending::go_on;  ///< the first one, which the rescues shall mend
   bool noise_measured = false;
   bool restarted = false;
@@ -111,7 +111,8 @@ struct LinearSolution {
   Ending ending = Ending::go_on;
   bool gmres = false;  ///< work.gmres knows the space
 };
-[[nodiscard]] LinearSolution find_direction(Solve& solve, double eta, double shift, Iteration& line);
+[[nodiscard]] LinearSolution find_direction(Solve& solve, double eta, double shift,
+                                            Iteration& line);
 
 /// Shortens work.direction until ||F|| falls enough; the accepted point becomes work.base.
 [[nodiscard]] Ending globalise(Solve& solve, bool gmres, Iteration& line);

@@ -222,9 +222,9 @@ TEST(Vectors, OfSinglePrecisionConvergeToTheirOwnRounding) {
 
 TEST(Vectors, AResidualThatResizesItsOutputIsRefused) {
   std::vector<double> u(3, 1.0);
-  EXPECT_THROW((void)solve([](const std::vector<double>&, std::vector<double>& r) { r.pop_back(); },
-                           u),
-               std::invalid_argument);
+  EXPECT_THROW(
+      (void)solve([](const std::vector<double>&, std::vector<double>& r) { r.pop_back(); }, u),
+      std::invalid_argument);
 }
 
 }  // namespace

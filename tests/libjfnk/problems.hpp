@@ -80,8 +80,8 @@ struct PowellSingular {
 /// on only by `accept`.
 class PlasticTruss {
  public:
-  /// columns x rows cells of unit size, Young's modulus 1, yield strain `yield`; beyond it the force
-  /// grows by `hardening` times the strain (only for one step from rest).
+  /// columns x rows cells of unit size, Young's modulus 1, yield strain `yield`; beyond it the
+  /// force grows by `hardening` times the strain (only for one step from rest).
   PlasticTruss(int columns, int rows, double yield, double hardening = 0.0);
   [[nodiscard]] int size() const { return free_; }
   /// Prescribed sideways displacement of the top from here on.

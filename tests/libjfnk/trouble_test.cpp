@@ -67,7 +67,8 @@ TEST(Noise, IsNotSoughtWhereNothingIsWrong) {
   }
 }
 
-// The discrete path: ||b - A x|| and ||x|| along it are those of the formula, from 0 to the solution.
+// The discrete path: ||b - A x|| and ||x|| along it are those of the formula, from 0 to the
+// solution.
 TEST(Dogleg, PathHasTheLengthAskedAndTheResidualStated) {
   const jfnk_test::Sparse A = jfnk_test::laplacian(6);
   const Vector b = Vector::LinSpaced(36, -1.0, 2.0);

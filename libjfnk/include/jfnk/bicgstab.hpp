@@ -4,8 +4,8 @@
 
 namespace jfnk {
 
-/// Right-preconditioned BiCGStab (van der Vorst 1992) with a workspace that is allocated once: seven
-/// vectors however many iterations, two applications of A and of P in each.
+/// Right-preconditioned BiCGStab (van der Vorst 1992) with a workspace that is allocated once:
+/// seven vectors however many iterations, two applications of A and of P in each.
 ///
 /// For systems whose Krylov space does not fit into memory. Its residual may jump; the iterate of
 /// the lowest one met is returned.
@@ -23,7 +23,18 @@ class BiCGStab {
                     const PreconditionerRef& P = {}, const InnerProductRef& product = {});
 
  private:
-  Vector r_, shadow_, p_, v_, t_, image_, best_;
+  KrylovStatus iterate(const OperatorRef& A, const PreconditionerRef& P,
+                       const InnerProductRef& product, double target, double rho, double& alpha,
+                       double& omega, Vector& x, GmresResult& result);
+
+  Vector r_;
+  Vector shadow_;
+  Vector p_;
+  Vector v_;
+  Vector t_;
+  Vector image_;
+  Vector best_;
+  double lowest_ = 0.0;
 };
 
 /// Solves A x = b once by BiCGStab; allocates its own workspace.

@@ -12,7 +12,8 @@ namespace jfnk {
 class BlockJacobi {
  public:
   /// Blocks of `block` unknowns one after the other.
-  /// @throws std::invalid_argument if the matrix is not square or its size is no multiple of `block`
+  /// @throws std::invalid_argument if the matrix is not square or its size is no multiple of
+  /// `block`
   BlockJacobi(const Eigen::SparseMatrix<double>& matrix, int block);
   /// Takes new values. A singular block becomes the identity.
   /// @throws std::invalid_argument if the size has changed

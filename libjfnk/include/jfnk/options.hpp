@@ -69,7 +69,7 @@ struct Globalisation {
     parabola,      ///< lambda at the lowest point of the parabola through what is known of ||F||^2,
                    ///< kept between least_cut and greatest_cut of the last (Dennis & Schnabel 1983)
     dogleg         ///< within a radius, from the steepest descent of the linear model in the Krylov
-                   ///< space to its solution (Powell 1970; Brown & Saad 1990); lines after a restart
+            ///< space to its solution (Powell 1970; Brown & Saad 1990); lines after a restart
   };
   Rule rule = Rule::dogleg;
   /// backtracking: lambda *= factor after a trial that did not reduce ||F|| enough (Chen, Huang &
@@ -130,8 +130,8 @@ struct Multisecant {
   int patience = 0;
   /// See patience; 1 accepts any improvement. Range (0, 1].
   double progress = 0.9;
-  /// Given up as well after `wild_patience` points in a row with ||F|| > wild * best ||F||. Range (1,
-  /// inf).
+  /// Given up as well after `wild_patience` points in a row with ||F|| > wild * best ||F||. Range
+  /// (1, inf).
   double wild = 3.0;
   /// See wild. Range [1, inf).
   int wild_patience = 6;

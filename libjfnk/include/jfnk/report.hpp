@@ -18,9 +18,9 @@ enum class Status {
   linearisation_failed,  ///< the residual's own `linearise` declined; u updated if improved
   multisecant_stalled,   ///< multisecant alone lost its patience; u updated if it improved
   out_of_domain_at_start,  ///< F could not be evaluated at the first u; u is unchanged
-  local_minimum,         ///< no direction lowers ||F||: J^T F = 0 but F is not; u updated if improved
-  in_progress,           ///< `step` has not yet come to an end
-  stopped                ///< the residual or the observer asked to stop; u updated if improved
+  local_minimum,  ///< no direction lowers ||F||: J^T F = 0 but F is not; u updated if improved
+  in_progress,    ///< `step` has not yet come to an end
+  stopped         ///< the residual or the observer asked to stop; u updated if improved
 };
 
 /// The name of a status as written in the enum.
@@ -93,7 +93,7 @@ struct Report {
   int pseudo_transient_steps = 0;
   int krylov_iterations = 0;
   double last_linear_residual = 0.0;  ///< ||F + J du|| / ||F|| of the last linear solve
-  double measured_noise = 0.0;  ///< ||noise of F||, if it was measured; else 0
+  double measured_noise = 0.0;        ///< ||noise of F||, if it was measured; else 0
   Counts counts;
   std::vector<Iteration> history;  ///< the first entry is the first u
 

@@ -83,9 +83,9 @@ concept HasGlobalSize = requires(const F& f) {
   { f.global_size() } -> std::convertible_to<Eigen::Index>;
 };
 
-/// A residual that is told which points the solver made its own: `on_accept(u)` at the first u, after
-/// each accepted step, and when the solver goes back to an earlier point. What a residual remembers
-/// (loading or unloading, say) belongs here, never into its evaluation.
+/// A residual that is told which points the solver made its own: `on_accept(u)` at the first u,
+/// after each accepted step, and when the solver goes back to an earlier point. What a residual
+/// remembers (loading or unloading, say) belongs here, never into its evaluation.
 template <class F>
 concept HasOnAccept = requires(F& f, const Vector& u) {
   f.on_accept(u);

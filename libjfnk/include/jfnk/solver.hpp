@@ -69,7 +69,8 @@ class Solver {
 
   /// The choices in force.
   [[nodiscard]] const Options& options() const;
-  /// Replaces them, and forgets a solve in progress. @throws std::invalid_argument as the constructor
+  /// Replaces them, and forgets a solve in progress. @throws std::invalid_argument as the
+  /// constructor
   void set_options(const Options& options);
 
   /// Finds u with F(u) = 0.
@@ -80,7 +81,8 @@ class Solver {
   /// @param preconditioner  approximate inverse of the Jacobian
   /// @param observer  called after each nonlinear iteration
   /// @return valid until the next solve of this object
-  /// @throws std::invalid_argument if u is empty, sizes of options disagree with it, or the residual
+  /// @throws std::invalid_argument if u is empty, sizes of options disagree with it, or the
+  /// residual
   ///   resizes its output
   template <Residual F, Preconditioner P = Identity, Observer O = NoObserver>
   const Report& solve(F&& residual, Vector& u, P&& preconditioner = {}, O&& observer = {}) {
@@ -114,8 +116,8 @@ class Solver {
   /// The state between two steps.
   [[nodiscard]] Snapshot save() const;
 
-  /// Continues from a saved state, under the options this solver has; the next call is `step`, which
-  /// sets up the preconditioner where it was set up last.
+  /// Continues from a saved state, under the options this solver has; the next call is `step`,
+  /// which sets up the preconditioner where it was set up last.
   /// @throws std::invalid_argument if the snapshot is damaged or does not fit the options
   void load(const Snapshot& snapshot);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <concepts>
 #include <limits>
 #include <vector>
@@ -84,8 +85,9 @@ class ForeignResidual {
     Traits::write(u, in_);
     return outcome_of([&] { return f_.linearise(std::as_const(in_)); });
   }
-  Evaluation apply_jacobian(const Vector& v, Vector& Jv)
-  requires requires(F& f, const V& a, V& b) { f.apply_jacobian(a, b); }
+  Evaluation apply_jacobian(const Vector& v, Vector& Jv) requires requires(F& f, const V& a, V& b) {
+    f.apply_jacobian(a, b);
+  }
   {
     Traits::write(v, in_);
     const Evaluation outcome =
@@ -96,17 +98,18 @@ class ForeignResidual {
   double reference_norm() const requires requires(const F& f) { f.reference_norm(); }
   { return f_.reference_norm(); }
   /// The residual's own, which then sees local parts.
-  double dot(const Vector& a, const Vector& b) const requires HasInnerProduct<F>
-  { return f_.dot(a, b); }
-  Eigen::Index global_size() const requires HasGlobalSize<F>
-  { return f_.global_size(); }
+  double dot(const Vector& a, const Vector& b) const requires HasInnerProduct<F> {
+    return f_.dot(a, b);
+  }
+  Eigen::Index global_size() const requires HasGlobalSize<F> { return f_.global_size(); }
   void on_accept(const Vector& u) requires requires(F& f, const V& v) { f.on_accept(v); }
   {
     Traits::write(u, in_);
     f_.on_accept(std::as_const(in_));
   }
-  void filter_step(const Vector& u, Vector& du)
-  requires requires(F& f, const V& v, V& w) { f.filter_step(v, w); }
+  void filter_step(const Vector& u, Vector& du) requires requires(F& f, const V& v, V& w) {
+    f.filter_step(v, w);
+  }
   {
     Traits::write(u, in_);
     Traits::write(du, out_);

@@ -168,19 +168,22 @@ Vector t_times_t_minus_one(Eigen::Index n) {
 
 void add_classics(std::vector<Problem>& problems) {
   problems.push_back({"Rosenbrock 100", true, repeated({-1.2, 1.0}, 50), rosenbrock});
-  problems.push_back({"Powell singular", false, repeated({3.0, -1.0, 0.0, 1.0}, 5), powell_singular});
+  problems.push_back(
+      {"Powell singular", false, repeated({3.0, -1.0, 0.0, 1.0}, 5), powell_singular});
   problems.push_back({"Powell badly scaled", true, vector({0.0, 1.0}), powell_badly_scaled});
   problems.push_back({"Freudenstein-Roth", false, vector({6.0, 5.0}), freudenstein_roth});
   problems.push_back({"helical valley", true, vector({-1.0, 0.0, 0.0}), helical_valley});
   problems.push_back({"Wood", false, vector({-3.0, -1.0, -3.0, -1.0}), wood});
-  problems.push_back({"Broyden tridiagonal", true, Vector::Constant(100, -1.0), broyden_tridiagonal});
+  problems.push_back(
+      {"Broyden tridiagonal", true, Vector::Constant(100, -1.0), broyden_tridiagonal});
   problems.push_back({"Broyden banded", false, Vector::Constant(100, -1.0), broyden_banded});
   problems.push_back({"boundary value", true, t_times_t_minus_one(50), boundary_value});
   problems.push_back({"integral equation", false, t_times_t_minus_one(50), integral_equation});
   problems.push_back({"trigonometric", true, Vector::Constant(10, 0.1), trigonometric});
-  problems.push_back({"Brown almost linear", false, Vector::Constant(10, 0.5), brown_almost_linear});
-  problems.push_back({"variably dimensioned", true, Vector::LinSpaced(10, 0.9, 0.0),
-                      variably_dimensioned});
+  problems.push_back(
+      {"Brown almost linear", false, Vector::Constant(10, 0.5), brown_almost_linear});
+  problems.push_back(
+      {"variably dimensioned", true, Vector::LinSpaced(10, 0.9, 0.0), variably_dimensioned});
   problems.push_back({"Chebyquad 7", false, Vector::LinSpaced(7, 0.125, 0.875), chebyquad});
 }
 

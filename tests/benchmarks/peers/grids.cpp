@@ -134,8 +134,8 @@ Problem food_web(const char* name, bool for_tuning, double predators_at_start) {
           const double rate = is_prey ? growth - at(i, j, s) - 0.5e-6 * sum[1]
                                       : -growth + 1e4 * sum[0] - at(i, j, s);
           r[(static_cast<Eigen::Index>(j) * m + i) * species + s] =
-              diffusion * (at(i - 1, j, s) + at(i + 1, j, s) + at(i, j - 1, s) +
-                           at(i, j + 1, s) - 4.0 * at(i, j, s)) +
+              diffusion * (at(i - 1, j, s) + at(i + 1, j, s) + at(i, j - 1, s) + at(i, j + 1, s) -
+                           4.0 * at(i, j, s)) +
               at(i, j, s) * rate;
         }
       }

@@ -14,13 +14,21 @@ struct Factors {
 
 std::string purposes(const jfnk::Report& report) {
   const jfnk::Counts& c = report.counts;
-  return "trials " + std::to_string(c.start + c.newton_trials + c.line_search) + " secant " +
-         std::to_string(c.multisecant) + " actions " + std::to_string(c.difference_actions) + "; " +
-         report.reason;
+  std::string text = std::to_string(c.multisecant) + " multisecant, " +
+                     std::to_string(c.difference_actions) + " actions, " +
+                     std::to_string(c.newton_trials + c.line_search) + " trials";
+  if (c.pseudo_transient > 0) {
+    text += ", " + std::to_string(c.pseudo_transient) + " pseudo-transient";
+  }
+  if (c.noise > 0) text += ", " + std::to_string(c.noise) + " noise";
+  if (!report.converged()) text += ": " + std::string(jfnk::to_string(report.status));
+  return text;
 }
 
 jfnk::Report solve(peers::Trial& trial, jfnk::Vector& u, const jfnk::Options& options) {
-  const auto residual = [&](const jfnk::Vector& v, jfnk::Vector& r) { return trial.evaluate(v, r); };
+  const auto residual = [&](const jfnk::Vector& v, jfnk::Vector& r) {
+    return trial.evaluate(v, r);
+  };
   if (trial.preconditioned()) return jfnk::solve(residual, u, options, Factors{&trial});
   return jfnk::solve(residual, u, options);
 }

@@ -69,7 +69,8 @@ void run(peers::Trial trial, const Choice& choice, SUNContext context) {
   if (trial.problem().f_scale.size() > 0) view(f_scale) = trial.problem().f_scale.cwiseInverse();
 
   void* memory = KINCreate(context);
-  KINSetErrHandlerFn(memory, [](int, const char*, const char*, char*, void*) {}, nullptr);
+  KINSetErrHandlerFn(
+      memory, [](int, const char*, const char*, char*, void*) {}, nullptr);
   KINSetUserData(memory, &trial);
   if (choice.anderson) KINSetMAA(memory, std::min<long>(choice.dimension, n));
   KINInit(memory, choice.anderson ? fixed_point : residual, u);
@@ -84,7 +85,8 @@ void run(peers::Trial trial, const Choice& choice, SUNContext context) {
     KINSetEtaForm(memory, choice.forcing);
     if (choice.forcing == KIN_ETACHOICE2) KINSetEtaParams(memory, 0.9, 2.0);
     const int side = trial.preconditioned() ? SUN_PREC_RIGHT : SUN_PREC_NONE;
-    linear = SUNLinSol_SPGMR(u, side, static_cast<int>(std::min<long>(choice.dimension, n)), context);
+    linear =
+        SUNLinSol_SPGMR(u, side, static_cast<int>(std::min<long>(choice.dimension, n)), context);
     KINSetLinearSolver(memory, linear, nullptr);
     if (trial.preconditioned()) KINSetPreconditioner(memory, nullptr, precondition);
   }

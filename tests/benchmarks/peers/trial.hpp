@@ -51,8 +51,8 @@ class Trial {
 void print_result(const Trial& trial, const std::string& solver, bool claimed, bool solved,
                   int evaluations, const std::string& note);
 
-/// Calls `solve` with a fresh trial of every problem, without and with preconditioner; `filter` is a
-/// part of the names of those to run.
+/// Calls `solve` with a fresh trial of every problem, without and with preconditioner; `filter` is
+/// a part of the names of those to run.
 void run_all(const std::string& filter, const std::function<void(const Trial&)>& solve);
 
 }  // namespace peers

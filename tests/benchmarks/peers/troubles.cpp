@@ -14,9 +14,8 @@ Problem truss(const char* name, bool for_tuning, int cells, double push, double 
   constexpr double yield = 1e-3;
   const auto frame = std::make_shared<jfnk_test::PlasticTruss>(cells, cells, yield, hardening);
   frame->push(push);
-  return {name, for_tuning, Vector::Zero(frame->size()), [frame](const Vector& u, Vector& r) {
-            return (*frame)(u, r) == jfnk::Evaluation::ok;
-          }};
+  return {name, for_tuning, Vector::Zero(frame->size()),
+          [frame](const Vector& u, Vector& r) { return (*frame)(u, r) == jfnk::Evaluation::ok; }};
 }
 
 /// A membrane over an obstacle: min(u - obstacle, -Laplace(u) + 2) = 0, in units of each.
@@ -71,7 +70,8 @@ Problem in_other_units(Problem problem, const char* name, bool for_tuning, doubl
   problem.u_scale.resize(n);
   problem.f_scale.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    problem.u_scale[i] = std::pow(10.0, 0.5 * decades * std::sin(1.0 + 2.0 * static_cast<double>(i)));
+    problem.u_scale[i] =
+        std::pow(10.0, 0.5 * decades * std::sin(1.0 + 2.0 * static_cast<double>(i)));
     problem.f_scale[i] = std::pow(10.0, 0.5 * decades * std::cos(3.0 * static_cast<double>(i)));
   }
   problem.start.array() *= problem.u_scale.array();
