@@ -45,7 +45,7 @@ void resize(Workspace& work, Eigen::Index n, Eigen::Index global, const Options&
   const bool u_scaled = options.u_scale.size() > 0;
   work.evaluator.physical.resize(u_scaled ? n : 0);
   work.evaluator.image.resize(options.f_scale.size() > 0 && preconditioned ? n : 0);
-  if (preconditioned) work.setup_point.resize(n);
+  work.setup_point.resize(preconditioned ? n : 0);
   if (options.method != Method::multisecant) {
     GmresOptions linear;
     linear.global_size = global;
@@ -273,7 +273,10 @@ bool Solver::step_erased(const ResidualRef& residual, const PreconditionerRef& p
                               m.work.evaluator, m.work.evaluator_state);
   detail::Solve solve{m.options, evaluator, observer, m.work, m.course, m.report};
   if (m.needs_setup) {
-    if (preconditioner.has_setup()) preconditioner.setup(evaluator.physical(m.work.setup_point));
+    const bool was_set_up = m.work.setup_point.size() > 0;
+    if (was_set_up && preconditioner.has_setup()) {
+      preconditioner.setup(evaluator.physical(m.work.setup_point));
+    }
     m.needs_setup = false;
   }
   const detail::Ending ending = detail::advance(solve);

@@ -90,7 +90,6 @@ PetscErrorCode run(peers::Trial trial, const Choice& choice) {
   } else {
     PetscCall(PCSetType(pc, PCNONE));
   }
-  PetscCall(SNESSetUp(snes));
   {
     PetscScalar* values = nullptr;
     PetscCall(VecGetArray(u, &values));
