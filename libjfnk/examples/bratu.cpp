@@ -5,7 +5,8 @@
 //
 // Solved five times: without and with a preconditioner, by the default (the hybrid) and by plain
 // Newton-Krylov, and by the algorithm of Appendix A of Chen, Huang & Lyamin 2020. Every line counts
-// residual evaluations and Jacobian actions. The preconditioner is the Cholesky factor of the Laplacian alone.
+// residual evaluations and Jacobian actions. The preconditioner is the Cholesky factor of the
+// Laplacian alone.
 #include <Eigen/SparseCholesky>
 #include <cstdio>
 #include <cstdlib>
