@@ -75,7 +75,8 @@ void check_noise(Examination& e) {
     detail::NoiseSamples samples{};
     Outcome outcome = Outcome::ok;
     for (int i = 0; i < detail::noise_points && outcome == Outcome::ok; ++i) {
-      outcome = e.look(aside + (i - detail::noise_points / 2) * h);
+      const int place = i - detail::noise_points / 2;
+      outcome = e.look(aside + place * h);
       detail::project_sample(e.trial.r, i, e.evaluator.product(), e.scratch, samples);
     }
     const auto verdict = outcome == Outcome::ok ? detail::judge_noise(samples, e.report.noise)
