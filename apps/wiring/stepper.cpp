@@ -18,7 +18,7 @@ jfnk::Options solver_options(const Scene& scene) {
   const SolverSettings settings = resolve_solver(scene.solver);
   jfnk::Options options = scene.solver.preset == SolverPreset::appendix_a
                               ? jfnk::appendix_a(settings.tolerance, settings.tolerance, 1000)
-                              : jfnk::hybrid();
+                              : jfnk::plasticity();
   options.tolerances.relative = settings.tolerance;
   switch (settings.method) {
     case SolverMethod::hybrid:

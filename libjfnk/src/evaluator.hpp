@@ -1,6 +1,7 @@
 #pragma once
 
 #include "jfnk/options.hpp"
+#include "jfnk/preconditioner.hpp"
 #include "jfnk/report.hpp"
 #include "jfnk/residual.hpp"
 
@@ -14,7 +15,7 @@ enum class Outcome {
   limit     ///< max_evaluations is used up; nothing was evaluated
 };
 
-/// A point with its residual.
+/// A point with its residual, both in the solver's units: u / u_scale and F / f_scale.
 struct Iterate {
   Vector u;
   Vector r;
@@ -27,11 +28,33 @@ struct Iterate {
   }
 };
 
-/// The only door to the residual: counts, checks for NaN, keeps the limit, makes J v.
+/// Memory of the evaluator that lives from solve to solve.
+struct EvaluatorVectors {
+  Vector probe;     // u + eps v
+  Vector physical;  // u in the caller's units, if there are scales
+  Vector image;     // a vector handed to or from the caller, likewise
+};
+
+/// The part of the evaluator that a resumed solve needs.
+struct EvaluatorState {
+  double start_norm = 0.0;
+  double noise = 0.0;  ///< b of the difference step in force
+  bool without_preconditioner = false;
+};
+
+/// The only door to the residual and the preconditioner: changes units, counts, checks for NaN and
+/// bounds, keeps the limit, makes J v.
 class Evaluator {
  public:
-  Evaluator(const ResidualRef& residual, const Options& options, Counts& counts, Vector& probe)
-      : residual_(residual), options_(options), counts_(counts), probe_(probe) {}
+  Evaluator(const ResidualRef& residual, const PreconditionerRef& preconditioner,
+            const Options& options, Counts& counts, EvaluatorVectors& vectors,
+            EvaluatorState& state)
+      : residual_(residual),
+        preconditioner_(preconditioner),
+        options_(options),
+        counts_(counts),
+        vectors_(vectors),
+        state_(state) {}
 
   /// F at `point.u` into `point`, counted under `purpose`.
   Outcome evaluate(Iterate& point, int Counts::*purpose);
@@ -45,6 +68,33 @@ class Evaluator {
   /// J v about the last linearised point.
   Outcome action(const Vector& v, Vector& Jv);
 
+  /// z = P r.
+  void precondition(const Vector& r, Vector& z);
+
+  /// Lets the preconditioner rebuild itself about u.
+  void setup(const Vector& u);
+
+  /// Tells the residual that u is the solver's own.
+  void accept(const Vector& u);
+
+  /// Lets the residual change the step from u, and keeps it within the bounds.
+  void filter(const Vector& u, Vector& step);
+
+  /// Whether u, in the solver's units, is between the bounds.
+  [[nodiscard]] bool within_bounds(const Vector& u);
+
+  /// u in the caller's units.
+  [[nodiscard]] const Vector& physical(const Vector& u);
+  /// The caller's u in the solver's units.
+  void to_solver_units(Vector& u) const;
+
+  [[nodiscard]] const ResidualRef& residual() const { return residual_; }
+  /// The preconditioner in use; the identity if it was dropped.
+  [[nodiscard]] const PreconditionerRef& preconditioner() const {
+    return state_.without_preconditioner ? identity_ : preconditioner_;
+  }
+  /// Goes on without the preconditioner.
+  void drop_preconditioner() { state_.without_preconditioner = true; }
   /// The inner product of the problem.
   [[nodiscard]] const InnerProductRef& product() const { return residual_.inner_product(); }
 
@@ -57,18 +107,39 @@ class Evaluator {
   /// Whether the last refusal was the evaluation limit.
   [[nodiscard]] bool limit_reached() const { return counts_.total() >= options_.max_evaluations; }
 
+  /// Whether J v comes from differences.
+  [[nodiscard]] bool differences() const {
+    return options_.jacobian.source != Jacobian::Source::user_if_available ||
+           !residual_.has_jacobian();
+  }
+
  private:
   Outcome call(const Vector& u, Vector& r);
   Outcome difference(const Vector& v, Vector& Jv);
   [[nodiscard]] double difference_step(double v_norm) const;
+  [[nodiscard]] bool u_scaled() const { return options_.u_scale.size() > 0; }
+  [[nodiscard]] bool f_scaled() const { return options_.f_scale.size() > 0; }
 
   const ResidualRef& residual_;
+  const PreconditionerRef& preconditioner_;
+  const PreconditionerRef identity_;
   const Options& options_;
   Counts& counts_;
-  Vector& probe_;
+  EvaluatorVectors& vectors_;
+  EvaluatorState& state_;
   const Iterate* base_ = nullptr;
   double base_u_norm_ = 0.0;
-  double start_norm_ = 0.0;
+};
+
+/// The preconditioner in the solver's units, counted.
+struct CountedPreconditioner {
+  Evaluator* evaluator;
+  void apply(const Vector& r, Vector& z) const { evaluator->precondition(r, z); }
+  /// A view of this; the identity if there is no preconditioner.
+  [[nodiscard]] PreconditionerRef ref() {
+    return evaluator->preconditioner().is_identity() ? PreconditionerRef{}
+                                                     : PreconditionerRef(*this);
+  }
 };
 
 }  // namespace jfnk::detail

@@ -5,21 +5,21 @@
 
 namespace jfnk::detail {
 
-double ForcingSequence::next(double norm, double tolerance) {
+double next_forcing(const Forcing& rule, ForcingState& state, double norm, double tolerance) {
   // Eisenstat & Walker 1996, choice 2: the safeguard holds while the former eta was not yet small.
   constexpr double safeguard_above = 0.1;
-  double eta = rule_.initial;
-  if (!first_ && rule_.rule == Forcing::Rule::eisenstat_walker2) {
-    eta = rule_.gamma * std::pow(norm / previous_norm_, rule_.alpha);
-    const double kept = rule_.gamma * std::pow(previous_eta_, rule_.alpha);
+  double eta = rule.initial;
+  if (!state.first && rule.rule != Forcing::Rule::constant) {
+    eta = rule.gamma * std::pow(norm / state.previous_norm, rule.alpha);
+    const double kept = rule.gamma * std::pow(state.previous_eta, rule.alpha);
     if (kept > safeguard_above) eta = std::max(eta, kept);
   }
-  first_ = false;
-  previous_norm_ = norm;
+  state.first = false;
+  state.previous_norm = norm;
   // The recurrence runs on eta before the end game, which would otherwise inflate later terms.
-  eta = std::min(eta, rule_.maximum);
-  previous_eta_ = eta;
-  return std::min(std::max(eta, rule_.end_game * tolerance / norm), rule_.maximum);
+  eta = std::min(eta, rule.maximum);
+  state.previous_eta = eta;
+  return std::min(std::max(eta, rule.end_game * tolerance / norm), rule.maximum);
 }
 
 }  // namespace jfnk::detail

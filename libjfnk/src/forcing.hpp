@@ -4,19 +4,15 @@
 
 namespace jfnk::detail {
 
-/// The sequence of relative linear tolerances eta of one Newton phase.
-class ForcingSequence {
- public:
-  explicit ForcingSequence(const Forcing& rule) : rule_(rule) {}
-
-  /// eta for the system at ||F|| = norm, when `tolerance` ends the solve.
-  double next(double norm, double tolerance);
-
- private:
-  const Forcing& rule_;
-  double previous_norm_ = 0.0;
-  double previous_eta_ = 0.0;
-  bool first_ = true;
+/// What the sequence of relative linear tolerances eta remembers.
+struct ForcingState {
+  double previous_norm = 0.0;
+  double previous_eta = 0.0;
+  bool first = true;
 };
+
+/// eta for the system at ||F|| = norm, when `tolerance` ends the solve.
+[[nodiscard]] double next_forcing(const Forcing& rule, ForcingState& state, double norm,
+                                  double tolerance);
 
 }  // namespace jfnk::detail

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace jfnk {
 namespace {
@@ -39,13 +40,15 @@ std::vector<std::string> validate(const GmresOptions& options) {
 }
 
 void Gmres::resize(Eigen::Index n, const GmresOptions& options, bool preconditioned) {
+  const Eigen::Index dimension = options.global_size > 0 ? options.global_size : n;
   const auto columns = static_cast<std::size_t>(
-      std::min<Eigen::Index>({n, options.restart, options.max_iterations}));
+      std::min<Eigen::Index>({dimension, options.restart, options.max_iterations}));
   if (basis_.size() != columns + 1) basis_.resize(columns + 1);
   for (Vector& v : basis_) v.resize(n);
   preconditioned_.resize(options.flexible && preconditioned ? columns : 0);
   for (Vector& z : preconditioned_) z.resize(n);
   work_.resize(n);
+  next_.resize(n);
   direction_.resize(preconditioned ? n : 0);
   const auto m = static_cast<Eigen::Index>(columns);
   triangle_.resize(m + 1, m);
@@ -53,6 +56,8 @@ void Gmres::resize(Eigen::Index n, const GmresOptions& options, bool preconditio
   sines_.resize(m);
   rhs_.resize(m + 1);
   coefficients_.resize(m + 1);
+  descent_.resize(m);
+  path_.resize(m);
 }
 
 GmresResult Gmres::solve(const OperatorRef& A, const Vector& b, Vector& x,
@@ -67,6 +72,8 @@ GmresResult Gmres::solve(const OperatorRef& A, const Vector& b, Vector& x,
   }
   resize(b.size(), options, !P.is_identity());
   preconditioner_applications_ = 0;
+  can_shorten_ = false;
+  flexible_ = options.flexible && !P.is_identity();
 
   GmresResult result;
   const double b_norm = product.norm(b);
@@ -96,7 +103,11 @@ GmresResult Gmres::solve(const OperatorRef& A, const Vector& b, Vector& x,
     const Cycle cycle =
         run_cycle(A, P, product, options, options.max_iterations - result.iterations, target);
     result.iterations += cycle.columns;
-    add_correction(cycle.columns, P, options.flexible, x);
+    columns_ = cycle.columns;
+    solve_triangle(columns_);
+    add_combination(columns_, coefficients_, P, x);
+    if (result.iterations == cycle.columns) length_ = coefficients_.head(columns_).norm();
+    can_shorten_ = zero_guess && result.iterations == cycle.columns && columns_ > 0;
     result.status = cycle.status;
     ended = cycle.ended;
     if (!ended && residual_norm_ > stagnation_ratio * before) {
@@ -203,29 +214,99 @@ void Gmres::rotate_column(int k, double subdiagonal) {
   rhs_[k] *= cosines_[k];
 }
 
-// x += P V y (or Z y) with the triangular system solved backwards; null columns get no weight.
-void Gmres::add_correction(int columns, const PreconditionerRef& P, bool flexible, Vector& x) {
-  if (columns == 0) return;
+// The triangular system solved backwards into coefficients_; null columns get no weight.
+void Gmres::solve_triangle(int columns) {
   for (int i = columns - 1; i >= 0; --i) {
     double sum = rhs_[i];
     for (int j = i + 1; j < columns; ++j) sum -= triangle_(i, j) * coefficients_[j];
     coefficients_[i] = triangle_(i, i) == 0.0 ? 0.0 : sum / triangle_(i, i);
   }
-  const bool stored = flexible && !P.is_identity();
-  if (stored || P.is_identity()) {
-    const std::vector<Vector>& directions = stored ? preconditioned_ : basis_;
+}
+
+// x += P V y (or Z y).
+void Gmres::add_combination(int columns, const Eigen::VectorXd& coefficients,
+                            const PreconditionerRef& P, Vector& x) {
+  if (columns == 0) return;
+  if (flexible_ || P.is_identity()) {
+    const std::vector<Vector>& directions = flexible_ ? preconditioned_ : basis_;
     for (int j = 0; j < columns; ++j) {
-      x += coefficients_[j] * directions[static_cast<std::size_t>(j)];
+      x += coefficients[j] * directions[static_cast<std::size_t>(j)];
     }
     return;
   }
   work_.setZero();
   for (int j = 0; j < columns; ++j) {
-    work_ += coefficients_[j] * basis_[static_cast<std::size_t>(j)];
+    work_ += coefficients[j] * basis_[static_cast<std::size_t>(j)];
   }
   P.apply(work_, direction_);
   ++preconditioner_applications_;
   x += direction_;
+}
+
+// Column j of Q = V G^T into basis_[j], where G are the rotations; work_ holds v_j as it was, next_
+// will hold v_{j+1}.
+void Gmres::rotate_basis(int j) {
+  Vector& q = basis_[static_cast<std::size_t>(j)];
+  Vector& rest = basis_[static_cast<std::size_t>(j) + 1];
+  next_ = rest;
+  rest = cosines_[j] * next_ - sines_[j] * q;
+  q = cosines_[j] * q + sines_[j] * next_;
+}
+
+// z_j such that A z_j is column j, from v_j in work_.
+const Vector& Gmres::column_of_space(int j, const PreconditionerRef& P) {
+  if (flexible_) return preconditioned_[static_cast<std::size_t>(j)];
+  if (P.is_identity()) return work_;
+  P.apply(work_, direction_);
+  ++preconditioner_applications_;
+  return direction_;
+}
+
+double Gmres::shorten(double length, const PreconditionerRef& P, Vector& x) {
+  const int k = columns_;
+  double steepness = 0.0;
+  for (int j = 0; j < k; ++j) {
+    descent_[j] = triangle_.col(j).head(j + 1).dot(rhs_.head(j + 1));
+    steepness += descent_[j] * descent_[j];
+  }
+  double curvature = 0.0;
+  for (int i = 0; i < k; ++i) {
+    double sum = 0.0;
+    for (int j = i; j < k; ++j) sum += triangle_(i, j) * descent_[j];
+    curvature += sum * sum;
+  }
+  const double reach = curvature > 0.0 ? steepness / curvature : 0.0;  // of the lowest point
+  const double reach_length = reach * std::sqrt(steepness);
+  double weight = 0.0;  // of the solution
+  double descent_weight = reach;
+  if (length >= length_) {
+    weight = 1.0;
+    descent_weight = 0.0;
+  } else if (reach_length >= length) {
+    descent_weight = length / std::sqrt(steepness);
+  } else {
+    // ||reach d + t (y - reach d)|| = length.
+    double along = 0.0;
+    double square = 0.0;
+    for (int j = 0; j < k; ++j) {
+      const double chord = coefficients_[j] - reach * descent_[j];
+      along += chord * reach * descent_[j];
+      square += chord * chord;
+    }
+    const double rest = length * length - reach_length * reach_length;
+    weight = rest / (along + std::sqrt(along * along + square * rest));
+    descent_weight = (1.0 - weight) * reach;
+  }
+  double distance = residual_norm_ * residual_norm_;
+  for (int j = 0; j < k; ++j) path_[j] = weight * coefficients_[j] + descent_weight * descent_[j];
+  for (int i = 0; i < k; ++i) {
+    double sum = rhs_[i];
+    for (int j = i; j < k; ++j) sum -= triangle_(i, j) * path_[j];
+    distance += sum * sum;
+  }
+  x.setZero();
+  add_combination(k, path_, P, x);
+  return std::sqrt(distance);
 }
 
 // r = V Q^T (0, ..., 0, rhs[m]): the Arnoldi relation gives the new residual without applying A.

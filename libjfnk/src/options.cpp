@@ -1,10 +1,14 @@
 #include "jfnk/options.hpp"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace jfnk {
 namespace {
+
+// Of Globalisation::window.
+constexpr int max_window = 10;
 
 class Checker {
  public:
@@ -53,9 +57,14 @@ void check_krylov(const Krylov& k, Checker& check) {
 
 void check_globalisation(const Globalisation& g, Checker& check) {
   check.fraction(g.factor, "globalisation.factor");
+  check.fraction(g.greatest_cut, "globalisation.greatest_cut");
+  check.require(g.least_cut > 0.0 && g.least_cut <= g.greatest_cut, "globalisation.least_cut",
+                "in (0, greatest_cut]", g.least_cut);
   check.fraction(g.domain_factor, "globalisation.domain_factor");
   check.at_least(g.max_cuts, 0, "globalisation.max_cuts");
   check.half_open(g.sufficient_decrease, "globalisation.sufficient_decrease");
+  check.require(g.window >= 1 && g.window <= max_window, "globalisation.window", "in [1, 10]",
+                g.window);
 }
 
 void check_jacobian(const Jacobian& j, Checker& check) {
@@ -69,13 +78,38 @@ void check_jacobian(const Jacobian& j, Checker& check) {
 
 void check_multisecant(const Multisecant& m, Checker& check) {
   check.at_least(m.memory, 1, "multisecant.memory");
-  check.at_least(m.patience, 1, "multisecant.patience");
+  check.at_least(m.patience, 0, "multisecant.patience");
   check.up_to_one(m.progress, "multisecant.progress");
+  check.require(m.wild > 1.0, "multisecant.wild", "above 1", m.wild);
+  check.at_least(m.wild_patience, 1, "multisecant.wild_patience");
   check.require(m.rejection > 1.0, "multisecant.rejection", "above 1", m.rejection);
   check.up_to_one(m.mixing, "multisecant.mixing");
   check.require(m.max_condition > 1.0 && m.max_condition <= 1e15, "multisecant.max_condition",
                 "in (1, 1e15]", m.max_condition);
   check.at_least(m.max_cuts, 0, "multisecant.max_cuts");
+}
+
+void check_scale(const Eigen::VectorXd& scale, const char* name, Checker& check) {
+  for (Eigen::Index i = 0; i < scale.size(); ++i) {
+    if (scale[i] > 0.0 && std::isfinite(scale[i])) continue;
+    const std::string entry = std::string(name) + "[" + std::to_string(i) + "]";
+    check.require(false, entry.c_str(), "positive and finite", scale[i]);
+    return;
+  }
+}
+
+void check_bounds(const Options& options, Checker& check) {
+  const Eigen::VectorXd& lower = options.lower;
+  const Eigen::VectorXd& upper = options.upper;
+  const auto has_nan = [](const Eigen::VectorXd& v) { return (v.array() != v.array()).any(); };
+  if (has_nan(lower) || has_nan(upper)) check.add("lower and upper must not be NaN");
+  if (lower.size() == 0 || upper.size() == 0) return;
+  if (lower.size() != upper.size()) {
+    check.add("lower has size " + std::to_string(lower.size()) + ", upper has size " +
+              std::to_string(upper.size()));
+  } else if ((lower.array() >= upper.array()).any()) {
+    check.add("lower must be below upper in every component");
+  }
 }
 
 }  // namespace
@@ -93,6 +127,16 @@ std::vector<std::string> validate(const Options& options) {
   check_multisecant(options.multisecant, check);
   check.at_least(options.hybrid.rounds, 1, "hybrid.rounds");
   check.at_least(options.hybrid.newton_steps, 1, "hybrid.newton_steps");
+  check.require(options.hybrid.back_off >= 1.0 && std::isfinite(options.hybrid.back_off),
+                "hybrid.back_off", "finite and at least 1", options.hybrid.back_off);
+  check.at_least(options.stagnation.window, 2, "stagnation.window");
+  check.up_to_one(options.stagnation.left, "stagnation.left");
+  check.at_least(options.pseudo_transient.max_steps, 1, "pseudo_transient.max_steps");
+  check.fraction(options.pseudo_transient.gain, "pseudo_transient.gain");
+  check.not_negative(options.setup_cost, "setup_cost");
+  check_scale(options.u_scale, "u_scale", check);
+  check_scale(options.f_scale, "f_scale", check);
+  check_bounds(options, check);
   check.at_least(options.hybrid.final_newton_steps, 0, "hybrid.final_newton_steps");
   return check.take();
 }
@@ -103,6 +147,7 @@ Options appendix_a(double residual_tolerance, double step_tolerance, int m_max) 
                                 " must be between 20 and 1000");
   }
   Options options;
+  options.method = Method::newton_krylov;
   options.tolerances.relative = residual_tolerance;
   options.tolerances.step = step_tolerance;
   options.krylov.restart = m_max;
@@ -110,6 +155,7 @@ Options appendix_a(double residual_tolerance, double step_tolerance, int m_max) 
   options.krylov.forcing.rule = Forcing::Rule::constant;
   options.krylov.forcing.initial = 0.01;
   options.krylov.forcing.end_game = 0.0;
+  options.globalisation.rule = Globalisation::Rule::backtracking;
   options.globalisation.factor = 0.8;
   // Departure: the paper cuts without end; 0.8^100 = 2e-10 is beyond any useful step
   // (doc/appendix_a.md).
@@ -118,16 +164,48 @@ Options appendix_a(double residual_tolerance, double step_tolerance, int m_max) 
   options.globalisation.sufficient_decrease = 0.0;
   options.jacobian.source = Jacobian::Source::finite_difference;
   options.jacobian.step = Jacobian::Step::paper;
+  options.jacobian.measure_noise = false;
+  options.stagnation.left = 1.0;
+  options.stagnation.restart = false;
+  options.pseudo_transient.enabled = false;
+  options.preconditioner_setup = PreconditionerSetup::at_start;
   return options;
 }
 
 Options hybrid() {
+  return {};
+}
+
+Options newton_krylov() {
+  Options options;
+  options.method = Method::newton_krylov;
+  return options;
+}
+
+Options plasticity() {
   Options options;
   options.method = Method::hybrid;
   options.krylov.restart = 60;
   options.krylov.max_iterations = 60;
   options.krylov.forcing.rule = Forcing::Rule::constant;
   options.krylov.forcing.initial = 0.3;
+  options.globalisation.rule = Globalisation::Rule::backtracking;
+  options.jacobian.measure_noise = false;
+  options.multisecant.memory = 20;
+  options.multisecant.patience = 10;
+  options.multisecant.progress = 1.0;
+  options.multisecant.scale_mixing = false;
+  options.multisecant.max_condition = 1e8;
+  options.multisecant.renew = false;
+  options.multisecant.wild_patience = std::numeric_limits<int>::max();
+  options.stagnation.left = 1.0;
+  options.stagnation.restart = false;
+  options.hybrid.rounds = 6;
+  options.hybrid.newton_steps = 3;
+  options.hybrid.back_off = 1.0;
+  options.hybrid.final_newton_steps = 12;
+  options.pseudo_transient.enabled = false;
+  options.preconditioner_setup = PreconditionerSetup::at_start;
   return options;
 }
 

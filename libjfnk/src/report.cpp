@@ -17,6 +17,8 @@ std::string_view to_string(Status status) {
       return "evaluation_limit";
     case Status::line_search_failed:
       return "line_search_failed";
+    case Status::stagnated:
+      return "stagnated";
     case Status::krylov_stalled:
       return "krylov_stalled";
     case Status::linearisation_failed:
@@ -25,6 +27,10 @@ std::string_view to_string(Status status) {
       return "multisecant_stalled";
     case Status::out_of_domain_at_start:
       return "out_of_domain_at_start";
+    case Status::local_minimum:
+      return "local_minimum";
+    case Status::in_progress:
+      return "in_progress";
     case Status::stopped:
       return "stopped";
   }
@@ -39,6 +45,8 @@ std::string_view to_string(Phase phase) {
       return "newton";
     case Phase::multisecant:
       return "multisecant";
+    case Phase::pseudo_transient:
+      return "pseudo_transient";
   }
   return "unknown";
 }
@@ -52,10 +60,21 @@ std::string number(double value) {
   return text;
 }
 
-/// "||F|| = 1.2 at component 7 of 0.1 asked".
+/// "s 7 (-1.1), 3 (0.4)": the components of the largest |F_i|.
+std::string worst(const Report& report) {
+  std::string text = report.worst.size() > 1 ? "s " : " ";
+  if (report.worst.empty()) return text + std::to_string(report.worst_component);
+  for (const Component& component : report.worst) {
+    if (&component != &report.worst.front()) text += ", ";
+    text += std::to_string(component.index) + " (" + number(component.residual) + ")";
+  }
+  return text;
+}
+
+/// "||F|| = 1.2, asked 0.1, largest in components 7 (-1.1), 3 (0.4)".
 std::string where(const Report& report) {
   return "||F|| = " + number(report.residual_norm) + ", asked " + number(report.tolerance) +
-         ", largest in component " + std::to_string(report.worst_component);
+         ", largest in component" + worst(report);
 }
 
 std::string out_of_domain_text(const Report& report) {
@@ -105,6 +124,8 @@ std::string reason(const Report& report, const Options& options) {
     case Status::line_search_failed:
       return "no step along the Newton direction reduced ||F||: " + where(report) +
              linear_advice(report);
+    case Status::stagnated:
+      return "Newton steps hardly reduce ||F|| any more: " + where(report) + linear_advice(report);
     case Status::krylov_stalled:
       return "the linear solve gave no direction (singular Jacobian, or J v cannot be "
              "evaluated): " +
@@ -116,6 +137,12 @@ std::string reason(const Report& report, const Options& options) {
              "; try Method::hybrid or a better preconditioner";
     case Status::out_of_domain_at_start:
       return out_of_domain_text(report);
+    case Status::local_minimum:
+      return "no direction lowers ||F||, which is not zero: a local minimum or an inconsistent "
+             "system: " +
+             where(report) + "; start from another point";
+    case Status::in_progress:
+      return "the solve has not yet come to an end: " + where(report);
     case Status::stopped:
       if (report.history.empty()) return "the residual asked to stop at the first u";
       return "the residual or the observer asked to stop: " + where(report);

@@ -16,7 +16,7 @@ constexpr Eigen::Index rows_per_block = 256;
 }  // namespace
 
 void SecantMemory::resize(Eigen::Index n, int capacity) {
-  capacity_ = static_cast<int>(std::min<Eigen::Index>(capacity, n));
+  capacity_ = capacity;
   const auto columns = static_cast<std::size_t>(capacity_);
   du_.resize(columns);
   q_.resize(columns);
@@ -53,6 +53,19 @@ void SecantMemory::add(const Vector& du, const Vector& dr, double max_condition,
   r_.col(size_).head(size_) = column_.head(size_);
   r_(size_, size_) = diagonal;
   ++size_;
+}
+
+bool SecantMemory::append(const Vector& du, const Vector& q,
+                          const Eigen::Ref<const Eigen::VectorXd>& column, double max_condition) {
+  const double length = column.norm();
+  if (size_ == capacity_ || !(length > 0.0) || !std::isfinite(length)) return false;
+  const double diagonal = std::abs(column[size_]) / length;
+  if (!well_conditioned(diagonal, max_condition)) return false;
+  this->du(size_) = du / length;
+  q_[static_cast<std::size_t>(size_)] = q;
+  r_.col(size_).head(size_ + 1) = column / length;
+  ++size_;
+  return true;
 }
 
 // Removes from work_ its parts along Q, whose coefficients go to column_; returns what is left.

@@ -13,7 +13,8 @@ namespace jfnk::detail {
 /// the ones before it, whatever the scale of the residual was at the time.
 class SecantMemory {
  public:
-  /// Allocates for n unknowns and `capacity` pairs, and forgets all pairs.
+  /// Allocates for n unknowns and `capacity` pairs, at most as many as all unknowns, and forgets
+  /// all pairs.
   void resize(Eigen::Index n, int capacity);
   /// Forgets all pairs.
   void clear();
@@ -26,9 +27,32 @@ class SecantMemory {
   void add(const Vector& du, const Vector& dr, double max_condition,
            const InnerProductRef& product);
 
+  /// Begins anew with pairs whose factors are known: clear, then `append` oldest first.
+  /// @param du  change of u
+  /// @param q  the next orthonormal column of Q
+  /// @param column  the next column of R, down to its diagonal at `size()`
+  /// @return false, and no pair is taken, if there is no room or the column adds too little
+  bool append(const Vector& du, const Vector& q, const Eigen::Ref<const Eigen::VectorXd>& column,
+              double max_condition);
+
   /// gamma = argmin ||r - dR gamma||; step = -dU gamma, remainder = r - dR gamma.
   /// Cost: 6 n size() flops. No allocation.
   void project(const Vector& r, Vector& step, Vector& remainder, const InnerProductRef& product);
+
+  /// Calls `walk` on every number that decides what follows, for saving and loading; `resize` must
+  /// have been called.
+  template <class Walker>
+  void for_each_field(Walker& walk) {
+    walk(size_);
+    walk(first_);
+    for (int i = 0; i < size_ && i < capacity_; ++i) {
+      walk(du(i));
+      walk(q_[static_cast<std::size_t>(i)]);
+      for (int j = 0; j <= i; ++j) walk(r_(j, i));
+    }
+  }
+  /// Most pairs held.
+  [[nodiscard]] int capacity() const { return capacity_; }
 
   /// Orthonormal column i of Q.
   [[nodiscard]] const Vector& q(int i) const { return q_[static_cast<std::size_t>(i)]; }

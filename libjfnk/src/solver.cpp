@@ -1,11 +1,12 @@
 #include "jfnk/solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "memory.hpp"
 #include "outcome_text.hpp"
-#include "strategy.hpp"
 
 namespace jfnk {
 namespace detail {
@@ -20,31 +21,50 @@ bool Solve::record(Iteration line, const Iterate& at) const {
   return observer(report.history.back());
 }
 
-void Solve::keep_if_best(const Iterate& point, bool solution) const {
-  if (solution || point.norm < work.best.norm) work.best = point;
+Ending Solve::accept_base(const Iteration& line) const {
+  const bool converged = evaluator.converged(work.base, line.step_norm);
+  // The reference norm may vary, so that a point which meets the tolerance need not have the lowest
+  // norm.
+  if (converged || work.base.norm < work.best.norm) work.best = work.base;
+  evaluator.accept(work.base.u);
+  const bool go_on = record(line, work.base);
+  if (converged) return Ending::converged;
+  return go_on ? Ending::go_on : Ending::stopped;
 }
 
-void Solve::precondition(const Vector& r, Vector& z) const {
-  if (!preconditioner.is_identity()) ++report.counts.preconditioner;
-  preconditioner.apply(r, z);
+void Solve::return_to_best() const {
+  const bool moves = work.base.norm != work.best.norm;
+  work.base = work.best;
+  if (moves) evaluator.accept(work.base.u);
 }
 
-namespace {
-
-void resize(Workspace& work, Eigen::Index n, const Options& options, bool preconditioned) {
-  for (Iterate* point : {&work.base, &work.trial, &work.best}) point->resize(n);
-  for (Vector* v : {&work.step, &work.direction, &work.probe}) v->resize(n);
+void resize(Workspace& work, Eigen::Index n, Eigen::Index global, const Options& options,
+            bool preconditioned) {
+  for (Iterate* point : {&work.base, &work.trial, &work.best, &work.first}) point->resize(n);
+  for (Vector* v : {&work.step, &work.direction, &work.evaluator.probe}) v->resize(n);
+  const bool u_scaled = options.u_scale.size() > 0;
+  work.evaluator.physical.resize(u_scaled ? n : 0);
+  work.evaluator.image.resize(options.f_scale.size() > 0 && preconditioned ? n : 0);
+  work.setup_point.resize(preconditioned ? n : 0);
   if (options.method != Method::multisecant) {
     GmresOptions linear;
+    linear.global_size = global;
     linear.restart = options.krylov.restart;
     linear.max_iterations = options.krylov.max_iterations;
     linear.flexible = options.krylov.flexible;
-    work.gmres.resize(n, linear, preconditioned);
+    if (options.krylov.solver == Krylov::Solver::gmres) {
+      work.gmres.resize(n, linear, preconditioned);
+    } else {
+      work.bicgstab.resize(n, preconditioned);
+    }
   }
   if (options.method != Method::newton_krylov) {
-    work.secants.resize(n, options.multisecant.memory);
+    const Eigen::Index pairs = std::min<Eigen::Index>(options.multisecant.memory, global);
+    work.secants.resize(n, static_cast<int>(pairs));
   }
 }
+
+namespace {
 
 void begin(Report& report, const Options& options) {
   // One line per nonlinear iteration, and each iteration costs an evaluation or more.
@@ -54,79 +74,70 @@ void begin(Report& report, const Options& options) {
   history.reserve(static_cast<std::size_t>(std::min(options.max_evaluations, most_lines)) + 1);
   report = Report{};
   report.history = std::move(history);
+  report.status = Status::in_progress;
   report.residual_norm = std::numeric_limits<double>::quiet_NaN();
   report.initial_residual_norm = report.residual_norm;
 }
 
-Ending run_hybrid(Solve& solve) {
-  const Hybrid& plan = solve.options.hybrid;
-  for (int round = 0; round < plan.rounds; ++round) {
-    Ending ending = multisecant_phase(solve, std::numeric_limits<int>::max());
-    if (is_final(ending)) return ending;
-    const double before = solve.work.best.norm;
-    ending = newton_phase(solve, plan.newton_steps);
-    if (is_final(ending)) return ending;
-    // Newton would fail again from where it has just failed without moving.
-    if (ending != Ending::schedule_done && solve.work.best.norm >= before) return ending;
+/// The three largest |F_i| that are not zero, largest first.
+void find_worst(const Vector& r, std::vector<Component>& worst) {
+  constexpr std::size_t shown = 3;
+  worst.clear();
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    if (r[i] == 0.0) continue;
+    const auto place = std::find_if(worst.begin(), worst.end(), [&](const Component& c) {
+      return std::abs(r[i]) > std::abs(c.residual);
+    });
+    if (place == worst.end() && worst.size() == shown) continue;
+    worst.insert(place, Component{i, r[i]});
+    if (worst.size() > shown) worst.pop_back();
   }
-  return newton_phase(solve, plan.final_newton_steps);
 }
 
-Ending run(Solve& solve) {
-  switch (solve.options.method) {
-    case Method::multisecant:
-      return multisecant_phase(solve, solve.options.max_iterations);
-    case Method::hybrid:
-      return run_hybrid(solve);
-    case Method::newton_krylov:
-      break;
-  }
-  return newton_phase(solve, solve.options.max_iterations);
-}
-
-/// Evaluates the first u; returns the ending if the solve ends there, else schedule_done.
-Ending start(Solve& solve, Status& failure) {
-  Iterate& first = solve.work.best;
-  Report& report = solve.report;
-  const Outcome outcome =
-      first.u.allFinite() ? solve.evaluator.evaluate_start(first) : Outcome::out_of_domain;
-  if (outcome == Outcome::stopped) return Ending::stopped;
-  if (outcome != Outcome::ok) {
-    failure = Status::out_of_domain_at_start;
-    report.worst_component = first_not_finite(first.u.allFinite() ? first.r : first.u);
-    return Ending::patience_lost;
-  }
-  report.initial_residual_norm = first.norm;
-  Iteration line;
-  const bool go_on = solve.record(line, first);
-  if (solve.evaluator.converged(first, -1.0)) return Ending::converged;
-  return go_on ? Ending::schedule_done : Ending::stopped;
-}
-
-void finish(Solve& solve, Status status, Vector& u) {
+void describe_best(Solve& solve) {
   Report& report = solve.report;
   const Iterate& best = solve.work.best;
+  report.residual_norm = best.norm;
+  report.reference_norm = best.reference;
+  report.tolerance = solve.evaluator.tolerance(best);
+}
+
+void finish(Solve& solve, Status status) {
+  Report& report = solve.report;
+  solve.course.stage = Stage::ended;
   report.status = status;
   if (!report.history.empty()) {
-    u = best.u;
-    report.residual_norm = best.norm;
-    report.reference_norm = best.reference;
-    report.tolerance = solve.evaluator.tolerance(best);
-    best.r.cwiseAbs().maxCoeff(&report.worst_component);
+    describe_best(solve);
+    const Vector& r = solve.work.best.r;
+    if (r.size() > 0) r.cwiseAbs().maxCoeff(&report.worst_component);
+    if (status != Status::converged) {
+      find_worst(r, report.worst);
+      solve.return_to_best();
+    }
   }
   report.reason = reason(report, solve.options);
 }
 
-Status status_of(Ending ending) {
+/// A failed line search is a local minimum if the last linear solve could not lower F at all.
+bool at_local_minimum(const Report& report) {
+  constexpr double nothing_gained = 0.999;
+  return report.last_linear_residual > nothing_gained;
+}
+
+Status status_of(Ending ending, const Report& report) {
   switch (ending) {
     case Ending::converged:
       return Status::converged;
+    case Ending::go_on:
     case Ending::schedule_done:
       return Status::max_iterations;
     case Ending::patience_lost:
       return Status::multisecant_stalled;
     case Ending::line_search_failed:
-      return Status::line_search_failed;
+    case Ending::transient_failed:
+      return at_local_minimum(report) ? Status::local_minimum : Status::line_search_failed;
+    case Ending::stagnated:
+      return at_local_minimum(report) ? Status::local_minimum : Status::stagnated;
     case Ending::krylov_stalled:
       return Status::krylov_stalled;
     case Ending::linearisation_failed:
@@ -148,14 +159,65 @@ void throw_if_invalid(const Options& options) {
   throw std::invalid_argument(text);
 }
 
+void require_size(const Vector& v, Eigen::Index n, const char* name) {
+  if (v.size() == 0 || v.size() == n) return;
+  throw std::invalid_argument(std::string("jfnk::Solver: u has size ") + std::to_string(n) + ", " +
+                              name + " has size " + std::to_string(v.size()));
+}
+
+void require_fit(const Options& options, const ResidualRef& residual, const Vector& u) {
+  if (u.size() == 0 && !residual.is_distributed()) {
+    throw std::invalid_argument("jfnk::Solver: u is empty");
+  }
+  require_size(options.u_scale, u.size(), "u_scale");
+  require_size(options.f_scale, u.size(), "f_scale");
+  require_size(options.lower, u.size(), "lower");
+  require_size(options.upper, u.size(), "upper");
+  if (residual.is_distributed() && options.lower.size() + options.upper.size() > 0) {
+    throw std::invalid_argument("jfnk::Solver: bounds are not offered for distributed residuals");
+  }
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    const bool low = options.lower.size() > 0 && !(u[i] >= options.lower[i]);
+    const bool high = options.upper.size() > 0 && !(u[i] <= options.upper[i]);
+    if (!low && !high) continue;
+    throw std::invalid_argument("jfnk::Solver: u[" + std::to_string(i) +
+                                "] = " + std::to_string(u[i]) + " is outside its bounds");
+  }
+}
+
+/// Evaluates the first u; true if there is anything left to do.
+bool start(Solve& solve) {
+  Iterate& first = solve.work.best;
+  Report& report = solve.report;
+  const bool finite = std::isfinite(solve.evaluator.product().norm(first.u));
+  const Outcome outcome = finite ? solve.evaluator.evaluate_start(first) : Outcome::out_of_domain;
+  if (outcome != Outcome::ok) {
+    if (outcome == Outcome::out_of_domain) {
+      report.worst_component = first_not_finite(finite ? first.r : first.u);
+    }
+    finish(solve, outcome == Outcome::stopped ? Status::stopped : Status::out_of_domain_at_start);
+    return false;
+  }
+  report.initial_residual_norm = first.norm;
+  solve.work.base = first;
+  solve.work.first = first;
+  solve.evaluator.accept(first.u);
+  const bool go_on = solve.record(Iteration{}, first);
+  describe_best(solve);
+  if (solve.evaluator.converged(first, -1.0)) {
+    finish(solve, Status::converged);
+    return false;
+  }
+  if (!go_on) {
+    finish(solve, Status::stopped);
+    return false;
+  }
+  begin_schedule(solve);
+  return true;
+}
+
 }  // namespace
 }  // namespace detail
-
-struct Solver::Memory {
-  Options options;
-  detail::Workspace work;
-  Report report;
-};
 
 Solver::Solver(const Options& options) : memory_(std::make_unique<Memory>()) {
   set_options(options);
@@ -171,36 +233,68 @@ const Options& Solver::options() const {
 void Solver::set_options(const Options& options) {
   detail::throw_if_invalid(options);
   memory_->options = options;
+  memory_->course = {};
+}
+
+const Report& Solver::report() const {
+  return memory_->report;
+}
+
+Vector Solver::solution() const {
+  const Vector& u = memory_->work.best.u;
+  const Vector& scale = memory_->options.u_scale;
+  return scale.size() == u.size() && u.size() > 0 ? Vector(u.cwiseProduct(scale)) : u;
+}
+
+bool Solver::start_erased(const ResidualRef& residual, const Vector& u,
+                          const PreconditionerRef& preconditioner, const ObserverRef& observer) {
+  Memory& m = *memory_;
+  detail::require_fit(m.options, residual, u);
+  detail::resize(m.work, u.size(), residual.global_size(u.size()), m.options,
+                 !preconditioner.is_identity());
+  detail::begin(m.report, m.options);
+  m.course = {};
+  m.needs_setup = false;
+  m.work.evaluator_state = {};
+  m.work.evaluator_state.noise = m.options.jacobian.noise;
+  detail::Evaluator evaluator(residual, preconditioner, m.options, m.report.counts,
+                              m.work.evaluator, m.work.evaluator_state);
+  m.work.best.u = u;
+  evaluator.to_solver_units(m.work.best.u);
+  detail::Solve solve{m.options, evaluator, observer, m.work, m.course, m.report};
+  return detail::start(solve);
+}
+
+bool Solver::step_erased(const ResidualRef& residual, const PreconditionerRef& preconditioner,
+                         const ObserverRef& observer) {
+  Memory& m = *memory_;
+  if (m.course.stage == detail::Stage::ended) return false;
+  detail::Evaluator evaluator(residual, preconditioner, m.options, m.report.counts,
+                              m.work.evaluator, m.work.evaluator_state);
+  detail::Solve solve{m.options, evaluator, observer, m.work, m.course, m.report};
+  if (m.needs_setup) {
+    const bool was_set_up = m.work.setup_point.size() > 0;
+    if (was_set_up && preconditioner.has_setup()) {
+      preconditioner.setup(evaluator.physical(m.work.setup_point));
+    }
+    m.needs_setup = false;
+  }
+  const detail::Ending ending = detail::advance(solve);
+  if (ending == detail::Ending::go_on) {
+    detail::describe_best(solve);
+    return true;
+  }
+  detail::finish(solve, detail::status_of(ending, m.report));
+  return false;
 }
 
 const Report& Solver::solve_erased(const ResidualRef& residual, Vector& u,
                                    const PreconditionerRef& preconditioner,
                                    const ObserverRef& observer) {
-  if (u.size() == 0) throw std::invalid_argument("jfnk::Solver: u is empty");
-  const Options& options = memory_->options;
-  detail::Workspace& work = memory_->work;
-  Report& report = memory_->report;
-  detail::resize(work, u.size(), options, !preconditioner.is_identity());
-  detail::begin(report, options);
-  work.best.u = u;
-
-  detail::Evaluator evaluator(residual, options, report.counts, work.probe);
-  detail::Solve solve{options, evaluator, preconditioner, observer, work, report};
-  Status failure = Status::converged;
-  detail::Ending ending = detail::start(solve, failure);
-  if (failure == Status::out_of_domain_at_start) {
-    detail::finish(solve, failure, u);
-    return report;
-  }
-  if (ending == detail::Ending::schedule_done) {
-    if (preconditioner.has_setup()) {
-      ++report.counts.preconditioner_setups;
-      preconditioner.setup(work.best.u);
-    }
-    ending = detail::run(solve);
-  }
-  detail::finish(solve, detail::status_of(ending), u);
-  return report;
+  bool more = start_erased(residual, u, preconditioner, observer);
+  while (more) more = step_erased(residual, preconditioner, observer);
+  if (!memory_->report.history.empty()) u = solution();
+  return memory_->report;
 }
 
 }  // namespace jfnk

@@ -1,20 +1,27 @@
 #pragma once
 
+#include <array>
+
 #include "evaluator.hpp"
+#include "forcing.hpp"
+#include "jfnk/bicgstab.hpp"
 #include "jfnk/gmres.hpp"
 #include "jfnk/solver.hpp"
 #include "secant_memory.hpp"
 
 namespace jfnk::detail {
 
-/// How a phase of the strategy ended.
+/// What an iteration of a stage came to.
 enum class Ending {
+  go_on,
   converged,
   schedule_done,         ///< the iterations allowed were made
   patience_lost,         ///< multisecant only
   line_search_failed,    ///< Newton only
+  stagnated,             ///< Newton only: steps hardly lower ||F|| any more
   krylov_stalled,        ///< Newton only
   linearisation_failed,  ///< Newton only
+  transient_failed,      ///< pseudo-transient only
   stopped,
   limit
 };
@@ -24,40 +31,116 @@ enum class Ending {
   return ending == Ending::converged || ending == Ending::stopped || ending == Ending::limit;
 }
 
+/// What the solver is at.
+enum class Stage { multisecant, newton, pseudo_transient, ended };
+
+/// Where a solve stands, besides its vectors and its report: all that decides what comes next.
+struct Course {
+  Stage stage = Stage::ended;
+  int stage_iterations = 0;
+  int stage_limit = 0;  ///< of stage_iterations
+  int round = 0;
+  double stage_start_norm = 0.0;  ///< lowest ||F|| when the stage began
+  // multisecant
+  double mark = 0.0;  ///< see Multisecant::patience
+  int last_fall = 0;  ///< evaluations at the mark
+  int wild = 0;       ///< points in a row far above the best
+  double mixing = 1.0;
+  bool mixing_known = false;
+  double expected_change = 0.0;  ///< of F in the first step, if an action foretold it
+  // Newton
+  ForcingState forcing;
+  double radius = 0.0;  ///< of the dogleg; 0: none
+  std::array<double, 10> last_norms{};
+  int last_norms_count = 0;
+  double window_norm = 0.0;  ///< ||F|| at the beginning of the window of stagnation
+  int window_steps = 0;
+  int poor_steps = 0;     ///< in a row, that kept little of what the linear model promised
+  bool by_lines = false;  ///< line searches only
+  Ending newton_failure = Ending::go_on;  ///< the first one, which the rescues shall mend
+  bool noise_measured = false;
+  bool restarted = false;
+  bool transient_tried = false;
+  // pseudo-transient
+  double time_step = 0.0;
+  double shift_sign = 1.0;
+  // preconditioner
+  int setup_evaluations = 0;     ///< counts at the last setup
+  double setup_norm = 0.0;       ///< lowest ||F|| at the last setup
+  double setup_best_rate = 0.0;  ///< gain per evaluation soon after it
+};
+
 /// Vectors that live from solve to solve.
 struct Workspace {
-  Iterate base;   // where the phase stands
+  Iterate base;   // where the stage stands
   Iterate trial;  // where it looks
   Iterate best;   // lowest norm so far
+  Iterate first;  // where the solve began
   Vector step;
   Vector direction;
-  Vector probe;
+  Vector setup_point;  // of the preconditioner
+  EvaluatorVectors evaluator;
+  EvaluatorState evaluator_state;
   Gmres gmres;
+  BiCGStab bicgstab;
   SecantMemory secants;
 };
 
-/// One solve: the problem, the choices, the workspace and the record, shared by the phases.
+/// One solve: the problem, the choices, the workspace and the record, shared by the stages.
 struct Solve {
   const Options& options;
   Evaluator& evaluator;
-  const PreconditionerRef& preconditioner;
   const ObserverRef& observer;
   Workspace& work;
+  Course& course;
   Report& report;
 
   /// Adds a line to the history and shows it; false if the observer asks to stop.
   bool record(Iteration line, const Iterate& at) const;
-  /// Copies `point` to the best iterate if it is lower, or if it is the `solution`: the reference
-  /// norm may vary, so that a point which meets the tolerance need not have the lowest norm.
-  void keep_if_best(const Iterate& point, bool solution) const;
-  /// z = P r, counted.
-  void precondition(const Vector& r, Vector& z) const;
+  /// Makes base, just reached by a step of the given norm, the solver's own: tells the residual,
+  /// keeps it if it is the best, writes the line.
+  [[nodiscard]] Ending accept_base(const Iteration& line) const;
+  /// Goes back to the best point.
+  void return_to_best() const;
+  /// Evaluations so far.
+  [[nodiscard]] int evaluations() const { return report.counts.total(); }
 };
 
-/// Up to `max_steps` inexact Newton steps from the best iterate.
-[[nodiscard]] Ending newton_phase(Solve& solve, int max_steps);
+/// The linear system of a Newton or pseudo-transient step: (J + shift I) du = -F at work.base.
+struct LinearSolution {
+  Ending ending = Ending::go_on;
+  bool gmres = false;  ///< work.gmres knows the space
+};
+[[nodiscard]] LinearSolution find_direction(Solve& solve, double eta, double shift,
+                                            Iteration& line);
 
-/// Multisecant iterations from the best iterate, until patience is lost.
-[[nodiscard]] Ending multisecant_phase(Solve& solve, int max_iterations);
+/// Shortens work.direction until ||F|| falls enough; the accepted point becomes work.base.
+[[nodiscard]] Ending globalise(Solve& solve, bool gmres, Iteration& line);
+
+/// Whether the noise has still to be measured if anything looks like it.
+[[nodiscard]] inline bool may_measure_noise(const Solve& solve) {
+  return solve.options.jacobian.measure_noise && !solve.course.noise_measured &&
+         solve.evaluator.differences();
+}
+
+/// Measures the noise of F near work.best and sets b by it; false if that told nothing new.
+[[nodiscard]] bool adapt_to_noise(Solve& solve, Ending& ending);
+
+/// One iteration of each stage.
+[[nodiscard]] Ending multisecant_step(Solve& solve);
+[[nodiscard]] Ending newton_step(Solve& solve);
+[[nodiscard]] Ending pseudo_transient_step(Solve& solve);
+
+/// The beginning of each stage, from the best point.
+void begin_multisecant(Solve& solve);
+void begin_newton(Solve& solve, int steps);
+/// The same from the first point, by line searches.
+void begin_newton_afresh(Solve& solve, int steps);
+void begin_pseudo_transient(Solve& solve);
+
+/// Begins the first stage.
+void begin_schedule(Solve& solve);
+/// One iteration of the present stage and the choice of the next; go_on unless the solve ends.
+[[nodiscard]] Ending advance(Solve& solve);
 
 }  // namespace jfnk::detail

@@ -55,6 +55,7 @@ TEST(Domain, MultisecantBacksOffTowardsTheBestPoint) {
   };
   Options options;
   options.method = Method::multisecant;
+  options.multisecant.scale_mixing = false;
   Vector u = Vector::Ones(1);
   const Report report = solve(F, u, options);
   EXPECT_TRUE(report.converged()) << report.reason;
@@ -172,8 +173,11 @@ TEST(Domain, DecliningToLineariseIsReported) {
     bool linearise(const Vector&) { return false; }
     void apply_jacobian(const Vector& v, Vector& Jv) const { Jv = v; }
   };
+  Options options = jfnk::newton_krylov();
+  options.stagnation.restart = false;
+  options.pseudo_transient.enabled = false;
   Vector u = Vector::Ones(2);
-  const Report report = solve(Declining{}, u);
+  const Report report = solve(Declining{}, u, options);
   EXPECT_EQ(report.status, Status::linearisation_failed);
   EXPECT_EQ(report.counts.linearisations, 1);
   EXPECT_EQ(report.counts.user_actions, 0);

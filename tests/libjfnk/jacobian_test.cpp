@@ -13,9 +13,12 @@ using jfnk::Counts;
 using jfnk::Evaluation;
 using jfnk::Jacobian;
 using jfnk::Options;
+using jfnk::PreconditionerRef;
 using jfnk::ResidualRef;
 using jfnk::Vector;
 using jfnk::detail::Evaluator;
+using jfnk::detail::EvaluatorState;
+using jfnk::detail::EvaluatorVectors;
 using jfnk::detail::Iterate;
 using jfnk::detail::Outcome;
 
@@ -28,8 +31,9 @@ class About {
   About(F& f, const Vector& u, const Options& options)
       : options_(options),
         residual_(f),
-        probe_(u.size()),
-        evaluator_(residual_, options_, counts, probe_) {
+        evaluator_(residual_, preconditioner_, options_, counts, vectors_, state_) {
+    vectors_.probe.resize(u.size());
+    state_.noise = options.jacobian.noise;
     base_.resize(u.size());
     base_.u = u;
     start = evaluator_.evaluate_start(base_);
@@ -43,7 +47,9 @@ class About {
  private:
   Options options_;
   ResidualRef residual_;
-  Vector probe_;
+  PreconditionerRef preconditioner_;
+  EvaluatorVectors vectors_;
+  EvaluatorState state_;
   Iterate base_;
   Evaluator evaluator_;
 };

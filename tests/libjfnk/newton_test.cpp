@@ -28,7 +28,7 @@ TEST(Newton, LinearProblemTakesOneStepOfTheAccuracyAsked) {
     r = jfnk_test::laplacian(4) * u;
     r.array() -= 1.0;
   };
-  Options options;
+  Options options = jfnk::newton_krylov();
   options.krylov.forcing.rule = Forcing::Rule::constant;
   options.krylov.forcing.initial = 1e-7;
   Vector u = Vector::Zero(16);
@@ -42,7 +42,7 @@ TEST(Newton, LinearProblemTakesOneStepOfTheAccuracyAsked) {
 TEST(Newton, ConvergesQuadraticallyWithAccurateDirections) {
   jfnk_test::BratuWithJacobian bratu(16, 6.0);
   const jfnk_test::CholeskyPreconditioner P(jfnk_test::laplacian(16));
-  Options options;
+  Options options = jfnk::newton_krylov();
   options.krylov.forcing.rule = Forcing::Rule::constant;
   options.krylov.forcing.initial = 1e-10;
   options.krylov.forcing.end_game = 0.0;
@@ -57,7 +57,7 @@ TEST(Newton, ConvergesQuadraticallyWithAccurateDirections) {
 
 TEST(Newton, ConstantForcingConvergesLinearlyAtItsRate) {
   jfnk_test::BratuWithJacobian bratu(16, 6.0);
-  Options options;
+  Options options = jfnk::newton_krylov();
   options.krylov.forcing.rule = Forcing::Rule::constant;
   options.krylov.forcing.initial = 0.1;
   options.tolerances.relative = 1e-8;
@@ -74,14 +74,14 @@ TEST(Newton, ConstantForcingConvergesLinearlyAtItsRate) {
 
 TEST(Newton, EisenstatWalkerSavesActionsAgainstTightForcing) {
   jfnk_test::BratuWithJacobian bratu(24, 6.0);
-  Options tight;
+  Options tight = jfnk::newton_krylov();
   tight.krylov.forcing.rule = Forcing::Rule::constant;
   tight.krylov.forcing.initial = 1e-6;
   tight.krylov.forcing.end_game = 0.0;
   Vector u = Vector::Zero(bratu.size());
   const Report exact = solve(bratu, u, tight);
   u.setZero();
-  const Report inexact = solve(bratu, u);
+  const Report inexact = solve(bratu, u, jfnk::newton_krylov());
   ASSERT_TRUE(exact.converged());
   ASSERT_TRUE(inexact.converged());
   EXPECT_LT(inexact.counts.total(), exact.counts.total());
@@ -93,7 +93,7 @@ TEST(Newton, LaplacianMakesKrylovIterationsIndependentOfTheMesh) {
     const jfnk_test::Bratu bratu(m, 6.0);
     const jfnk_test::CholeskyPreconditioner P(jfnk_test::laplacian(m));
     Vector u = Vector::Zero(bratu.size());
-    const Report report = solve(bratu, u, Options{}, P);
+    const Report report = solve(bratu, u, jfnk::newton_krylov(), P);
     ASSERT_TRUE(report.converged());
     if (m == 16) coarse = report.krylov_iterations;
     EXPECT_LE(report.krylov_iterations, coarse + 2) << m;
@@ -103,7 +103,7 @@ TEST(Newton, LaplacianMakesKrylovIterationsIndependentOfTheMesh) {
 TEST(Newton, DifferencesAndExactActionsFindTheSameBratuSolution) {
   jfnk_test::BratuWithJacobian exact(20, 6.0);
   const jfnk_test::Bratu differences(20, 6.0);
-  Options options;
+  Options options = jfnk::newton_krylov();
   options.tolerances.relative = 1e-10;
   Vector a = Vector::Zero(exact.size());
   Vector b = a;
@@ -117,7 +117,7 @@ TEST(Newton, DifferencesAndExactActionsFindTheSameBratuSolution) {
 TEST(Newton, HEquationHasItsKnownMean) {
   for (const double c : {0.5, 0.9, 0.999}) {
     const jfnk_test::HEquation F(100, c);
-    Options options;
+    Options options = jfnk::newton_krylov();
     options.tolerances.relative = 1e-11;
     Vector u = Vector::Ones(F.size());
     const Report report = solve(F, u, options);
@@ -129,7 +129,7 @@ TEST(Newton, HEquationHasItsKnownMean) {
 TEST(Newton, HEquationConvergesToItsDoubleRoot) {
   const jfnk_test::HEquation F(100, 1.0);
   Vector u = Vector::Ones(F.size());
-  Options options;
+  Options options = jfnk::newton_krylov();
   options.tolerances.relative = 1e-8;
   const Report report = solve(F, u, options);
   ASSERT_TRUE(report.converged()) << report.reason;
@@ -144,7 +144,7 @@ TEST(Newton, SolvesRosenbrockFromTheStandardStart) {
       u[i] = -1.2;
       u[i + 1] = 1.0;
     }
-    Options options;
+    Options options = jfnk::newton_krylov();
     options.tolerances.relative = 1e-8;
     const Report report = solve(jfnk_test::Rosenbrock{}, u, options);
     ASSERT_TRUE(report.converged()) << report.reason;
@@ -168,7 +168,7 @@ TEST(Newton, SolvesPowellBadlyScaledWithTightForcing) {
   };
   Vector u(2);
   u << 0, 1;
-  Options options;
+  Options options = jfnk::newton_krylov();
   options.tolerances.relative = 1e-10;
   options.krylov.forcing.rule = Forcing::Rule::constant;
   options.krylov.forcing.initial = 1e-6;
@@ -188,7 +188,7 @@ TEST(Newton, SolvesBroydenTridiagonal) {
     }
   };
   Vector u = Vector::Constant(200, -1.0);
-  Options options;
+  Options options = jfnk::newton_krylov();
   options.tolerances.relative = 1e-9;
   const Report report = solve(F, u, options);
   ASSERT_TRUE(report.converged()) << report.reason;
@@ -215,7 +215,7 @@ TEST(Newton, InconsistentSystemIsNeverASuccess) {
   const auto F = [](const Vector& u, Vector& r) { r = u.array().square() + 1.0; };
   for (const auto method :
        {jfnk::Method::newton_krylov, jfnk::Method::multisecant, jfnk::Method::hybrid}) {
-    Options options;
+    Options options = jfnk::newton_krylov();
     options.method = method;
     options.max_evaluations = 2000;
     Vector u = Vector::Constant(5, 1.7);

@@ -46,12 +46,27 @@ const Bad bad_options[] = {
      [](Options& o) { o.jacobian.step = jfnk::Jacobian::Step::length_scale; }},
     {"jacobian.max_attempts", [](Options& o) { o.jacobian.max_attempts = 0; }},
     {"multisecant.memory", [](Options& o) { o.multisecant.memory = 0; }},
-    {"multisecant.patience", [](Options& o) { o.multisecant.patience = 0; }},
+    {"multisecant.patience", [](Options& o) { o.multisecant.patience = -1; }},
     {"multisecant.progress", [](Options& o) { o.multisecant.progress = 1.1; }},
     {"multisecant.rejection", [](Options& o) { o.multisecant.rejection = 1.0; }},
     {"multisecant.mixing", [](Options& o) { o.multisecant.mixing = 0.0; }},
     {"multisecant.max_condition", [](Options& o) { o.multisecant.max_condition = 1e16; }},
     {"multisecant.max_cuts", [](Options& o) { o.multisecant.max_cuts = -1; }},
+    {"multisecant.wild", [](Options& o) { o.multisecant.wild = 1.0; }},
+    {"multisecant.wild_patience", [](Options& o) { o.multisecant.wild_patience = 0; }},
+    {"globalisation.greatest_cut", [](Options& o) { o.globalisation.greatest_cut = 1.0; }},
+    {"globalisation.least_cut", [](Options& o) { o.globalisation.least_cut = 0.6; }},
+    {"globalisation.window", [](Options& o) { o.globalisation.window = 11; }},
+    {"stagnation.window", [](Options& o) { o.stagnation.window = 1; }},
+    {"stagnation.left", [](Options& o) { o.stagnation.left = 1.5; }},
+    {"pseudo_transient.max_steps", [](Options& o) { o.pseudo_transient.max_steps = 0; }},
+    {"pseudo_transient.gain", [](Options& o) { o.pseudo_transient.gain = nan; }},
+    {"setup_cost", [](Options& o) { o.setup_cost = -1.0; }},
+    {"u_scale[1]", [](Options& o) { o.u_scale = Eigen::Vector2d(1.0, 0.0); }},
+    {"f_scale[0]", [](Options& o) { o.f_scale = Eigen::Vector2d(nan, 1.0); }},
+    {"lower and upper", [](Options& o) { o.lower = Eigen::Vector2d(nan, 1.0); }},
+    {"lower", [](Options& o) { o.lower = o.upper = Eigen::Vector2d(0.0, 1.0); }},
+    {"hybrid.back_off", [](Options& o) { o.hybrid.back_off = 0.5; }},
     {"hybrid.rounds", [](Options& o) { o.hybrid.rounds = 0; }},
     {"hybrid.newton_steps", [](Options& o) { o.hybrid.newton_steps = 0; }},
     {"hybrid.final_newton_steps", [](Options& o) { o.hybrid.final_newton_steps = -1; }},
@@ -61,6 +76,8 @@ TEST(Options, PresetsAndDefaultsAreValid) {
   EXPECT_TRUE(jfnk::validate(Options{}).empty());
   EXPECT_TRUE(jfnk::validate(jfnk::appendix_a()).empty());
   EXPECT_TRUE(jfnk::validate(jfnk::hybrid()).empty());
+  EXPECT_TRUE(jfnk::validate(jfnk::newton_krylov()).empty());
+  EXPECT_TRUE(jfnk::validate(jfnk::plasticity()).empty());
 }
 
 TEST(Options, EachBadValueGivesOneMessageThatNamesIt) {
@@ -70,7 +87,7 @@ TEST(Options, EachBadValueGivesOneMessageThatNamesIt) {
     const auto messages = jfnk::validate(options);
     ASSERT_EQ(messages.size(), 1u) << bad.field;
     EXPECT_EQ(messages.front().rfind(bad.field, 0), 0u) << messages.front();
-    EXPECT_NE(messages.front().find("must be"), std::string::npos) << messages.front();
+    EXPECT_NE(messages.front().find("must "), std::string::npos) << messages.front();
   }
 }
 

@@ -68,8 +68,8 @@ void PowellSingular::operator()(const Vector& u, Vector& r) const {
   r[3] = std::sqrt(10.0) * (u[0] - u[3]) * (u[0] - u[3]);
 }
 
-PlasticTruss::PlasticTruss(int columns, int rows, double yield)
-    : columns_(columns), rows_(rows), yield_(yield) {
+PlasticTruss::PlasticTruss(int columns, int rows, double yield, double hardening)
+    : columns_(columns), rows_(rows), yield_(yield), hardening_(hardening) {
   const int nodes = (columns + 1) * (rows + 1);
   index_.assign(2 * static_cast<std::size_t>(nodes), 0);
   for (int node = 0; node < nodes; ++node) {
@@ -119,7 +119,9 @@ Evaluation PlasticTruss::operator()(const Vector& u, Vector& r) {
   r.setZero();
   double reaction = 0.0;
   for (const Bar& bar : bars_) {
-    const double force = std::clamp(strain(u, bar) - bar.plastic, -yield_, yield_);
+    const double elastic = strain(u, bar) - bar.plastic;
+    const double yielded = std::clamp(elastic, -yield_, yield_);
+    const double force = yielded + hardening_ * (elastic - yielded);
     const double f[2] = {force * bar.nx, force * bar.ny};
     for (int axis = 0; axis < 2; ++axis) {
       const int a = index_[static_cast<std::size_t>(2 * bar.a + axis)];

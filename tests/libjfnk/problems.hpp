@@ -80,8 +80,9 @@ struct PowellSingular {
 /// on only by `accept`.
 class PlasticTruss {
  public:
-  /// columns x rows cells of unit size, Young's modulus 1, yield strain `yield`.
-  PlasticTruss(int columns, int rows, double yield);
+  /// columns x rows cells of unit size, Young's modulus 1, yield strain `yield`; beyond it the
+  /// force grows by `hardening` times the strain (only for one step from rest).
+  PlasticTruss(int columns, int rows, double yield, double hardening = 0.0);
   [[nodiscard]] int size() const { return free_; }
   /// Prescribed sideways displacement of the top from here on.
   void push(double displacement) { push_ = displacement; }
@@ -108,6 +109,7 @@ class PlasticTruss {
   int columns_;
   int rows_;
   double yield_;
+  double hardening_;
   double push_ = 0.0;
   int free_ = 0;
   double reaction_norm_ = 0.0;

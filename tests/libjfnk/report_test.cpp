@@ -54,7 +54,7 @@ TEST(Report, NamesTheWorstComponent) {
   const Report report = solve(F, u, options);
   EXPECT_EQ(report.worst_component, 2);
   EXPECT_TRUE(contains(report.reason, "max_evaluations = 1 is used up")) << report.reason;
-  EXPECT_TRUE(contains(report.reason, "largest in component 2")) << report.reason;
+  EXPECT_TRUE(contains(report.reason, "largest in component 2 (50)")) << report.reason;
 }
 
 TEST(Report, LineSearchFailureOfAWrongJacobianPointsToIt) {
@@ -63,8 +63,12 @@ TEST(Report, LineSearchFailureOfAWrongJacobianPointsToIt) {
     void linearise(const Vector&) {}
     void apply_jacobian(const Vector& v, Vector& Jv) const { Jv = -v; }
   };
+  Options options = jfnk::newton_krylov();
+  options.globalisation.rule = jfnk::Globalisation::Rule::backtracking;
+  options.stagnation.restart = false;
+  options.pseudo_transient.enabled = false;
   Vector u = Vector::Ones(2);
-  const Report report = solve(Wrong{}, u);
+  const Report report = solve(Wrong{}, u, options);
   EXPECT_EQ(report.status, Status::line_search_failed);
   EXPECT_EQ(report.counts.line_search, Options{}.globalisation.max_cuts);
   EXPECT_TRUE(contains(report.reason, "check the Jacobian action")) << report.reason;
@@ -73,7 +77,7 @@ TEST(Report, LineSearchFailureOfAWrongJacobianPointsToIt) {
 
 TEST(Report, ExhaustedIterationsNameTheOptionToRaise) {
   const jfnk_test::Bratu bratu(10, 6.0);
-  Options options;
+  Options options = jfnk::newton_krylov();
   options.max_iterations = 1;
   options.tolerances.relative = 1e-12;
   Vector u = Vector::Zero(bratu.size());
@@ -82,9 +86,11 @@ TEST(Report, ExhaustedIterationsNameTheOptionToRaise) {
   EXPECT_TRUE(contains(newton.reason, "raise max_iterations")) << newton.reason;
   EXPECT_LT(newton.residual_norm, newton.initial_residual_norm);
 
-  options = jfnk::hybrid();
+  options = jfnk::plasticity();
   options.tolerances.relative = 1e-12;
-  options.hybrid = {1, 1, 0};
+  options.hybrid.rounds = 1;
+  options.hybrid.newton_steps = 1;
+  options.hybrid.final_newton_steps = 0;
   options.multisecant.patience = 1;
   u.setConstant(1.0);
   const Report hybrid = solve(bratu, u, options);
@@ -94,7 +100,7 @@ TEST(Report, ExhaustedIterationsNameTheOptionToRaise) {
 
 TEST(Report, FailureReturnsTheBestPointMet) {
   // The step tolerance cannot be met before the schedule ends; the residual falls all the same.
-  Options options;
+  Options options = jfnk::newton_krylov();
   options.tolerances.step = 1e-15;
   options.max_iterations = 4;
   Vector u(2);

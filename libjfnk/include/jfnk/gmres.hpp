@@ -33,6 +33,8 @@ struct GmresOptions {
   /// Store the preconditioned vectors so that P may vary from call to call (Saad 1993); otherwise
   /// P is applied once more at the end of each cycle.
   bool flexible = false;
+  /// Unknowns on all processes together, for a distributed A; 0: those of b.
+  Eigen::Index global_size = 0;
 };
 
 /// All that is wrong with `options`, one sentence each; empty if usable.
@@ -82,6 +84,34 @@ class Gmres {
   GmresResult solve(const OperatorRef& A, const Vector& b, Vector& x, const GmresOptions& options,
                     const PreconditionerRef& P = {}, const InnerProductRef& product = {});
 
+  /// Whether the last `solve` was a single cycle from x = 0, so that `shorten` knows its space.
+  [[nodiscard]] bool can_shorten() const { return can_shorten_; }
+  /// Length of the last solution in the Krylov space, ||P^-1 x||; only if `can_shorten()`.
+  [[nodiscard]] double length() const { return length_; }
+  /// x on the dogleg path of the last solve at ||P^-1 x|| = length: from the steepest descent of
+  /// ||b - A x|| to its solution, both in the Krylov space (Powell 1970). Applies P once unless it
+  /// is stored, never A. No allocation.
+  /// @return ||b - A x|| there, by the Arnoldi relation
+  double shorten(double length, const PreconditionerRef& P, Vector& x);
+
+  /// Hands out the space of the last solve as A Z = Q R: `take(z, q, r)` is called for each column,
+  /// r being the column of R down to its diagonal, until it returns false. Applies P to every
+  /// column unless that is stored. The space is used up. Only if `can_shorten()`.
+  template <class Take>
+  void hand_out_space(const PreconditionerRef& P, Take&& take) {
+    can_shorten_ = false;
+    work_ = basis_.front();
+    for (int j = 0; j < columns_; ++j) {
+      rotate_basis(j);
+      const Vector& z = column_of_space(j, P);
+      if (!take(z, std::as_const(basis_[static_cast<std::size_t>(j)]),
+                triangle_.col(j).head(j + 1))) {
+        break;
+      }
+      work_.swap(next_);
+    }
+  }
+
   /// Applications of the preconditioner by the last `solve`.
   [[nodiscard]] int preconditioner_applications() const { return preconditioner_applications_; }
 
@@ -96,18 +126,29 @@ class Gmres {
                   const GmresOptions& options, int allowed, double target);
   double orthogonalise(int k, const InnerProductRef& product);
   void rotate_column(int k, double subdiagonal);
-  void add_correction(int columns, const PreconditionerRef& P, bool flexible, Vector& x);
+  const Vector& column_of_space(int j, const PreconditionerRef& P);
+  void rotate_basis(int j);
+  void solve_triangle(int columns);
+  void add_combination(int columns, const Eigen::VectorXd& coefficients, const PreconditionerRef& P,
+                       Vector& x);
   void residual_from_recurrence(int columns);
 
   std::vector<Vector> basis_;
   std::vector<Vector> preconditioned_;
   Vector work_;
   Vector direction_;
+  Vector next_;
   Eigen::MatrixXd triangle_;
   Eigen::VectorXd cosines_;
   Eigen::VectorXd sines_;
   Eigen::VectorXd rhs_;
   Eigen::VectorXd coefficients_;
+  Eigen::VectorXd descent_;
+  Eigen::VectorXd path_;
+  int columns_ = 0;  // of the last cycle
+  bool flexible_ = false;
+  bool can_shorten_ = false;
+  double length_ = 0.0;
   double residual_norm_ = 0.0;
   int preconditioner_applications_ = 0;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -7,8 +8,8 @@ namespace jfnk {
 
 /// The nonlinear strategy.
 enum class Method {
-  newton_krylov,  ///< inexact Newton, directions by GMRES, globalised by backtracking
-  multisecant,    ///< preconditioned Anderson iteration, one residual per iteration
+  newton_krylov,  ///< inexact Newton, directions by a Krylov solver, globalised
+  multisecant,    ///< (preconditioned) Anderson iteration, one residual per iteration
   hybrid          ///< rounds of multisecant rescued by Newton steps, then Newton alone
 };
 
@@ -45,6 +46,11 @@ struct Forcing {
 
 /// The linear solver of a Newton step.
 struct Krylov {
+  enum class Solver {
+    gmres,    ///< lowest residual of the space; memory grows with the iterations
+    bicgstab  ///< fixed memory, two Jacobian actions per iteration (van der Vorst 1992)
+  };
+  Solver solver = Solver::gmres;
   /// Columns kept before a restart; memory is restart + 1 vectors, of which only those used are
   /// touched. A restart below what a system needs costs several times the actions. Range [1, inf).
   int restart = 200;
@@ -56,18 +62,33 @@ struct Krylov {
   Forcing forcing;
 };
 
-/// Backtracking along a Newton direction: u + lambda du, lambda = 1, factor, factor^2, ...
+/// How a Newton direction du is shortened until ||F|| falls.
 struct Globalisation {
-  /// lambda *= factor after a trial that did not reduce ||F|| enough (Chen, Huang & Lyamin 2020,
-  /// Table A1). Range (0, 1).
+  enum class Rule {
+    backtracking,  ///< u + lambda du, lambda = 1, factor, factor^2, ...
+    parabola,      ///< lambda at the lowest point of the parabola through what is known of ||F||^2,
+                   ///< kept between least_cut and greatest_cut of the last (Dennis & Schnabel 1983)
+    dogleg         ///< within a radius, from the steepest descent of the linear model in the Krylov
+            ///< space to its solution (Powell 1970; Brown & Saad 1990); lines after a restart
+  };
+  Rule rule = Rule::dogleg;
+  /// backtracking: lambda *= factor after a trial that did not reduce ||F|| enough (Chen, Huang &
+  /// Lyamin 2020, Table A1). Range (0, 1).
   double factor = 0.8;
-  /// lambda *= domain_factor after a trial out of the domain of F. Range (0, 1).
+  /// parabola and dogleg: the shortest new step over the last. Range (0, greatest_cut].
+  double least_cut = 0.1;
+  /// parabola and dogleg: the longest new step over the last. Range [least_cut, 1).
+  double greatest_cut = 0.5;
+  /// The step is cut by this after a trial out of the domain of F. Range (0, 1).
   double domain_factor = 0.5;
   /// Trials after the first before the search is given up. Range [0, inf).
   int max_cuts = 40;
-  /// Accept if ||F(u + lambda du)|| <= (1 - sufficient_decrease lambda (1 - eta)) ||F(u)||
+  /// Accept if ||F(u + s)|| <= (1 - sufficient_decrease (1 - rho)) m, rho = ||F + J s|| / ||F||
   /// (Eisenstat & Walker 1994); 0 is the simple decrease of the paper. Range [0, 1).
   double sufficient_decrease = 1e-4;
+  /// m above is the highest of the last `window` norms: 1 is monotone, 5 suits semismooth
+  /// residuals (Grippo, Lampariello & Lucidi 1986). Range [1, 10].
+  int window = 1;
 };
 
 /// Where the products J v come from.
@@ -92,24 +113,40 @@ struct Jacobian {
   /// Evaluations tried at one v when F(u + eps v) is out of domain: the sign flips first, then eps
   /// shrinks tenfold. Range [1, inf).
   int max_attempts = 6;
+  /// When no step reduces ||F||, measure the noise of F once per solve (ECNoise, Moré & Wild 2011)
+  /// and go on with the b that fits it. Costs about ten evaluations.
+  bool measure_noise = true;
 };
 
-/// Preconditioned Anderson iteration on the true residual.
+/// Anderson iteration on the true residual. Without a preconditioner and with a memory as long as a
+/// Krylov space it is GMRES that corrects its linearisation at every vector.
 struct Multisecant {
-  /// Pairs (du, dF) kept: memory is twice that many vectors. Range [1, inf).
-  int memory = 20;
+  /// Pairs (du, dF) kept: memory is twice that many vectors, of which only those used are touched.
+  /// Range [1, inf).
+  int memory = 200;
   /// Given up after this many evaluations in which the best ||F|| did not fall below
-  /// progress times its value at the last such fall. Range [1, inf).
-  int patience = 10;
+  /// progress times its value at the last such fall; 0 stands for 20 without and 10 with a
+  /// preconditioner. Range [0, inf).
+  int patience = 0;
   /// See patience; 1 accepts any improvement. Range (0, 1].
-  double progress = 1.0;
+  double progress = 0.9;
+  /// Given up as well after `wild_patience` points in a row with ||F|| > wild * best ||F||. Range
+  /// (1, inf).
+  double wild = 3.0;
+  /// See wild. Range [1, inf).
+  int wild_patience = 6;
   /// A point with ||F|| > rejection * best ||F|| is left for the best one. Range (1, inf).
   double rejection = 30.0;
   /// Factor of the preconditioned remainder, u -= mixing P (F - dF gamma). Range (0, 1].
   double mixing = 1.0;
+  /// Without a preconditioner, multiply `mixing` by the step length along F that is best for the
+  /// linear model; costs one Jacobian action at the start.
+  bool scale_mixing = true;
   /// Oldest pairs are dropped until the unit columns of dF have a condition estimate below this.
   /// Range (1, 1e15].
-  double max_condition = 1e8;
+  double max_condition = 1e4;
+  /// After Newton steps begin with the Krylov space of the last one instead of the pairs of before.
+  bool renew = true;
   /// Halvings towards the best point after leaving the domain of F. Range [0, inf).
   int max_cuts = 10;
 };
@@ -117,23 +154,56 @@ struct Multisecant {
 /// The schedule of Method::hybrid.
 struct Hybrid {
   /// Rounds of multisecant followed by Newton. Range [1, inf).
-  int rounds = 6;
-  /// Newton steps per round. Range [1, inf).
-  int newton_steps = 3;
+  int rounds = 12;
+  /// Newton steps of the first round. Range [1, inf).
+  int newton_steps = 1;
+  /// Newton steps of a round over those of the round before. Range [1, inf).
+  double back_off = 2.0;
   /// Newton steps after the last round. Range [0, inf).
-  int final_newton_steps = 12;
+  int final_newton_steps = 100;
+};
+
+/// When Newton stands still or finds no step any more.
+struct Stagnation {
+  /// Newton stands still when this many steps together ... Range [2, inf).
+  int window = 8;
+  /// ... have left more than this of ||F||; 1 means never. Range (0, 1].
+  double left = 0.8;
+  /// Once per solve, begin again at the first u by Newton steps with a line search.
+  bool restart = true;
+};
+
+/// When that fails too: implicit steps of du/dt = -F with a time step that grows as ||F|| falls
+/// (Kelley & Keyes 1998).
+struct PseudoTransient {
+  /// Off: the failure is reported at once.
+  bool enabled = true;
+  /// Steps before it is given up, once per solve. Range [1, inf).
+  int max_steps = 60;
+  /// Back to Newton when ||F|| <= gain times its value at the failure. Range (0, 1).
+  double gain = 0.1;
 };
 
 /// When `setup(u)` of a preconditioner is called, if it has one.
 enum class PreconditionerSetup {
-  at_start,          ///< once per solve, at the first u
-  every_newton_step  ///< before the linear system of each Newton step (and at the first u)
+  at_start,           ///< once per solve, at the first u
+  every_newton_step,  ///< before the linear system of each Newton step (and at the first u)
+  when_it_pays        ///< at the first u, and when the gain per evaluation has fallen so far below
+                      ///< that after the last setup that `setup_cost` would be earned back
 };
 
-/// All choices of a solve. Plain Newton-Krylov unless changed.
+/// All choices of a solve.
 struct Options {
-  Method method = Method::newton_krylov;
+  Method method = Method::hybrid;
   Tolerances tolerances;
+  /// Typical size of each unknown; the solver works in u / u_scale. Empty: ones. Each > 0, finite.
+  Eigen::VectorXd u_scale = {};
+  /// Typical size of each residual; all norms are of F / f_scale. Empty: ones. Each > 0, finite.
+  Eigen::VectorXd f_scale = {};
+  /// Bounds that no step and no difference crosses; a step goes at most nine tenths of the way.
+  /// The first u must lie between them. Empty: none.
+  Eigen::VectorXd lower = {};
+  Eigen::VectorXd upper = {};
   /// Newton steps of newton_krylov, iterations of multisecant; hybrid has its own schedule.
   /// Range [1, inf).
   int max_iterations = 100;
@@ -144,7 +214,11 @@ struct Options {
   Jacobian jacobian;
   Multisecant multisecant;
   Hybrid hybrid;
-  PreconditionerSetup preconditioner_setup = PreconditionerSetup::at_start;
+  Stagnation stagnation;
+  PseudoTransient pseudo_transient;
+  PreconditionerSetup preconditioner_setup = PreconditionerSetup::when_it_pays;
+  /// Cost of one `setup`, in evaluations of F; see when_it_pays. Range [0, inf).
+  double setup_cost = 10.0;
 };
 
 /// All that is wrong with `options`, one sentence each with the field and its range; empty if
@@ -161,8 +235,14 @@ struct Options {
 [[nodiscard]] Options appendix_a(double residual_tolerance = 1e-6, double step_tolerance = 1e-6,
                                  int m_max = 20);
 
-/// The hybrid for residuals with a good preconditioner: multisecant rounds rescued by Newton steps
-/// of GMRES(60), eta = 0.3.
+/// The default, Method::hybrid, by name.
 [[nodiscard]] Options hybrid();
+
+/// The plain Newton-Krylov method: Method::newton_krylov, all else as it comes.
+[[nodiscard]] Options newton_krylov();
+
+/// The hybrid for load steps of plasticity with a good preconditioner: six rounds of multisecant
+/// with 20 pairs, each rescued by three Newton steps of GMRES(60), eta = 0.3, cut by 0.8.
+[[nodiscard]] Options plasticity();
 
 }  // namespace jfnk

@@ -13,18 +13,21 @@ enum class Status {
   max_iterations,        ///< the schedule of iterations was used up; u updated if it improved
   evaluation_limit,      ///< max_evaluations was used up; u updated if it improved
   line_search_failed,    ///< no acceptable trial along the Newton direction; u updated if improved
+  stagnated,             ///< Newton steps hardly lower ||F|| any more; u updated if it improved
   krylov_stalled,        ///< the linear solve gave no direction; u updated if improved
   linearisation_failed,  ///< the residual's own `linearise` declined; u updated if improved
   multisecant_stalled,   ///< multisecant alone lost its patience; u updated if it improved
   out_of_domain_at_start,  ///< F could not be evaluated at the first u; u is unchanged
-  stopped                  ///< the residual or the observer asked to stop; u updated if improved
+  local_minimum,  ///< no direction lowers ||F||: J^T F = 0 but F is not; u updated if improved
+  in_progress,    ///< `step` has not yet come to an end
+  stopped         ///< the residual or the observer asked to stop; u updated if improved
 };
 
 /// The name of a status as written in the enum.
 [[nodiscard]] std::string_view to_string(Status status);
 
 /// Which part of the strategy made an iteration.
-enum class Phase { start, newton, multisecant };
+enum class Phase { start, newton, multisecant, pseudo_transient };
 
 /// The name of a phase as written in the enum.
 [[nodiscard]] std::string_view to_string(Phase phase);
@@ -51,6 +54,8 @@ struct Counts {
   int newton_trials = 0;          ///< residuals at full Newton steps
   int line_search = 0;            ///< residuals at cut steps, of Newton and of multisecant
   int multisecant = 0;            ///< residuals at full multisecant steps
+  int pseudo_transient = 0;       ///< residuals at pseudo-transient steps
+  int noise = 0;                  ///< residuals spent on measuring the noise of F
   int difference_actions = 0;     ///< residuals spent on J v
   int user_actions = 0;           ///< calls of the residual's `apply_jacobian`
   int linearisations = 0;         ///< calls of the residual's `linearise`
@@ -59,10 +64,17 @@ struct Counts {
 
   /// Residual evaluations of every purpose.
   [[nodiscard]] int residuals() const {
-    return start + newton_trials + line_search + multisecant + difference_actions;
+    return start + newton_trials + line_search + multisecant + pseudo_transient + noise +
+           difference_actions;
   }
   /// What `Options::max_evaluations` bounds: residual evaluations and Jacobian actions.
   [[nodiscard]] int total() const { return residuals() + user_actions; }
+};
+
+/// One component of F.
+struct Component {
+  Eigen::Index index = -1;
+  double residual = 0.0;  ///< F_i, over f_scale_i if there are scales
 };
 
 /// What happened, why, and at what cost.
@@ -75,9 +87,13 @@ struct Report {
   double tolerance = 0.0;             ///< ||F|| that was asked: max(absolute, relative * reference)
   Eigen::Index worst_component = -1;  ///< of the largest |F_i|, or of the first that is not
                                       ///< finite at the start; -1 if unknown
+  std::vector<Component> worst;       ///< the three largest |F_i| of a failure, largest first
   int newton_iterations = 0;
   int multisecant_iterations = 0;
+  int pseudo_transient_steps = 0;
   int krylov_iterations = 0;
+  double last_linear_residual = 0.0;  ///< ||F + J du|| / ||F|| of the last linear solve
+  double measured_noise = 0.0;        ///< ||noise of F||, if it was measured; else 0
   Counts counts;
   std::vector<Iteration> history;  ///< the first entry is the first u
 

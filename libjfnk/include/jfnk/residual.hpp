@@ -76,6 +76,27 @@ concept HasInnerProduct = requires(const F& f, const Vector& a, const Vector& b)
   { f.dot(a, b) } -> std::convertible_to<double>;
 };
 
+/// A residual spread over processes: the number of unknowns on all of them together. Its `dot` must
+/// sum over all, and every process must return the same Evaluation.
+template <class F>
+concept HasGlobalSize = requires(const F& f) {
+  { f.global_size() } -> std::convertible_to<Eigen::Index>;
+};
+
+/// A residual that is told which points the solver made its own: `on_accept(u)` at the first u,
+/// after each accepted step, and when the solver goes back to an earlier point. What a residual
+/// remembers (loading or unloading, say) belongs here, never into its evaluation.
+template <class F>
+concept HasOnAccept = requires(F& f, const Vector& u) {
+  f.on_accept(u);
+};
+
+/// A residual that may change a step before it is tried: `filter_step(u, du)`.
+template <class F>
+concept HasStepFilter = requires(F& f, const Vector& u, Vector& du) {
+  f.filter_step(u, du);
+};
+
 /// Non-owning view of an inner product; the Euclidean one when default constructed.
 class InnerProductRef {
  public:
@@ -122,6 +143,15 @@ class ResidualRef {
       reference_norm_ = [](void* o) { return static_cast<double>(restore<F>(o).reference_norm()); };
     }
     if constexpr (HasInnerProduct<F>) inner_product_ = InnerProductRef(std::as_const(f));
+    if constexpr (HasGlobalSize<F>) {
+      global_size_ = [](void* o) { return static_cast<Eigen::Index>(restore<F>(o).global_size()); };
+    }
+    if constexpr (HasOnAccept<F>) {
+      on_accept_ = [](void* o, const Vector& u) { restore<F>(o).on_accept(u); };
+    }
+    if constexpr (HasStepFilter<F>) {
+      filter_step_ = [](void* o, const Vector& u, Vector& du) { restore<F>(o).filter_step(u, du); };
+    }
   }
 
   /// F(u) into r.
@@ -140,6 +170,20 @@ class ResidualRef {
   [[nodiscard]] double reference_norm() const { return reference_norm_(object_); }
   /// The residual's inner product, or the Euclidean one.
   [[nodiscard]] const InnerProductRef& inner_product() const { return inner_product_; }
+  /// Whether the unknowns are spread over processes.
+  [[nodiscard]] bool is_distributed() const { return global_size_ != nullptr; }
+  /// Unknowns on all processes; `local` if the residual is not distributed.
+  [[nodiscard]] Eigen::Index global_size(Eigen::Index local) const {
+    return global_size_ == nullptr ? local : global_size_(object_);
+  }
+  /// Whether the residual wants to hear of accepted points.
+  [[nodiscard]] bool has_on_accept() const { return on_accept_ != nullptr; }
+  /// Tells it; only if `has_on_accept()`.
+  void on_accept(const Vector& u) const { on_accept_(object_, u); }
+  /// Whether the residual changes steps.
+  [[nodiscard]] bool has_step_filter() const { return filter_step_ != nullptr; }
+  /// Changes a step; only if `has_step_filter()`.
+  void filter_step(const Vector& u, Vector& du) const { filter_step_(object_, u, du); }
 
  private:
   template <class F>
@@ -156,6 +200,9 @@ class ResidualRef {
   Evaluation (*linearise_)(void*, const Vector&) = nullptr;
   Evaluation (*apply_jacobian_)(void*, const Vector&, Vector&) = nullptr;
   double (*reference_norm_)(void*) = nullptr;
+  Eigen::Index (*global_size_)(void*) = nullptr;
+  void (*on_accept_)(void*, const Vector&) = nullptr;
+  void (*filter_step_)(void*, const Vector&, Vector&) = nullptr;
   InnerProductRef inner_product_;
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "jfnk/options.hpp"
 #include "jfnk/preconditioner.hpp"
@@ -46,6 +48,13 @@ class ObserverRef {
   bool (*call_)(void*, const Iteration&);
 };
 
+/// All that a solve needs to go on, as plain numbers: two solvers with equal options, residual and
+/// preconditioner continue from equal snapshots bit for bit.
+struct Snapshot {
+  std::vector<std::int64_t> integers;
+  std::vector<double> reals;
+};
+
 /// Solves F(u) = 0, keeping its memory from one solve to the next.
 ///
 /// Nothing else is kept: a second solve gives bit for bit what a new Solver would. Distinct solvers
@@ -60,7 +69,8 @@ class Solver {
 
   /// The choices in force.
   [[nodiscard]] const Options& options() const;
-  /// Replaces them. @throws std::invalid_argument as the constructor
+  /// Replaces them, and forgets a solve in progress. @throws std::invalid_argument as the
+  /// constructor
   void set_options(const Options& options);
 
   /// Finds u with F(u) = 0.
@@ -71,16 +81,53 @@ class Solver {
   /// @param preconditioner  approximate inverse of the Jacobian
   /// @param observer  called after each nonlinear iteration
   /// @return valid until the next solve of this object
-  /// @throws std::invalid_argument if u is empty or the residual resizes its output
+  /// @throws std::invalid_argument if u is empty, sizes of options disagree with it, or the
+  /// residual
+  ///   resizes its output
   template <Residual F, Preconditioner P = Identity, Observer O = NoObserver>
   const Report& solve(F&& residual, Vector& u, P&& preconditioner = {}, O&& observer = {}) {
     return solve_erased(ResidualRef(residual), u, PreconditionerRef(preconditioner),
                         ObserverRef(observer));
   }
 
+  /// The same by hand: `start`, then `step` while it returns true, then `report` and `solution`.
+  /// `start` evaluates F at u and sets up the preconditioner.
+  /// @return whether there is anything left to do
+  template <Residual F, Preconditioner P = Identity, Observer O = NoObserver>
+  bool start(F&& residual, const Vector& u, P&& preconditioner = {}, O&& observer = {}) {
+    return start_erased(ResidualRef(residual), u, PreconditionerRef(preconditioner),
+                        ObserverRef(observer));
+  }
+
+  /// One nonlinear iteration. After an exception of a callable, begin again by `start`.
+  /// @return whether there is anything left to do; false as well if nothing was started
+  template <Residual F, Preconditioner P = Identity, Observer O = NoObserver>
+  bool step(F&& residual, P&& preconditioner = {}, O&& observer = {}) {
+    return step_erased(ResidualRef(residual), PreconditionerRef(preconditioner),
+                       ObserverRef(observer));
+  }
+
+  /// What has happened so far; `Status::in_progress` until `step` has returned false.
+  [[nodiscard]] const Report& report() const;
+
+  /// The iterate of the lowest ||F|| so far; empty before `start`.
+  [[nodiscard]] Vector solution() const;
+
+  /// The state between two steps.
+  [[nodiscard]] Snapshot save() const;
+
+  /// Continues from a saved state, under the options this solver has; the next call is `step`,
+  /// which sets up the preconditioner where it was set up last.
+  /// @throws std::invalid_argument if the snapshot is damaged or does not fit the options
+  void load(const Snapshot& snapshot);
+
  private:
   const Report& solve_erased(const ResidualRef& residual, Vector& u,
                              const PreconditionerRef& preconditioner, const ObserverRef& observer);
+  bool start_erased(const ResidualRef& residual, const Vector& u,
+                    const PreconditionerRef& preconditioner, const ObserverRef& observer);
+  bool step_erased(const ResidualRef& residual, const PreconditionerRef& preconditioner,
+                   const ObserverRef& observer);
 
   struct Memory;
   std::unique_ptr<Memory> memory_;

@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "strategy.hpp"
+
+namespace jfnk::detail {
+namespace {
+
+// Part of the predicted reduction below which the radius shrinks, and above which it grows (Dennis
+// & Schnabel 1983).
+constexpr double poor = 0.1;
+constexpr double good = 0.75;
+constexpr double radius_growth = 4.0;
+
+// Parabola and dogleg give up at this part of the full step: what is gained there is not progress.
+constexpr double least_fraction = 1e-6;
+
+/// What a trial must not exceed: the highest of the last norms.
+double yardstick(const Solve& solve) {
+  const Course& course = solve.course;
+  double highest = solve.work.base.norm;
+  for (int i = 0; i < course.last_norms_count; ++i) {
+    highest = std::max(highest, course.last_norms[static_cast<std::size_t>(i)]);
+  }
+  return highest;
+}
+
+void remember_norm(Solve& solve, double norm) {
+  Course& course = solve.course;
+  const int kept = solve.options.globalisation.window - 1;
+  if (kept <= 0) return;
+  auto& norms = course.last_norms;
+  for (int i = std::min(course.last_norms_count, kept - 1); i > 0; --i) {
+    norms[static_cast<std::size_t>(i)] = norms[static_cast<std::size_t>(i) - 1];
+  }
+  norms[0] = norm;
+  course.last_norms_count = std::min(course.last_norms_count + 1, kept);
+}
+
+/// Cut of a step by the parabola through ||F||^2 at its ends and its slope -2 ||F|| (||F|| -
+/// predicted) at the beginning.
+double parabola_cut(const Globalisation& rule, double norm, double predicted, double found) {
+  const double slope = -2.0 * norm * std::max(norm - predicted, 0.0);
+  const double excess = (found - norm) * (found + norm) - slope;
+  const double lowest = excess > 0.0 ? -0.5 * slope / excess : rule.greatest_cut;
+  return std::clamp(lowest, rule.least_cut, rule.greatest_cut);
+}
+
+Outcome look(Solve& solve, int cut) {
+  Workspace& work = solve.work;
+  return solve.evaluator.evaluate(work.trial,
+                                  cut == 0 ? &Counts::newton_trials : &Counts::line_search);
+}
+
+Ending refused(Outcome outcome) {
+  return outcome == Outcome::stopped ? Ending::stopped : Ending::limit;
+}
+
+void take_trial(Solve& solve, double fraction, Iteration& line) {
+  Workspace& work = solve.work;
+  remember_norm(solve, work.base.norm);
+  std::swap(work.base, work.trial);
+  line.step_length = fraction;
+}
+
+Ending search_line(Solve& solve, Iteration& line) {
+  Workspace& work = solve.work;
+  const Globalisation& rule = solve.options.globalisation;
+  solve.evaluator.filter(work.base.u, work.direction);
+  const double direction_norm = solve.evaluator.product().norm(work.direction);
+  const double rho = std::min(1.0, line.linear_residual);
+  const double gain = rule.sufficient_decrease * (1.0 - rho);
+  const double highest = yardstick(solve);
+  double lambda = 1.0;
+  for (int cut = 0; cut <= rule.max_cuts; ++cut) {
+    work.trial.u = work.base.u + lambda * work.direction;
+    const Outcome outcome = look(solve, cut);
+    if (outcome == Outcome::stopped || outcome == Outcome::limit) return refused(outcome);
+    if (outcome == Outcome::ok && work.trial.norm <= (1.0 - gain * lambda) * highest) {
+      take_trial(solve, lambda, line);
+      line.step_norm = lambda * direction_norm;
+      return Ending::go_on;
+    }
+    if (outcome != Outcome::ok) {
+      lambda *= rule.domain_factor;
+    } else if (rule.rule == Globalisation::Rule::backtracking) {
+      lambda *= rule.factor;
+    } else {
+      const double predicted = work.base.norm * (1.0 - lambda * (1.0 - rho));
+      lambda *= parabola_cut(rule, work.base.norm, predicted, work.trial.norm);
+      if (lambda < least_fraction) break;
+    }
+  }
+  return Ending::line_search_failed;
+}
+
+/// Like search_line, along the dogleg path of the Krylov space and within a radius that lives on.
+Ending search_dogleg(Solve& solve, Iteration& line) {
+  Workspace& work = solve.work;
+  Course& course = solve.course;
+  const Globalisation& rule = solve.options.globalisation;
+  const InnerProductRef& product = solve.evaluator.product();
+  const double full = work.gmres.length();
+  const double norm = work.base.norm;
+  const double highest = yardstick(solve);
+  double length = course.radius > 0.0 ? std::min(full, course.radius) : full;
+  double predicted = norm * std::min(1.0, line.linear_residual);
+  CountedPreconditioner counted{&solve.evaluator};
+  const PreconditionerRef P = counted.ref();
+  for (int cut = 0; cut <= rule.max_cuts; ++cut) {
+    if (length < full) predicted = work.gmres.shorten(length, P, work.direction);
+    solve.evaluator.filter(work.base.u, work.direction);
+    work.trial.u = work.base.u + work.direction;
+    const Outcome outcome = look(solve, cut);
+    if (outcome == Outcome::stopped || outcome == Outcome::limit) return refused(outcome);
+    const double hoped = std::max(norm - predicted, 0.0);
+    if (outcome == Outcome::ok && work.trial.norm <= highest - rule.sufficient_decrease * hoped) {
+      const double ratio = (norm - work.trial.norm) / hoped;
+      if (ratio < poor) {
+        course.radius = rule.greatest_cut * length;
+      } else if (ratio > good || cut == 0) {
+        course.radius = std::max(course.radius > 0.0 ? course.radius : full,
+                                 (ratio > good ? radius_growth : 1.0) * length);
+      } else {
+        course.radius = length;
+      }
+      line.step_norm = product.norm(work.direction);
+      take_trial(solve, length / full, line);
+      return Ending::go_on;
+    }
+    length *= outcome == Outcome::ok ? parabola_cut(rule, norm, predicted, work.trial.norm)
+                                     : rule.domain_factor;
+    course.radius = length;
+    if (length < least_fraction * full) break;
+  }
+  return Ending::line_search_failed;
+}
+
+}  // namespace
+
+Ending globalise(Solve& solve, bool gmres, Iteration& line) {
+  const bool dogleg =
+      solve.options.globalisation.rule == Globalisation::Rule::dogleg && !solve.course.by_lines;
+  return dogleg && gmres ? search_dogleg(solve, line) : search_line(solve, line);
+}
+
+}  // namespace jfnk::detail

@@ -1,0 +1,62 @@
+#include <cmath>
+
+#include "strategy.hpp"
+
+namespace jfnk::detail {
+namespace {
+
+Evaluation answer(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::ok:
+      return Evaluation::ok;
+    case Outcome::out_of_domain:
+      return Evaluation::out_of_domain;
+    default:
+      return Evaluation::stop;
+  }
+}
+
+}  // namespace
+
+LinearSolution find_direction(Solve& solve, double eta, double shift, Iteration& line) {
+  Workspace& work = solve.work;
+  Evaluator& evaluator = solve.evaluator;
+  const Outcome ready = evaluator.linearise(work.base);
+  if (ready == Outcome::stopped) return {Ending::stopped};
+  if (ready != Outcome::ok) return {Ending::linearisation_failed};
+
+  Outcome last = Outcome::ok;
+  auto action = [&](const Vector& v, Vector& Jv) {
+    last = evaluator.action(v, Jv);
+    if (last == Outcome::ok && shift != 0.0) Jv += shift * v;
+    return answer(last);
+  };
+  CountedPreconditioner counted{&evaluator};
+  const PreconditionerRef P = counted.ref();
+  GmresOptions linear;
+  linear.restart = solve.options.krylov.restart;
+  linear.max_iterations = solve.options.krylov.max_iterations;
+  linear.flexible = solve.options.krylov.flexible;
+  linear.relative_tolerance = eta;
+  linear.global_size = evaluator.residual().global_size(work.base.u.size());
+  work.step = -work.base.r;
+  work.direction.setZero();
+  const bool by_gmres = solve.options.krylov.solver == Krylov::Solver::gmres;
+  const GmresResult result =
+      by_gmres ? work.gmres.solve(OperatorRef(action), work.step, work.direction, linear, P,
+                                  evaluator.product())
+               : work.bicgstab.solve(OperatorRef(action), work.step, work.direction, linear, P,
+                                     evaluator.product());
+  solve.report.last_linear_residual = result.relative_residual;
+  line.forcing = eta;
+  line.linear_residual = result.relative_residual;
+  line.krylov_iterations = result.iterations;
+  solve.report.krylov_iterations += result.iterations;
+  if (last == Outcome::stopped) return {Ending::stopped};
+  if (last == Outcome::limit) return {Ending::limit};
+  const double length = evaluator.product().norm(work.direction);
+  if (!(length > 0.0) || !std::isfinite(length)) return {Ending::krylov_stalled};
+  return {Ending::go_on, by_gmres && work.gmres.can_shorten()};
+}
+
+}  // namespace jfnk::detail

@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <cmath>
+
+#include "noise_level.hpp"
+#include "strategy.hpp"
+
+// The difference step that balances noise against curvature (Moré & Wild 2012).
+namespace jfnk::detail {
+namespace {
+
+Outcome look(Solve& solve, double h) {
+  Workspace& work = solve.work;
+  work.trial.u = work.best.u + h * work.step;
+  if (!solve.evaluator.within_bounds(work.trial.u)) return Outcome::out_of_domain;
+  return solve.evaluator.evaluate(work.trial, &Counts::noise);
+}
+
+/// NoiseSamples at equal distances h about the best point; its own residual is known.
+Outcome sample(Solve& solve, double h, NoiseSamples& samples) {
+  const InnerProductRef& product = solve.evaluator.product();
+  for (int i = 0; i < noise_points; ++i) {
+    const int place = i - noise_points / 2;
+    if (place != 0) {
+      const Outcome outcome = look(solve, place * h);
+      if (outcome != Outcome::ok) return outcome;
+    }
+    project_sample(place == 0 ? solve.work.best.r : solve.work.trial.r, i, product,
+                   solve.work.direction, samples);
+  }
+  return Outcome::ok;
+}
+
+/// ||J d|| and ||F''|| along the unit direction d, over a distance at which noise does not reach
+/// them.
+struct Shape {
+  double slope = 0.0;
+  double bend = 0.0;
+};
+
+Outcome measure_shape(Solve& solve, double noise, double scale, Shape& shape) {
+  Workspace& work = solve.work;
+  const InnerProductRef& product = solve.evaluator.product();
+  const double h = std::pow(noise / std::max(work.best.norm, noise), 0.25) * scale;
+  Outcome outcome = look(solve, h);
+  if (outcome != Outcome::ok) return outcome;
+  work.direction = work.trial.r;
+  outcome = look(solve, -h);
+  if (outcome != Outcome::ok) return outcome;
+  work.direction -= work.trial.r;
+  shape.slope = product.norm(work.direction) / (2.0 * h);
+  work.direction += 2.0 * (work.trial.r - work.best.r);
+  shape.bend = product.norm(work.direction) / (h * h);
+  return outcome;
+}
+
+}  // namespace
+
+bool adapt_to_noise(Solve& solve, Ending& ending) {
+  // Three spans, as far as the noise is not seen in the first (Moré & Wild 2011, section 5).
+  constexpr int max_spans = 3;
+  constexpr double first_span = 1e-8;
+  constexpr double span_change = 100.0;
+  Workspace& work = solve.work;
+  const InnerProductRef& product = solve.evaluator.product();
+  solve.course.noise_measured = true;
+  random_direction(noise_projections, product, work.step);
+  const double scale = std::sqrt(1.0 + product.norm(work.best.u));
+  NoiseSamples samples{};
+  double noise = 0.0;
+  double h = first_span * scale;
+  for (int span = 0; span < max_spans; ++span) {
+    const Outcome outcome = sample(solve, h, samples);
+    if (outcome == Outcome::stopped || outcome == Outcome::limit) {
+      ending = outcome == Outcome::stopped ? Ending::stopped : Ending::limit;
+      return false;
+    }
+    const NoiseVerdict verdict =
+        outcome == Outcome::ok ? judge_noise(samples, noise) : NoiseVerdict::step_too_large;
+    if (verdict == NoiseVerdict::found) break;
+    h *= verdict == NoiseVerdict::step_too_small ? span_change : 1.0 / span_change;
+  }
+  if (!(noise > 0.0)) return false;
+  solve.report.measured_noise = noise;
+  Shape shape;
+  const Outcome outcome = measure_shape(solve, noise, scale, shape);
+  if (outcome == Outcome::stopped || outcome == Outcome::limit) {
+    ending = outcome == Outcome::stopped ? Ending::stopped : Ending::limit;
+    return false;
+  }
+  // Is noise the trouble at all? It must be seen in the Jacobian actions.
+  constexpr double harmless = 0.03;
+  EvaluatorState& state = work.evaluator_state;
+  if (outcome != Outcome::ok || noise < harmless * shape.slope * state.noise * scale) return false;
+  // A straight F bears any step; its rounding then asks for no more than a hundredth of 1 + ||u||.
+  constexpr double longest = 1e-2;
+  const double best =
+      shape.bend > 0.0 ? std::pow(8.0, 0.25) * std::sqrt(noise / shape.bend) : longest * scale;
+  const double b = std::min(best, longest * scale) / scale;
+  if (b <= state.noise) return false;
+  state.noise = b;
+  // What was learnt with the step of before is worth nothing.
+  work.secants.clear();
+  solve.course.mixing_known = false;
+  solve.course.radius = 0.0;
+  return true;
+}
+
+}  // namespace jfnk::detail

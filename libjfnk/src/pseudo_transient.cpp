@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "strategy.hpp"
+
+namespace jfnk::detail {
+namespace {
+
+// The first explicit step of the flow would change u by this part of 1 + ||u||.
+constexpr double first_change = 0.1;
+// A step that raises ||F|| more than this is made again, shorter.
+constexpr double greatest_rise = 2.0;
+constexpr double time_cut = 0.25;
+constexpr double steady_growth = 1.5;  // besides ||F_k-1|| / ||F_k||
+constexpr double greatest_growth = 10.0;
+constexpr int max_cuts = 12;
+constexpr double linear_tolerance = 0.1;
+
+}  // namespace
+
+void begin_pseudo_transient(Solve& solve) {
+  Course& course = solve.course;
+  const InnerProductRef& product = solve.evaluator.product();
+  solve.return_to_best();
+  course.stage = Stage::pseudo_transient;
+  course.stage_iterations = 0;
+  course.stage_limit = solve.options.pseudo_transient.max_steps;
+  course.stage_start_norm = solve.work.best.norm;
+  course.transient_tried = true;
+  course.time_step = 0.0;
+  course.time_step = first_change * (1.0 + product.norm(solve.work.base.u)) / solve.work.base.norm;
+  course.shift_sign = 0.0;
+}
+
+Ending pseudo_transient_step(Solve& solve) {
+  Workspace& work = solve.work;
+  Course& course = solve.course;
+  const InnerProductRef& product = solve.evaluator.product();
+  if (course.shift_sign == 0.0) {
+    // The flow du/dt = -F settles if J is positive along F, du/dt = F if it is negative.
+    course.shift_sign = 1.0;
+    if (solve.evaluator.linearise(work.base) == Outcome::ok) {
+      const Outcome outcome = solve.evaluator.action(work.base.r, work.direction);
+      if (outcome == Outcome::stopped) return Ending::stopped;
+      if (outcome == Outcome::limit) return Ending::limit;
+      if (outcome == Outcome::ok && product.dot(work.direction, work.base.r) < 0.0) {
+        course.shift_sign = -1.0;
+      }
+    }
+  }
+  for (int cut = 0; cut <= max_cuts; ++cut) {
+    Iteration line;
+    line.phase = Phase::pseudo_transient;
+    const LinearSolution solution =
+        find_direction(solve, linear_tolerance, course.shift_sign / course.time_step, line);
+    if (is_final(solution.ending)) return solution.ending;
+    if (solution.ending == Ending::go_on) {
+      solve.evaluator.filter(work.base.u, work.direction);
+      work.trial.u = work.base.u + work.direction;
+      const Outcome outcome = solve.evaluator.evaluate(work.trial, &Counts::pseudo_transient);
+      if (outcome == Outcome::stopped) return Ending::stopped;
+      if (outcome == Outcome::limit) return Ending::limit;
+      if (outcome == Outcome::ok && work.trial.norm <= greatest_rise * work.base.norm) {
+        course.time_step *=
+            std::min(steady_growth * work.base.norm / work.trial.norm, greatest_growth);
+        line.step_length = 1.0;
+        line.step_norm = product.norm(work.direction);
+        std::swap(work.base, work.trial);
+        ++solve.report.pseudo_transient_steps;
+        return solve.accept_base(line);
+      }
+    }
+    course.time_step *= time_cut;
+  }
+  return Ending::transient_failed;
+}
+
+}  // namespace jfnk::detail

@@ -1,0 +1,203 @@
+#include <stdexcept>
+#include <type_traits>
+
+#include "memory.hpp"
+
+namespace jfnk {
+namespace detail {
+namespace {
+
+// First integer of a snapshot; raised when its fields change.
+constexpr std::int64_t snapshot_version = 1;
+
+struct Writer {
+  Snapshot& out;
+
+  template <class T>
+  requires(std::is_integral_v<T> || std::is_enum_v<T>) void operator()(const T& value) {
+    out.integers.push_back(static_cast<std::int64_t>(value));
+  }
+  void operator()(double value) { out.reals.push_back(value); }
+  void operator()(const Vector& v) { out.reals.insert(out.reals.end(), v.begin(), v.end()); }
+};
+
+struct Reader {
+  const Snapshot& in;
+  std::size_t integer = 0;
+  std::size_t real = 0;
+
+  template <class T>
+  requires(std::is_integral_v<T> || std::is_enum_v<T>) void operator()(T& value) {
+    if (integer >= in.integers.size()) fail();
+    value = static_cast<T>(in.integers[integer++]);
+  }
+  void operator()(double& value) {
+    if (real >= in.reals.size()) fail();
+    value = in.reals[real++];
+  }
+  void operator()(Vector& v) {
+    for (double& value : v) (*this)(value);
+  }
+  [[noreturn]] static void fail() {
+    throw std::invalid_argument("jfnk::Solver::load: the snapshot is damaged");
+  }
+};
+
+template <class Walker>
+void walk_course(Walker& walk, Course& c) {
+  walk(c.stage);
+  walk(c.stage_iterations);
+  walk(c.stage_limit);
+  walk(c.round);
+  walk(c.stage_start_norm);
+  walk(c.mark);
+  walk(c.last_fall);
+  walk(c.wild);
+  walk(c.mixing);
+  walk(c.mixing_known);
+  walk(c.expected_change);
+  walk(c.forcing.previous_norm);
+  walk(c.forcing.previous_eta);
+  walk(c.forcing.first);
+  walk(c.radius);
+  for (double& norm : c.last_norms) walk(norm);
+  walk(c.last_norms_count);
+  walk(c.window_norm);
+  walk(c.window_steps);
+  walk(c.poor_steps);
+  walk(c.by_lines);
+  walk(c.newton_failure);
+  walk(c.noise_measured);
+  walk(c.restarted);
+  walk(c.transient_tried);
+  walk(c.time_step);
+  walk(c.shift_sign);
+  walk(c.setup_evaluations);
+  walk(c.setup_norm);
+  walk(c.setup_best_rate);
+}
+
+template <class Walker>
+void walk_line(Walker& walk, Iteration& line) {
+  walk(line.index);
+  walk(line.phase);
+  walk(line.residual_norm);
+  walk(line.reference_norm);
+  walk(line.best_residual_norm);
+  walk(line.step_norm);
+  walk(line.step_length);
+  walk(line.forcing);
+  walk(line.linear_residual);
+  walk(line.krylov_iterations);
+  walk(line.secant_pairs);
+  walk(line.evaluations);
+}
+
+/// All but the history and what is only known at the end.
+template <class Walker>
+void walk_report(Walker& walk, Report& report) {
+  walk(report.residual_norm);
+  walk(report.initial_residual_norm);
+  walk(report.reference_norm);
+  walk(report.tolerance);
+  walk(report.newton_iterations);
+  walk(report.multisecant_iterations);
+  walk(report.pseudo_transient_steps);
+  walk(report.krylov_iterations);
+  walk(report.last_linear_residual);
+  walk(report.measured_noise);
+  Counts& counts = report.counts;
+  for (int* count :
+       {&counts.start, &counts.newton_trials, &counts.line_search, &counts.multisecant,
+        &counts.pseudo_transient, &counts.noise, &counts.difference_actions, &counts.user_actions,
+        &counts.linearisations, &counts.preconditioner, &counts.preconditioner_setups}) {
+    walk(*count);
+  }
+}
+
+template <class Walker>
+void walk_iterate(Walker& walk, Iterate& point) {
+  walk(point.u);
+  walk(point.r);
+  walk(point.norm);
+  walk(point.reference);
+}
+
+/// Every number between two steps that decides what follows, walked once for both directions.
+template <class Walker>
+void walk_state(Walker& walk, Workspace& work, Course& course, Report& report) {
+  walk_course(walk, course);
+  walk_report(walk, report);
+  walk_iterate(walk, work.base);
+  walk_iterate(walk, work.best);
+  walk_iterate(walk, work.first);
+  walk(work.evaluator_state.start_norm);
+  walk(work.evaluator_state.noise);
+  walk(work.evaluator_state.without_preconditioner);
+  walk(work.setup_point);
+  work.secants.for_each_field(walk);
+  for (Iteration& line : report.history) walk_line(walk, line);
+}
+
+}  // namespace
+}  // namespace detail
+
+Snapshot Solver::save() const {
+  Memory& m = *memory_;
+  if (m.course.stage == detail::Stage::ended) {
+    throw std::invalid_argument("jfnk::Solver::save: no solve is in progress");
+  }
+  Snapshot snapshot;
+  detail::Writer write{snapshot};
+  write(detail::snapshot_version);
+  write(m.options.method);
+  write(m.work.base.u.size());
+  write(m.work.secants.capacity());
+  write(m.work.setup_point.size());
+  write(m.report.history.size());
+  detail::walk_state(write, m.work, m.course, m.report);
+  return snapshot;
+}
+
+void Solver::load(const Snapshot& snapshot) {
+  auto loaded = std::make_unique<Memory>();
+  loaded->options = memory_->options;
+  Memory& m = *loaded;
+  detail::Reader read{snapshot};
+  std::int64_t version = 0;
+  Method method = Method::hybrid;
+  std::int64_t n = 0;
+  std::int64_t capacity = 0;
+  std::int64_t setup_size = 0;
+  std::int64_t lines = 0;
+  read(version);
+  if (version != detail::snapshot_version) {
+    throw std::invalid_argument("jfnk::Solver::load: snapshot version " + std::to_string(version) +
+                                ", this library reads " + std::to_string(detail::snapshot_version));
+  }
+  read(method);
+  read(n);
+  read(capacity);
+  read(setup_size);
+  read(lines);
+  const auto held = static_cast<std::int64_t>(snapshot.reals.size());
+  const bool plausible = n >= 0 && 4 * n <= held && (setup_size == 0 || setup_size == n) &&
+                         lines >= 0 && lines <= held && capacity >= 0;
+  if (!plausible) detail::Reader::fail();
+  if (method != m.options.method || capacity > m.options.multisecant.memory) {
+    throw std::invalid_argument("jfnk::Solver::load: saved under other options");
+  }
+  detail::resize(m.work, n, std::max<std::int64_t>(n, capacity), m.options, setup_size > 0);
+  m.work.secants.resize(n, static_cast<int>(capacity));
+  m.work.setup_point.resize(setup_size);
+  m.report.history.resize(static_cast<std::size_t>(lines));
+  detail::walk_state(read, m.work, m.course, m.report);
+  if (read.integer != snapshot.integers.size() || read.real != snapshot.reals.size()) {
+    detail::Reader::fail();
+  }
+  m.report.status = Status::in_progress;
+  m.needs_setup = true;
+  memory_ = std::move(loaded);
+}
+
+}  // namespace jfnk

@@ -1,0 +1,162 @@
+#include <gtest/gtest.h>
+
+#include <boost/archive/text_iarchive.hpp>
+#include <boost/archive/text_oarchive.hpp>
+#include <cmath>
+#include <sstream>
+
+#include "jfnk/jfnk.hpp"
+#include "jfnk/serialization.hpp"
+#include "problems.hpp"
+
+namespace {
+
+using jfnk::Method;
+using jfnk::Options;
+using jfnk::Report;
+using jfnk::Snapshot;
+using jfnk::Solver;
+using jfnk::Status;
+using jfnk::Vector;
+
+bool same_bits(const Vector& a, const Vector& b) {
+  return a.size() == b.size() && (a.array() == b.array()).all();
+}
+
+Snapshot through_an_archive(const Snapshot& snapshot) {
+  std::stringstream file;
+  {
+    boost::archive::text_oarchive out(file);
+    out << snapshot;
+  }
+  Snapshot read;
+  boost::archive::text_iarchive in(file);
+  in >> read;
+  return read;
+}
+
+/// A preconditioner that depends on where it was set up.
+struct Refreshed {
+  jfnk::ColouredJacobian jacobian;
+  void setup(const Vector& u) { jacobian.setup(u); }
+  void apply(const Vector& r, Vector& z) const { jacobian.apply(r, z); }
+};
+
+/// Solves step by step; before step `at` the state goes through an archive into another solver.
+template <class F, class MakePreconditioner>
+Report solve_with_break(F&& residual, Vector& u, const Options& options,
+                        const MakePreconditioner& make, int at) {
+  auto preconditioner = make();
+  Solver first(options);
+  bool more = first.start(residual, u, preconditioner);
+  for (int step = 0; more && step < at; ++step) more = first.step(residual, preconditioner);
+  if (!more) {
+    u = first.solution();
+    return first.report();
+  }
+  const Snapshot saved = through_an_archive(first.save());
+  auto other = make();
+  Solver second(options);
+  second.load(saved);
+  EXPECT_EQ(second.report().status, Status::in_progress);
+  EXPECT_TRUE(same_bits(second.solution(), first.solution()));
+  while (second.step(residual, other)) {
+  }
+  u = second.solution();
+  return second.report();
+}
+
+TEST(Resume, StepsGiveBitForBitWhatSolveGives) {
+  const jfnk_test::Bratu bratu(12, 6.0);
+  for (const Method method : {Method::newton_krylov, Method::multisecant, Method::hybrid}) {
+    Options options;
+    options.method = method;
+    Vector whole = Vector::Zero(bratu.size());
+    const Report expected = jfnk::solve(bratu, whole, options);
+    Solver solver(options);
+    Vector u = Vector::Zero(bratu.size());
+    int steps = 0;
+    for (bool more = solver.start(bratu, u); more; more = solver.step(bratu)) ++steps;
+    EXPECT_TRUE(solver.report().converged());
+    EXPECT_EQ(solver.report().reason, expected.reason);
+    EXPECT_TRUE(same_bits(solver.solution(), whole));
+    EXPECT_GE(steps, 3);
+    EXPECT_FALSE(solver.step(bratu));  // ended
+  }
+}
+
+TEST(Resume, ContinuesBitForBitFromAnyStepOfEveryStage) {
+  // Wanders through multisecant, Newton, the restart and the pseudo-transient stage.
+  const jfnk_test::HEquation hard(40, 1.0);
+  const jfnk_test::PowellSingular powell;
+  Options options;
+  options.tolerances.relative = 1e-13;
+  options.max_evaluations = 600;
+  options.multisecant.patience = 3;
+  options.globalisation.window = 3;
+  const auto none = [] { return jfnk::Identity{}; };
+  for (const int at : {0, 1, 2, 5, 9, 17, 30, 60}) {
+    Vector whole = Vector::Ones(40);
+    const Report expected = jfnk::solve(hard, whole, options);
+    Vector broken = Vector::Ones(40);
+    const Report report = solve_with_break(hard, broken, options, none, at);
+    EXPECT_EQ(report.reason, expected.reason) << at;
+    EXPECT_EQ(report.history.size(), expected.history.size());
+    EXPECT_TRUE(same_bits(broken, whole)) << at;
+
+    Vector a(4);
+    a << 3, -1, 0, 1;
+    Vector b = a;
+    const Report alone = jfnk::solve(powell, a, options);
+    EXPECT_EQ(solve_with_break(powell, b, options, none, at).reason, alone.reason);
+    EXPECT_TRUE(same_bits(a, b)) << at;
+  }
+}
+
+TEST(Resume, SetsThePreconditionerUpWhereItWas) {
+  const jfnk_test::Bratu bratu(10, 6.0);
+  Options options;
+  options.method = Method::newton_krylov;
+  options.tolerances.relative = 1e-12;
+  options.preconditioner_setup = jfnk::PreconditionerSetup::every_newton_step;
+  const auto make = [&] { return Refreshed{{bratu, jfnk_test::laplacian(10)}}; };
+  Vector whole = Vector::Zero(100);
+  auto preconditioner = make();
+  const Report expected = jfnk::solve(bratu, whole, options, preconditioner);
+  ASSERT_TRUE(expected.converged());
+  for (const int at : {0, 1, 2}) {
+    Vector broken = Vector::Zero(100);
+    const Report report = solve_with_break(bratu, broken, options, make, at);
+    EXPECT_TRUE(same_bits(broken, whole)) << at;
+    EXPECT_EQ(report.counts.total(), expected.counts.total());
+    EXPECT_EQ(report.counts.preconditioner_setups, expected.counts.preconditioner_setups);
+  }
+}
+
+TEST(Resume, RefusesWhatItCannotContinue) {
+  const jfnk_test::Bratu bratu(6, 5.0);
+  Solver solver;
+  EXPECT_THROW((void)solver.save(), std::invalid_argument);
+  ASSERT_TRUE(solver.start(bratu, Vector::Zero(36)));
+  (void)solver.step(bratu);
+  const Snapshot good = solver.save();
+  Solver other;
+
+  Snapshot cut = good;
+  cut.reals.pop_back();
+  EXPECT_THROW(other.load(cut), std::invalid_argument);
+  Snapshot longer = good;
+  longer.integers.push_back(1);
+  EXPECT_THROW(other.load(longer), std::invalid_argument);
+  Snapshot newer = good;
+  newer.integers.front() = 1000;
+  EXPECT_THROW(other.load(newer), std::invalid_argument);
+  EXPECT_THROW(other.load(Snapshot{}), std::invalid_argument);
+  Solver newton(jfnk::newton_krylov());
+  EXPECT_THROW(newton.load(good), std::invalid_argument);
+  EXPECT_FALSE(other.step(bratu));  // still nothing to do
+  other.load(good);
+  EXPECT_TRUE(other.step(bratu));
+}
+
+}  // namespace
