@@ -72,9 +72,7 @@ class Side {
       attempt.seconds = processor_seconds() - start;
       bracket.attempts.push_back(attempt);
       if (watch) watch(attempt);
-      const bool is_good = attempt.certified && (solution.status == SolverStatus::solved ||
-                                                 solution.status == SolverStatus::acceptable);
-      if (is_good || solution.status == SolverStatus::stopped) break;
+      if (is_good(attempt, before) || solution.status == SolverStatus::stopped) break;
     }
     const std::optional<double> after = best(bracket);
     const double seconds = std::max(1e-3, processor_seconds() - began);
@@ -82,6 +80,18 @@ class Side {
   }
 
  private:
+  // A bisected mesh holds every field of the mesh before: its optimum cannot be worse.
+  [[nodiscard]] bool is_good(const Attempt& attempt, const std::optional<double>& before) const {
+    if (!attempt.certified) return false;
+    if (attempt.status != SolverStatus::solved && attempt.status != SolverStatus::acceptable) {
+      return false;
+    }
+    constexpr double tolerance = 1e-3;  // the solver's, with room
+    const double worse = is_lower_ ? -tolerance : tolerance;
+    return !before || (is_lower_ ? *attempt.certified >= *before + worse * std::abs(*before)
+                                 : *attempt.certified <= *before + worse * std::abs(*before));
+  }
+
   [[nodiscard]] std::optional<double> best(const Bracket& bracket) const {
     if (is_lower_ && bracket.lower) return bracket.lower->certificate.multiplier;
     if (!is_lower_ && bracket.upper) return bracket.upper->certificate.multiplier;

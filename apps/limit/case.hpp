@@ -8,6 +8,7 @@
 #include "limit/bracket.hpp"
 #include "limit/hand_formulas.hpp"
 #include "limit/problem.hpp"
+#include "limit/run_check.hpp"
 #include "limit/strip.hpp"
 
 namespace limit {
@@ -22,10 +23,12 @@ struct Case {
   Problem lower, upper;  // in SI units, on the meshes to begin with
 };
 
-/// The bracket of a case, and that of its Davis-reduced twin if the flow is not associated.
+/// The bracket of a case, that of its Davis-reduced twin if the flow is not associated, and how a
+/// run compares if one was named.
 struct Answer {
   Bracket bracket;
   std::optional<Bracket> davis;
+  std::optional<RunCheck> run;
 };
 
 /// A strip footing as a case; `box` absent: box_of(strip).

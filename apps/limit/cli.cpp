@@ -8,9 +8,12 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "limit/fields.hpp"
 #include "limit/report.hpp"
+#include "limit/scene_case.hpp"
 #include "wiring/durable_file.hpp"
 #include "wiring/nearest_name.hpp"
+#include "wiring/scene_reader.hpp"
 #include "wiring/version.hpp"
 
 namespace limit {
@@ -23,13 +26,17 @@ using wiring::ExitCode;
 constexpr double degree = std::numbers::pi / 180.0;
 
 constexpr std::string_view usage =
-    "Usage: fpm-limit --strip [options]\n"
+    "Usage: fpm-limit SCENE [options]\n"
+    "       fpm-limit --strip [options]\n"
     "\n"
     "Brackets the collapse load of a strip footing by finite-element limit analysis: a lower and\n"
-    "an upper bound, both certified, refined until they are as close as asked for.\n";
+    "an upper bound, both certified, refined until they are as close as asked for. The footing is\n"
+    "that of a scene of fpm-run, or described by options.\n";
 
 constexpr std::string_view examples =
     "Examples:\n"
+    "  fpm-limit share/scenes/footing.toml\n"
+    "  fpm-limit share/scenes/footing.toml --set material.soil.cohesion=3e3\n"
     "  fpm-limit --strip --c 2.5e3 --phi 20 --gamma 18150 --half-width 0.22 --rough\n"
     "  fpm-limit --strip --c 1e4 --smooth --gap 1% --json limit.json\n"
     "\n"
@@ -41,9 +48,14 @@ constexpr std::string_view examples =
 po::options_description options() {
   const BracketOptions defaults;
   po::options_description all("Options");
-  all.add_options()                                                                       //
-      ("strip", po::bool_switch(), "a rigid strip footing on level, homogeneous ground")  //
-      ("c", po::value<double>()->value_name("PA")->default_value(0.0, "0"), "cohesion")   //
+  all.add_options()  //
+      ("set", po::value<std::vector<std::string>>()->value_name("KEY=VALUE")->composing(),
+       "override a key of the scene; may be repeated")  //
+      ("curve", po::value<std::string>()->value_name("FILE"),
+       "compare the curve.csv of a run of the scene: does its plateau lie in the bracket?")  //
+      ("strip", po::bool_switch(),
+       "a rigid strip footing on level, homogeneous ground, by the options below")       //
+      ("c", po::value<double>()->value_name("PA")->default_value(0.0, "0"), "cohesion")  //
       ("phi", po::value<double>()->value_name("DEG")->default_value(0.0, "0"),
        "friction angle, 0 .. 50")  //
       ("psi", po::value<double>()->value_name("DEG"),
@@ -66,8 +78,11 @@ po::options_description options() {
       ("max-seconds", po::value<double>()->value_name("S")->default_value(defaults.max_seconds),
        "processor time after which no refinement begins")                                      //
       ("json", po::value<std::string>()->value_name("FILE"), "write the answer to FILE, too")  //
-      ("verbose", po::bool_switch(), "say each attempt as it ends (to standard error)")        //
-      ("version", po::bool_switch(), "print the version")                                      //
+      ("fields", po::value<std::string>()->value_name("PREFIX"),
+       "write PREFIX-lower.hdf (stresses) and PREFIX-upper.hdf (velocities) for ParaView, and "
+       "PREFIX-mechanism.svg")                                                           //
+      ("verbose", po::bool_switch(), "say each attempt as it ends (to standard error)")  //
+      ("version", po::bool_switch(), "print the version")                                //
       ("help", po::bool_switch(), "print this help");
   return all;
 }
@@ -78,22 +93,23 @@ struct UsageError : std::runtime_error {
 };
 
 po::variables_map parse(std::span<const std::string> arguments) {
-  const po::options_description all = options();
+  po::options_description all = options();
+  all.add_options()("scene", po::value<std::vector<std::string>>());
+  po::positional_options_description positional;
+  positional.add("scene", -1);
   namespace style = po::command_line_style;
   // No abbreviations: a script must not change its meaning when an option is added.
   const int strict = style::unix_style & ~style::allow_guessing;
   po::variables_map values;
   try {
     const std::vector<std::string> words(arguments.begin(), arguments.end());
-    po::store(po::command_line_parser(words)
-                  .options(all)
-                  .positional(po::positional_options_description())
-                  .style(strict)
-                  .run(),
-              values);
+    po::store(
+        po::command_line_parser(words).options(all).positional(positional).style(strict).run(),
+        values);
   } catch (const po::unknown_option& unknown) {
     std::vector<std::string> names;
-    for (const auto& option : all.options()) names.push_back("--" + option->long_name());
+    const po::options_description known = options();
+    for (const auto& option : known.options()) names.push_back("--" + option->long_name());
     const std::string nearest =
         wiring::nearest_name(unknown.get_option_name(), {names.begin(), names.end()});
     throw UsageError(fmt::format("{}: no such option{}", unknown.get_option_name(),
@@ -161,6 +177,47 @@ std::optional<Box> box_of(const po::variables_map& values, const Strip& strip) {
   return box;
 }
 
+SceneCase case_of_strip(const po::variables_map& values) {
+  if (values.count("set") != 0) throw UsageError("--set belongs to a SCENE");
+  const Strip strip = strip_of(values);
+  const std::optional<Box> box = box_of(values, strip);
+  SceneCase result{strip_case(strip, box), std::nullopt, std::nullopt};
+  if (values.count("psi") == 0) return result;
+  const double psi = values["psi"].as<double>() * degree;
+  if (!(psi >= 0.0) || psi > strip.soil.friction_angle) {
+    throw UsageError(fmt::format("--psi: found {:g}; allowed is 0 .. phi", psi / degree));
+  }
+  if (psi == strip.soil.friction_angle) return result;
+  Strip weaker = strip;
+  weaker.soil = davis_reduced(strip.soil, psi);
+  result.davis = strip_case(weaker, box);
+  // Both in the same units, for one report.
+  result.davis->units = result.associated.units;
+  return result;
+}
+
+/// Nothing, with every problem said, if the scene is refused by its reader.
+std::optional<SceneCase> case_of(const po::variables_map& values, std::ostream& err) {
+  if (values.count("scene") == 0) {
+    if (!values["strip"].as<bool>()) throw UsageError("SCENE or --strip is missing");
+    return case_of_strip(values);
+  }
+  const auto scenes = values["scene"].as<std::vector<std::string>>();
+  if (scenes.size() > 1) throw UsageError(fmt::format("{}: one SCENE at a time", scenes[1]));
+  for (const char* name : {"strip", "c", "phi", "psi", "gamma", "surcharge", "half-width", "rough",
+                           "smooth", "box-width", "box-depth"}) {
+    if (values.count(name) == 0 || values[name].defaulted()) continue;
+    throw UsageError(fmt::format("--{} and a SCENE exclude each other", name));
+  }
+  const auto settings = values.count("set") != 0 ? values["set"].as<std::vector<std::string>>()
+                                                 : std::vector<std::string>{};
+  const wiring::SceneReading reading = wiring::read_scene(scenes.front(), settings);
+  for (const wiring::Problem& one : reading.warnings) err << "warning: " << one.text() << '\n';
+  for (const wiring::Problem& one : reading.errors) err << "error: " << one.text() << '\n';
+  if (!reading.scene) return std::nullopt;
+  return scene_case(*reading.scene);
+}
+
 ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ostream& err) {
   const po::variables_map values = parse(arguments);
   if (values["help"].as<bool>()) {
@@ -171,33 +228,38 @@ ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ost
     out << "fpm-limit " << wiring::version << '\n';
     return ExitCode::done;
   }
-  if (!values["strip"].as<bool>()) throw UsageError("--strip is missing");
   const BracketOptions chosen = bracket_options(values);
-  const Strip strip = strip_of(values);
-  const Case problem = strip_case(strip, box_of(values, strip));
-  std::optional<Case> reduced;
-  if (values.count("psi") != 0) {
-    const double psi = values["psi"].as<double>() * degree;
-    if (!(psi >= 0.0) || psi > strip.soil.friction_angle) {
-      throw UsageError(fmt::format("--psi: found {:g}; allowed is 0 .. phi", psi / degree));
-    }
-    if (psi < strip.soil.friction_angle) {
-      Strip weaker = strip;
-      weaker.soil = davis_reduced(strip.soil, psi);
-      reduced = strip_case(weaker, box_of(values, strip));
-      // Both in the same units, for one report.
-      reduced->units = problem.units;
-    }
+  const std::optional<SceneCase> problem = case_of(values, err);
+  if (!problem) return ExitCode::input_refused;
+  std::vector<wiring::CurveRow> curve;
+  if (values.count("curve") != 0) {
+    if (!problem->scene) throw UsageError("--curve belongs to a SCENE");
+    // Read first: a bracket is not computed in vain for a file that cannot be read.
+    curve = wiring::read_curve(values["curve"].as<std::string>());
   }
+  const double stress = problem->associated.units.stress;
   const auto watch = [&](const Attempt& attempt) {
-    if (values["verbose"].as<bool>()) err << attempt_line(attempt, problem.units.stress) << '\n';
+    if (values["verbose"].as<bool>()) err << attempt_line(attempt, stress) << '\n';
   };
-  Answer answer{bracket(problem, chosen, watch), std::nullopt};
-  if (reduced) answer.davis = bracket(*reduced, chosen, watch);
-  out << text_report(problem, answer, chosen);
+  Answer answer{bracket(problem->associated, chosen, watch), std::nullopt, std::nullopt};
+  if (problem->davis) answer.davis = bracket(*problem->davis, chosen, watch);
+  if (values.count("curve") != 0 && answer.bracket.lower && answer.bracket.upper) {
+    answer.run = check_run(curve, *problem->scene, answer.bracket.lower_bound() * stress,
+                           answer.bracket.upper_bound() * stress);
+  }
+  out << text_report(problem->associated, answer, chosen);
   if (values.count("json") != 0) {
     wiring::write_text_durably(values["json"].as<std::string>(),
-                               json_report(problem, answer, chosen));
+                               json_report(problem->associated, answer, chosen));
+  }
+  if (values.count("fields") != 0) {
+    const std::string prefix = values["fields"].as<std::string>();
+    const Bracket& found = answer.bracket;
+    if (found.lower) write_fields(prefix + "-lower.hdf", problem->associated, *found.lower);
+    if (found.upper) {
+      write_fields(prefix + "-upper.hdf", problem->associated, *found.upper);
+      write_mechanism(prefix + "-mechanism.svg", problem->associated, *found.upper);
+    }
   }
   return answer.bracket.reached ? ExitCode::done : ExitCode::not_converged;
 }

@@ -1,5 +1,7 @@
 #include "limit/cone_nlp.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 

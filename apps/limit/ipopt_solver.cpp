@@ -25,6 +25,10 @@ Application application(const SolverOptions& options) {
   // A bound that is relaxed is none.
   set->SetNumericValue("bound_relax_factor", 0.0);
   set->SetNumericValue("tol", options.tolerance);
+  // `tol` is measured against the multipliers, and where these grow large it is met far from the
+  // optimum; these two are absolute.
+  set->SetNumericValue("dual_inf_tol", 1e2 * options.tolerance);
+  set->SetNumericValue("compl_inf_tol", 1e2 * options.tolerance);
   if (options.form == ConeForm::barrier) {
     // Newton's method with a line search; there is nothing for Ipopt's own barrier to do.
     set->SetStringValue("mu_strategy", "monotone");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -74,6 +75,20 @@ ordered_json as_json(const Bracket& bracket, double stress) {
     json["upper_solver"] = as_json(bracket.upper->attempt, stress);
   }
   return json;
+}
+
+ordered_json as_json(const RunCheck& run) {
+  const auto or_null = [](const std::optional<double>& value) {
+    return value ? ordered_json(*value) : ordered_json(nullptr);
+  };
+  constexpr std::array<const char*, 3> places{"below", "inside", "above"};
+  return {{"plateau_Pa", run.plateau},
+          {"settlement_m", run.settlement},
+          {"place", places[static_cast<std::size_t>(run.place)]},
+          {"distance", run.distance},
+          {"passed_lower_bound_at_m", or_null(run.passed_lower)},
+          {"passed_upper_bound_at_m", or_null(run.passed_upper)},
+          {"perhaps", run.reasons}};
 }
 
 void say_bracket(std::string& text, const Bracket& bracket, double stress) {
@@ -159,6 +174,7 @@ std::string text_report(const Case& problem, const Answer& answer, const Bracket
     text += "With Davis' reduced strength for this dilation (an estimate, not rigorous):\n";
     say_bracket(text, *answer.davis, stress);
   }
+  if (answer.run) text += text_of(*answer.run);
   text += '\n';
   say_certificates(text, answer.bracket, stress);
   say_solver(text, answer.bracket);
@@ -183,6 +199,7 @@ std::string json_report(const Case& problem, const Answer& answer, const Bracket
     json["davis_reduced"] = as_json(*answer.davis, stress);
     json["davis_reduced"]["rigorous"] = false;
   }
+  if (answer.run) json["run"] = as_json(*answer.run);
   json["case"] = problem.title;
   for (const auto& [what, value] : problem.data) json["data"][what] = value;
   json["assumptions"] = problem.assumptions;

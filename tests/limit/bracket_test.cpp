@@ -78,8 +78,11 @@ TEST(Bracket, DoesNotLoosenWhenRefined) {
   EXPECT_LE(fine.upper_bound(), coarse.upper_bound());
   for (const Attempt& attempt : fine.attempts) {
     if (!attempt.certified) continue;
-    if (attempt.is_lower) EXPECT_GE(fine.lower->certificate.multiplier, *attempt.certified);
-    if (!attempt.is_lower) EXPECT_LE(fine.upper->certificate.multiplier, *attempt.certified);
+    if (attempt.is_lower) {
+      EXPECT_GE(fine.lower->certificate.multiplier, *attempt.certified);
+    } else {
+      EXPECT_LE(fine.upper->certificate.multiplier, *attempt.certified);
+    }
   }
 }
 

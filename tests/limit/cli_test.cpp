@@ -13,12 +13,12 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using wiring::ExitCode;
 
-struct Run {
+struct Outcome {
   ExitCode code;
   std::string out, err;
 };
 
-Run run(const std::vector<std::string>& arguments) {
+Outcome run(const std::vector<std::string>& arguments) {
   std::ostringstream out, err;
   const ExitCode code = limit::fpm_limit(arguments, out, err);
   return {code, out.str(), err.str()};
@@ -27,7 +27,7 @@ Run run(const std::vector<std::string>& arguments) {
 TEST(FpmLimit, RefusesWhatItCannotBracketWithTheReason) {
   for (const auto& [arguments, reason] :
        std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{}, "--strip is missing"},
+           {{}, "SCENE or --strip is missing"},
            {{"--strip"}, "neither cohesion nor friction"},
            {{"--strip", "--phi", "30", "--gamma", "18e3"}, "no strength"},
            {{"--strip", "--c", "-1"}, "cohesion: found -1; allowed is at least 0"},
@@ -41,7 +41,7 @@ TEST(FpmLimit, RefusesWhatItCannotBracketWithTheReason) {
            {{"--strip", "--c", "1", "--box-width", "1"}, "box: found 1"},
            {{"--strip", "--c", "1", "--surchage", "1"}, "did you mean \"--surcharge\""},
            {{"--strip", "--c", "1", "--max-triangles", "0"}, "--max-triangles: found 0"}}) {
-    const Run refused = run(arguments);
+    const Outcome refused = run(arguments);
     EXPECT_EQ(refused.code, ExitCode::input_refused) << reason;
     EXPECT_THAT(refused.err, HasSubstr(reason));
     EXPECT_EQ(refused.out, "");
@@ -50,8 +50,8 @@ TEST(FpmLimit, RefusesWhatItCannotBracketWithTheReason) {
 
 TEST(FpmLimit, PrintsBoundsThatAreWiderThanAskedAndSaysSo) {
   const auto file = std::filesystem::temp_directory_path() / "fpm_limit_cli_test.json";
-  const Run wide = run({"--strip", "--c", "1e3", "--phi", "10", "--psi", "0", "--max-triangles",
-                        "1", "--gap", "0.1%", "--json", file.string()});
+  const Outcome wide = run({"--strip", "--c", "1e3", "--phi", "10", "--psi", "0", "--max-triangles",
+                            "1", "--gap", "0.1%", "--json", file.string()});
   EXPECT_EQ(wide.code, ExitCode::not_converged);
   EXPECT_THAT(wide.out, AllOf(HasSubstr("lower bound"), HasSubstr("upper bound"),
                               HasSubstr("wider than the gap asked for"), HasSubstr("Terzaghi"),
@@ -70,7 +70,7 @@ TEST(FpmLimit, PrintsBoundsThatAreWiderThanAskedAndSaysSo) {
 }
 
 TEST(FpmLimit, EndsWellOnceTheGapIsReached) {
-  const Run reached = run({"--strip", "--c", "1", "--gap", "10%", "--smooth"});
+  const Outcome reached = run({"--strip", "--c", "1", "--gap", "10%", "--smooth"});
   EXPECT_EQ(reached.code, ExitCode::done);
   EXPECT_THAT(reached.out, HasSubstr("smooth base"));
 }

@@ -326,8 +326,9 @@ TEST_P(ExtendedPrecision, AMechanismFailsUnderTheUpperBound) {
     const std::size_t j = corner(mesh, edge.left, edge.second);
     const std::size_t start = 12 * static_cast<std::size_t>(edge.left) + 1;
     const std::size_t middle = 3 + ((i + 1) % 3 == j ? i : j);
-    power -=
-        push * -1 *
+    // The surface runs to the left: `push` is the load times the length.
+    power +=
+        push *
         (velocity[start + 2 * i] + 4 * velocity[start + 2 * middle] + velocity[start + 2 * j]) / 6;
   }
   const Real down = -velocity[12 * mesh.triangles.size() + 1];
