@@ -19,7 +19,25 @@ Point& node_at(Mesh& mesh, int node) {
 // otherwise.
 constexpr double almost = 0.2;
 
-void move_onto(Mesh& mesh, int axis, double position) {
+// Nodes that may not move along the axis: those on outline that does not run along it, and those on
+// earlier lines.
+std::vector<bool> held_nodes(const Mesh& mesh, int axis, const std::vector<double>& earlier) {
+  std::vector<bool> held(mesh.nodes.size(), false);
+  for (const BoundaryEdge& edge : mesh.boundary) {
+    const auto first = static_cast<std::size_t>(edge.first);
+    const auto second = static_cast<std::size_t>(edge.second);
+    if (mesh.nodes[first][1 - axis] == mesh.nodes[second][1 - axis]) continue;
+    held[first] = true;
+    held[second] = true;
+  }
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    if (std::count(earlier.begin(), earlier.end(), mesh.nodes[i][axis]) != 0) held[i] = true;
+  }
+  return held;
+}
+
+void move_onto(Mesh& mesh, int axis, double position, const std::vector<double>& earlier) {
+  const std::vector<bool> held = held_nodes(mesh, axis, earlier);
   std::vector<double> shortest(mesh.nodes.size(), std::numeric_limits<double>::infinity());
   for (const Triangle& triangle : mesh.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -33,15 +51,15 @@ void move_onto(Mesh& mesh, int axis, double position) {
   }
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     double& coordinate = mesh.nodes[i][axis];
-    if (std::abs(coordinate - position) < almost * shortest[i]) coordinate = position;
+    if (!held[i] && std::abs(coordinate - position) < almost * shortest[i]) coordinate = position;
   }
 }
 
 class Cutter {
  public:
-  Cutter(const Mesh& mesh, int axis, double position)
+  Cutter(const Mesh& mesh, int axis, double position, const std::vector<double>& earlier)
       : mesh_(mesh), axis_(axis), position_(position) {
-    move_onto(mesh_, axis, position);
+    move_onto(mesh_, axis, position, earlier);
   }
 
   Mesh result() {
@@ -109,8 +127,8 @@ class Cutter {
 
 }  // namespace
 
-Mesh cut(const Mesh& mesh, int axis, double position) {
-  return Cutter(mesh, axis, position).result();
+Mesh cut(const Mesh& mesh, int axis, double position, const std::vector<double>& earlier) {
+  return Cutter(mesh, axis, position, earlier).result();
 }
 
 }  // namespace limit

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -133,11 +134,14 @@ int region_at(const wiring::Scene& scene, const Point& place) {
 }
 
 Mesh divided(const wiring::Scene& scene, Mesh mesh) {
+  std::array<std::vector<double>, 2> lines;
   for (const wiring::Material& material : scene.material) {
     for (std::size_t i = 0; i < material.region_min.size(); ++i) {
       for (const double at : {material.region_min[i], material.region_max[i]}) {
-        if (at <= scene.geometry.min[i] || at >= scene.geometry.max[i]) continue;
-        mesh = cut(mesh, static_cast<int>(i), at);
+        const bool is_done = std::count(lines[i].begin(), lines[i].end(), at) != 0;
+        if (is_done || at <= scene.geometry.min[i] || at >= scene.geometry.max[i]) continue;
+        mesh = cut(mesh, static_cast<int>(i), at, lines[i]);
+        lines[i].push_back(at);
       }
     }
   }
