@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
 
 namespace limit {
@@ -53,43 +52,6 @@ FanBoundary boundary_of(const Point& a, const Point& b, double depth) {
   }
   if (a.x() == 0.0 && b.x() == 0.0) return FanBoundary::axis;
   return a.y() == -depth && b.y() == -depth ? FanBoundary::floor : FanBoundary::wall;
-}
-
-// Knots of `count` intervals that hold equal parts of a piecewise constant density.
-std::vector<double> equal_parts(const std::vector<double>& knots,
-                                const std::vector<double>& density, int count) {
-  std::vector<double> sum{0.0};
-  for (std::size_t i = 0; i < density.size(); ++i) {
-    sum.push_back(sum.back() + density[i] * (knots[i + 1] - knots[i]));
-  }
-  std::vector<double> parts{knots.front()};
-  std::size_t i = 0;
-  for (int k = 1; k < count; ++k) {
-    const double wanted = sum.back() * k / count;
-    while (i + 2 < sum.size() && sum[i + 1] < wanted) ++i;
-    parts.push_back(knots[i] + (wanted - sum[i]) / density[i]);
-  }
-  parts.push_back(knots.back());
-  return parts;
-}
-
-// The root of the density, never less than a part of its mean, mixed with its neighbours'.
-std::vector<double> monitor(std::vector<double> integrals, const std::vector<double>& knots) {
-  double sum = 0.0;
-  std::vector<double> root(integrals.size());
-  for (std::size_t i = 0; i < root.size(); ++i) {
-    const double size = knots[i + 1] - knots[i];
-    root[i] = std::sqrt(integrals[i] / size);
-    sum += root[i] * size;
-  }
-  const double mean = sum / (knots.back() - knots.front());
-  constexpr double least = 0.25;
-  std::vector<double> smooth(root.size());
-  for (std::size_t i = 0; i < root.size(); ++i) {
-    const double before = root[i > 0 ? i - 1 : i], after = root[std::min(i + 1, root.size() - 1)];
-    smooth[i] = (before + 2 * root[i] + after) / 4 + (mean > 0.0 ? least * mean : 1.0);
-  }
-  return smooth;
 }
 
 }  // namespace
@@ -142,48 +104,6 @@ Mesh fan_mesh(const Fan& fan) {
   for (int ray = 0; ray + 1 < rays; ++ray) outline(node(ray, rings), node(ray + 1, rings));
   for (int k = rings; k > 0; --k) outline(node(rays - 1, k), node(rays - 1, k - 1));
   return mesh;
-}
-
-Fan crowded(const Fan& fan, const std::vector<double>& indicators, int rays, int rings) {
-  const std::size_t sectors = fan.angles.size() - 1;
-  const std::size_t cells = fan.fractions.front().size();
-  std::vector<double> of_sector(sectors, 0.0);
-  std::vector<std::vector<double>> of_cell(sectors, std::vector<double>(cells, 0.0));
-  std::size_t triangle = 0;
-  for (std::size_t i = 0; i < sectors; ++i) {
-    for (std::size_t k = 0; k < cells; ++k) {
-      for (int n = k == 0 ? 1 : 2; n > 0; --n) of_cell[i][k] += indicators.at(triangle++);
-      of_sector[i] += of_cell[i][k];
-    }
-  }
-  Fan next{fan.width, fan.depth, {}, {}};
-  next.angles = equal_parts(fan.angles, monitor(of_sector, fan.angles), rays);
-  hit_corners(next);
-  for (const double angle : next.angles) {
-    // The old rays about this one, and the sectors about it.
-    const auto above = std::lower_bound(fan.angles.begin(), fan.angles.end(), angle);
-    const auto right = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
-        above - fan.angles.begin(), 1, static_cast<std::ptrdiff_t>(sectors)));
-    const double part =
-        (angle - fan.angles[right - 1]) / (fan.angles[right] - fan.angles[right - 1]);
-    std::vector<double> knots{0.0};
-    std::vector<double> integrals(cells);
-    for (std::size_t k = 0; k < cells; ++k) {
-      knots.push_back((1 - part) * fan.fractions[right - 1][k] + part * fan.fractions[right][k]);
-      // Per radius and angle; a sector's density near its apex is that of little area.
-      const std::size_t before = part < 0.5 && right >= 2 ? right - 2 : right - 1;
-      const std::size_t after = part > 0.5 && right < sectors ? right : right - 1;
-      const double middle = (knots[k] + knots[k + 1]) / 2;
-      integrals[k] = (of_cell[before][k] / (fan.angles[before + 1] - fan.angles[before]) +
-                      of_cell[after][k] / (fan.angles[after + 1] - fan.angles[after])) /
-                     middle;
-    }
-    std::vector<double> parts = equal_parts(knots, monitor(integrals, knots), rings);
-    parts.erase(parts.begin());
-    parts.back() = 1.0;
-    next.fractions.push_back(parts);
-  }
-  return next;
 }
 
 }  // namespace limit

@@ -27,10 +27,4 @@ struct Fan {
 /// outwards. BoundaryEdge::boundary is a FanBoundary.
 [[nodiscard]] Mesh fan_mesh(const Fan& fan);
 
-/// The fan with rays and rings crowded where `indicators` (per triangle of fan_mesh(fan), integrals
-/// over it, >= 0) are dense: rings share out the root of the density evenly along each ray, rays
-/// that of the sectors. `rays` and `rings` of the new fan may differ from the old one's.
-[[nodiscard]] Fan crowded(const Fan& fan, const std::vector<double>& indicators, int rays,
-                          int rings);
-
 }  // namespace limit
