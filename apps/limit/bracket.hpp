@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limit/ipopt_solver.hpp"
+#include "limit/lower_certificate.hpp"
+#include "limit/upper_certificate.hpp"
+
+namespace limit {
+
+struct BracketOptions {
+  double gap = 0.02;           // wanted: (upper - lower) / their mean, > 0
+  int max_triangles = 3000;    // of one mesh
+  double max_seconds = 120.0;  // of processor time, for all attempts together
+  int max_iterations = 300;    // of Ipopt, per attempt
+};
+
+/// One attempt at one bound.
+struct Attempt {
+  bool is_lower = true;
+  int triangles = 0;
+  ConeForm form = ConeForm::inequality;
+  SolverStatus status = SolverStatus::failed;
+  std::string message;  // Ipopt's
+  int iterations = 0;
+  double seconds = 0.0;             // of processor time, certificate included
+  std::optional<double> certified;  // the bound, if the certificate holds
+};
+
+/// A certified bound, the mesh it was found on and the attempt that found it.
+template <class Certificate>
+struct Bound {
+  Mesh mesh;
+  Attempt attempt;
+  Certificate certificate;
+};
+
+/// The best bounds found, in the problem's units.
+struct Bracket {
+  std::optional<Bound<LowerCertificate>> lower;
+  std::optional<Bound<UpperCertificate>> upper;
+  std::vector<Attempt> attempts;
+  bool reached = false;  // both certified and no further apart than asked
+
+  [[nodiscard]] double lower_bound() const;  // less than the certified one by rounding's share
+  [[nodiscard]] double upper_bound() const;
+  /// (upper - lower) / their mean; infinite unless both are there and the mean is positive.
+  [[nodiscard]] double gap() const;
+};
+
+/// Brackets the multiplier: solves and certifies a bound on each side, then refines in turn, where
+/// the soil flows most, the side whose last refinement brought more for its time, until the gap is
+/// reached or the budget spent. The best certified bound of each side is kept, so that no
+/// refinement loosens the bracket. An attempt that Ipopt fails is repeated with another form of the
+/// cones.
+/// @param lower, upper  the same problem in units of order one, on the meshes to begin with
+/// @param watch  told of every attempt as it ends
+[[nodiscard]] Bracket bracket(Problem lower, Problem upper, const BracketOptions& options,
+                              const std::function<void(const Attempt&)>& watch = {});
+
+}  // namespace limit

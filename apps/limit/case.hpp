@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "limit/bracket.hpp"
+#include "limit/hand_formulas.hpp"
+#include "limit/problem.hpp"
+#include "limit/run_check.hpp"
+#include "limit/strip.hpp"
+
+namespace limit {
+
+/// A collapse problem with all that a report says about it.
+struct Case {
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> data;  // what, value with unit
+  std::vector<std::string> assumptions;
+  std::vector<HandFormula> hand;
+  Units units;
+  Problem lower, upper;  // in SI units, on the meshes to begin with
+};
+
+/// The bracket of a case, that of its Davis-reduced twin if the flow is not associated, and how a
+/// run compares if one was named.
+struct Answer {
+  Bracket bracket;
+  std::optional<Bracket> davis;
+  std::optional<RunCheck> run;
+};
+
+/// A strip footing as a case; `box` absent: box_of(strip).
+/// @throws std::invalid_argument, see check(Strip).
+[[nodiscard]] Case strip_case(const Strip& strip, std::optional<Box> box);
+
+/// The soil whose associated collapse is taken for that of a soil that dilates by less than its
+/// friction angle (Davis 1968): c and tan(phi) times cos(psi) cos(phi) / (1 - sin(psi) sin(phi)).
+/// An estimate, no bound. Angles in radians.
+[[nodiscard]] Soil davis_reduced(const Soil& soil, double dilation_angle);
+
+/// Brackets the case in its units. A bracket's multiplier times `units.stress` is the answer.
+[[nodiscard]] Bracket bracket(const Case& problem, const BracketOptions& options,
+                              const std::function<void(const Attempt&)>& watch);
+
+}  // namespace limit

@@ -1,0 +1,287 @@
+#include "limit/cli.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/program_options.hpp>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "limit/fields.hpp"
+#include "limit/report.hpp"
+#include "limit/scene_case.hpp"
+#include "wiring/durable_file.hpp"
+#include "wiring/nearest_name.hpp"
+#include "wiring/scene_reader.hpp"
+#include "wiring/version.hpp"
+
+namespace limit {
+
+namespace {
+
+namespace po = boost::program_options;
+using wiring::ExitCode;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+constexpr std::string_view usage =
+    "Usage: fpm-limit SCENE [options]\n"
+    "       fpm-limit --strip [options]\n"
+    "\n"
+    "Brackets the collapse load of a strip footing by finite-element limit analysis: a lower and\n"
+    "an upper bound, both certified, refined until they are as close as asked for. The footing is\n"
+    "that of a scene of fpm-run, or described by options.\n";
+
+constexpr std::string_view examples =
+    "Examples:\n"
+    "  fpm-limit share/scenes/footing.toml\n"
+    "  fpm-limit share/scenes/footing.toml --set material.soil.cohesion=3e3\n"
+    "  fpm-limit --strip --c 2.5e3 --phi 20 --gamma 18150 --half-width 0.22 --rough\n"
+    "  fpm-limit --strip --c 1e4 --smooth --gap 1% --json limit.json\n"
+    "\n"
+    "Any consistent units do: with kPa, m and kN/m3 the answer is in kPa.\n"
+    "\n"
+    "Exit codes: 0 certified and as close as asked, 1 internal error, 2 input refused,\n"
+    "3 certified but wider than asked (the bounds are printed), or not certified.\n";
+
+po::options_description options() {
+  const BracketOptions defaults;
+  po::options_description all("Options");
+  all.add_options()  //
+      ("set", po::value<std::vector<std::string>>()->value_name("KEY=VALUE")->composing(),
+       "override a key of the scene; may be repeated")  //
+      ("curve", po::value<std::string>()->value_name("FILE"),
+       "compare the curve.csv of a run of the scene: does its plateau lie in the bracket?")  //
+      ("strip", po::bool_switch(),
+       "a rigid strip footing on level, homogeneous ground, by the options below")       //
+      ("c", po::value<double>()->value_name("PA")->default_value(0.0, "0"), "cohesion")  //
+      ("phi", po::value<double>()->value_name("DEG")->default_value(0.0, "0"),
+       "friction angle, 0 .. 50")  //
+      ("psi", po::value<double>()->value_name("DEG"),
+       "dilation angle, 0 .. phi; less than phi: the bracket of Davis' reduced strength is given "
+       "beside the other one; default: phi")                                                      //
+      ("gamma", po::value<double>()->value_name("N/M3")->default_value(0.0, "0"), "unit weight")  //
+      ("surcharge", po::value<double>()->value_name("PA")->default_value(0.0, "0"),
+       "pressure on the surface beside the footing")  //
+      ("half-width", po::value<double>()->value_name("M")->default_value(1.0, "1"),
+       "half the width of the footing")                                        //
+      ("rough", po::bool_switch(), "base with the soil's strength (default)")  //
+      ("smooth", po::bool_switch(), "base without shear stress")               //
+      ("box-width", po::value<double>()->value_name("N"),
+       "modelled ground from the axis, in half widths; default: room for Prandtl's mechanism")  //
+      ("box-depth", po::value<double>()->value_name("N"), "and below the surface")              //
+      ("gap", po::value<std::string>()->value_name("GAP")->default_value("2%"),
+       "refine until (upper - lower) / mean is no more, as 2% or 0.02")  //
+      ("max-triangles", po::value<int>()->value_name("N")->default_value(defaults.max_triangles),
+       "largest mesh to refine")  //
+      ("max-seconds", po::value<double>()->value_name("S")->default_value(defaults.max_seconds),
+       "processor time after which no refinement begins")                                      //
+      ("json", po::value<std::string>()->value_name("FILE"), "write the answer to FILE, too")  //
+      ("fields", po::value<std::string>()->value_name("PREFIX"),
+       "write PREFIX-lower.hdf (stresses) and PREFIX-upper.hdf (velocities) for ParaView, and "
+       "PREFIX-mechanism.svg")                                                           //
+      ("verbose", po::bool_switch(), "say each attempt as it ends (to standard error)")  //
+      ("version", po::bool_switch(), "print the version")                                //
+      ("help", po::bool_switch(), "print this help");
+  return all;
+}
+
+/// The command line cannot be understood, or asks for what does not exist.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+po::variables_map parse(std::span<const std::string> arguments) {
+  po::options_description all = options();
+  all.add_options()("scene", po::value<std::vector<std::string>>());
+  po::positional_options_description positional;
+  positional.add("scene", -1);
+  namespace style = po::command_line_style;
+  // No abbreviations: a script must not change its meaning when an option is added.
+  const int strict = style::unix_style & ~style::allow_guessing;
+  po::variables_map values;
+  try {
+    const std::vector<std::string> words(arguments.begin(), arguments.end());
+    po::store(
+        po::command_line_parser(words).options(all).positional(positional).style(strict).run(),
+        values);
+  } catch (const po::unknown_option& unknown) {
+    std::vector<std::string> names;
+    const po::options_description known = options();
+    for (const auto& option : known.options()) names.push_back("--" + option->long_name());
+    const std::string nearest =
+        wiring::nearest_name(unknown.get_option_name(), {names.begin(), names.end()});
+    throw UsageError(fmt::format("{}: no such option{}", unknown.get_option_name(),
+                                 nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+  } catch (const po::error& failure) {
+    throw UsageError(failure.what());
+  }
+  return values;
+}
+
+double gap_of(const std::string& text) {
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, failure] = std::from_chars(text.data(), end, value);
+  const bool is_percent = stop + 1 == end && *stop == '%';
+  const double gap = is_percent ? value / 100.0 : value;
+  if (failure != std::errc{} || !(stop == end || is_percent) || !(gap > 0.0) || gap > 1.0) {
+    throw UsageError(
+        fmt::format("--gap: found {}; allowed is a share such as 2% or 0.02, up to 100%", text));
+  }
+  return gap;
+}
+
+BracketOptions bracket_options(const po::variables_map& values) {
+  BracketOptions chosen;
+  chosen.gap = gap_of(values["gap"].as<std::string>());
+  chosen.max_triangles = values["max-triangles"].as<int>();
+  chosen.max_seconds = values["max-seconds"].as<double>();
+  if (chosen.max_triangles < 1) {
+    throw UsageError(
+        fmt::format("--max-triangles: found {}; allowed is 1 or more", chosen.max_triangles));
+  }
+  if (!(chosen.max_seconds > 0.0)) {
+    throw UsageError(
+        fmt::format("--max-seconds: found {}; allowed is more than 0", chosen.max_seconds));
+  }
+  return chosen;
+}
+
+Strip strip_of(const po::variables_map& values) {
+  if (values["rough"].as<bool>() && values["smooth"].as<bool>()) {
+    throw UsageError("--rough and --smooth exclude each other");
+  }
+  Strip strip;
+  strip.soil.cohesion = values["c"].as<double>();
+  strip.soil.friction_angle = values["phi"].as<double>() * degree;
+  strip.soil.unit_weight = values["gamma"].as<double>();
+  strip.surcharge = values["surcharge"].as<double>();
+  strip.half_width = values["half-width"].as<double>();
+  strip.rough = !values["smooth"].as<bool>();
+  return strip;
+}
+
+std::optional<Box> box_of(const po::variables_map& values, const Strip& strip) {
+  if (values.count("box-width") == 0 && values.count("box-depth") == 0) return std::nullopt;
+  Box box = box_of(strip);
+  if (values.count("box-width") != 0) box.width = values["box-width"].as<double>();
+  if (values.count("box-depth") != 0) box.depth = values["box-depth"].as<double>();
+  if (!(box.width > 1.0) || !(box.depth > 0.0)) {
+    throw UsageError(
+        fmt::format("box: found {:g} x {:g} half widths; allowed is wider than 1 and "
+                    "deeper than 0",
+                    box.width, box.depth));
+  }
+  return box;
+}
+
+SceneCase case_of_strip(const po::variables_map& values) {
+  if (values.count("set") != 0) throw UsageError("--set belongs to a SCENE");
+  const Strip strip = strip_of(values);
+  const std::optional<Box> box = box_of(values, strip);
+  SceneCase result{strip_case(strip, box), std::nullopt, std::nullopt};
+  if (values.count("psi") == 0) return result;
+  const double psi = values["psi"].as<double>() * degree;
+  if (!(psi >= 0.0) || psi > strip.soil.friction_angle) {
+    throw UsageError(fmt::format("--psi: found {:g}; allowed is 0 .. phi", psi / degree));
+  }
+  if (psi == strip.soil.friction_angle) return result;
+  Strip weaker = strip;
+  weaker.soil = davis_reduced(strip.soil, psi);
+  result.davis = strip_case(weaker, box);
+  // Both in the same units, for one report.
+  result.davis->units = result.associated.units;
+  return result;
+}
+
+/// Nothing, with every problem said, if the scene is refused by its reader.
+std::optional<SceneCase> case_of(const po::variables_map& values, std::ostream& err) {
+  if (values.count("scene") == 0) {
+    if (!values["strip"].as<bool>()) throw UsageError("SCENE or --strip is missing");
+    return case_of_strip(values);
+  }
+  const auto scenes = values["scene"].as<std::vector<std::string>>();
+  if (scenes.size() > 1) throw UsageError(fmt::format("{}: one SCENE at a time", scenes[1]));
+  for (const char* name : {"strip", "c", "phi", "psi", "gamma", "surcharge", "half-width", "rough",
+                           "smooth", "box-width", "box-depth"}) {
+    if (values.count(name) == 0 || values[name].defaulted()) continue;
+    throw UsageError(fmt::format("--{} and a SCENE exclude each other", name));
+  }
+  const auto settings = values.count("set") != 0 ? values["set"].as<std::vector<std::string>>()
+                                                 : std::vector<std::string>{};
+  const wiring::SceneReading reading = wiring::read_scene(scenes.front(), settings);
+  for (const wiring::Problem& one : reading.warnings) err << "warning: " << one.text() << '\n';
+  for (const wiring::Problem& one : reading.errors) err << "error: " << one.text() << '\n';
+  if (!reading.scene) return std::nullopt;
+  return scene_case(*reading.scene);
+}
+
+ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ostream& err) {
+  const po::variables_map values = parse(arguments);
+  if (values["help"].as<bool>()) {
+    out << usage << '\n' << options() << '\n' << examples;
+    return ExitCode::done;
+  }
+  if (values["version"].as<bool>()) {
+    out << "fpm-limit " << wiring::version << '\n';
+    return ExitCode::done;
+  }
+  const BracketOptions chosen = bracket_options(values);
+  const std::optional<SceneCase> problem = case_of(values, err);
+  if (!problem) return ExitCode::input_refused;
+  std::vector<wiring::CurveRow> curve;
+  if (values.count("curve") != 0) {
+    if (!problem->scene) throw UsageError("--curve belongs to a SCENE");
+    // Read first: a bracket is not computed in vain for a file that cannot be read.
+    curve = wiring::read_curve(values["curve"].as<std::string>());
+  }
+  const double stress = problem->associated.units.stress;
+  const auto watch = [&](const Attempt& attempt) {
+    if (values["verbose"].as<bool>()) err << attempt_line(attempt, stress) << '\n';
+  };
+  Answer answer{bracket(problem->associated, chosen, watch), std::nullopt, std::nullopt};
+  if (problem->davis) answer.davis = bracket(*problem->davis, chosen, watch);
+  if (values.count("curve") != 0 && answer.bracket.lower && answer.bracket.upper) {
+    answer.run = check_run(curve, *problem->scene, answer.bracket.lower_bound() * stress,
+                           answer.bracket.upper_bound() * stress);
+  }
+  out << text_report(problem->associated, answer, chosen);
+  if (values.count("json") != 0) {
+    wiring::write_text_durably(values["json"].as<std::string>(),
+                               json_report(problem->associated, answer, chosen));
+  }
+  if (values.count("fields") != 0) {
+    const std::string prefix = values["fields"].as<std::string>();
+    const Bracket& found = answer.bracket;
+    if (found.lower) write_fields(prefix + "-lower.hdf", problem->associated, *found.lower);
+    if (found.upper) {
+      write_fields(prefix + "-upper.hdf", problem->associated, *found.upper);
+      write_mechanism(prefix + "-mechanism.svg", problem->associated, *found.upper);
+    }
+  }
+  return answer.bracket.reached ? ExitCode::done : ExitCode::not_converged;
+}
+
+}  // namespace
+
+ExitCode fpm_limit(std::span<const std::string> arguments, std::ostream& out, std::ostream& err) {
+  try {
+    return run(arguments, out, err);
+  } catch (const UsageError& failure) {
+    err << "error: " << failure.what() << "\nTry fpm-limit --help.\n";
+    return ExitCode::input_refused;
+  } catch (const std::invalid_argument& failure) {
+    err << "error: " << failure.what() << '\n';
+    return ExitCode::input_refused;
+  } catch (const wiring::FileError& failure) {
+    err << "error: " << failure.what() << '\n';
+    return ExitCode::checkpoint_unusable;
+  } catch (const std::exception& failure) {
+    err << "internal error: " << failure.what() << "\nThis is a bug: please report it.\n";
+    return ExitCode::bug;
+  }
+}
+
+}  // namespace limit

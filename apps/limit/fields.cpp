@@ -1,0 +1,204 @@
+#include "limit/fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "wiring/durable_file.hpp"
+#include "wiring/hdf5_file.hpp"
+
+namespace limit {
+
+namespace {
+
+const Soil& soil_of(const Case& problem, const Triangle& triangle) {
+  return problem.lower.soils[static_cast<std::size_t>(triangle.region)];
+}
+
+Point corner_of_triangle(const Mesh& mesh, const Triangle& triangle, std::size_t corner) {
+  return mesh.nodes[static_cast<std::size_t>(triangle.nodes[corner % 3])];
+}
+
+/// An unstructured grid whose cells, all of one kind, have their points to themselves.
+class Grid {
+ public:
+  Grid(const std::filesystem::path& temporary, std::uint8_t cell_type, std::size_t points_per_cell,
+       const std::vector<double>& points)
+      : file_(wiring::Hdf5File::create(temporary)), points_(points.size() / 3) {
+    const std::size_t cells = points_ / points_per_cell;
+    file_.make_group("/VTKHDF");
+    // ParaView wants Type as a fixed-length text.
+    file_.write_attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
+    file_.write_attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
+    const auto count = [&](const char* name, std::size_t value) {
+      const std::vector<std::int64_t> one{static_cast<std::int64_t>(value)};
+      file_.write<std::int64_t>(std::string("/VTKHDF/") + name, one, {1});
+    };
+    count("NumberOfPoints", points_);
+    count("NumberOfCells", cells);
+    count("NumberOfConnectivityIds", points_);
+    std::vector<std::int64_t> numbers(points_);
+    std::iota(numbers.begin(), numbers.end(), std::int64_t{0});
+    file_.write<std::int64_t>("/VTKHDF/Connectivity", numbers, {points_});
+    std::vector<std::int64_t> offsets(cells + 1);
+    for (std::size_t i = 0; i <= cells; ++i) {
+      offsets[i] = static_cast<std::int64_t>(i * points_per_cell);
+    }
+    file_.write<std::int64_t>("/VTKHDF/Offsets", offsets, {cells + 1});
+    file_.write<std::uint8_t>("/VTKHDF/Types", std::vector<std::uint8_t>(cells, cell_type),
+                              {cells});
+    file_.write<double>("/VTKHDF/Points", points, {points_, 3}, "m");
+    file_.make_group("/VTKHDF/PointData");
+    file_.make_group("/VTKHDF/CellData");
+  }
+
+  void add(const std::string& name, const std::vector<double>& values, std::size_t components,
+           const std::string& unit) {
+    const std::size_t tuples = values.size() / components;
+    const std::string group = tuples == points_ ? "/VTKHDF/PointData/" : "/VTKHDF/CellData/";
+    const wiring::Shape shape =
+        components == 1 ? wiring::Shape{tuples} : wiring::Shape{tuples, components};
+    file_.write<double>(group + name, values, shape, unit);
+  }
+
+  void close() { file_.close(); }
+
+ private:
+  wiring::Hdf5File file_;
+  std::size_t points_;
+};
+
+// As text between XML's tags.
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char letter : text) {
+    switch (letter) {
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      default:
+        safe += letter;
+    }
+  }
+  return safe;
+}
+
+void put(std::vector<double>& values, std::initializer_list<double> more) {
+  values.insert(values.end(), more);
+}
+
+}  // namespace
+
+void write_fields(const std::filesystem::path& file, const Case& problem,
+                  const Bound<LowerCertificate>& bound) {
+  const Mesh& mesh = bound.mesh;
+  std::vector<double> points, stress, principal, direction, ratio;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Soil& soil = soil_of(problem, mesh.triangles[t]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point at = problem.units.length * corner_of_triangle(mesh, mesh.triangles[t], i);
+      const Eigen::Vector3d s =
+          problem.units.stress * bound.certificate.field[t].col(static_cast<Eigen::Index>(i));
+      const double mean = (s[0] + s[1]) / 2, half = (s[0] - s[1]) / 2;
+      const double radius = std::hypot(half, s[2]);
+      const double strength =
+          soil.cohesion * std::cos(soil.friction_angle) - mean * std::sin(soil.friction_angle);
+      const double angle = std::atan2(s[2], half) / 2;
+      put(points, {at.x(), at.y(), 0.0});
+      // Across the plane the stress takes no part in plane-strain yield; the mean stands for it.
+      put(stress, {s[0], s[1], mean, s[2], 0.0, 0.0});
+      put(principal, {mean + radius, mean - radius, 0.0});
+      put(direction, {std::cos(angle), std::sin(angle), 0.0});
+      ratio.push_back(strength > 0.0 ? radius / strength : 1.0);
+    }
+  }
+  constexpr std::uint8_t triangle_cell = 5;
+  wiring::write_durably(file, [&](const std::filesystem::path& temporary) {
+    Grid grid(temporary, triangle_cell, 3, points);
+    grid.add("stress", stress, 6, "Pa");
+    grid.add("principal_stresses", principal, 3, "Pa");
+    grid.add("principal_direction", direction, 3, "");
+    grid.add("yield_ratio", ratio, 1, "");
+    grid.close();
+  });
+}
+
+void write_fields(const std::filesystem::path& file, const Case& problem,
+                  const Bound<UpperCertificate>& bound) {
+  const Mesh& mesh = bound.mesh;
+  std::vector<double> points, velocity, dissipation;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& triangle = mesh.triangles[t];
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Point corner = corner_of_triangle(mesh, triangle, i);
+      const Point at =
+          problem.units.length *
+          (i < 3 ? corner : Point((corner + corner_of_triangle(mesh, triangle, i + 1)) / 2));
+      const auto v = bound.certificate.field.triangles[t].col(static_cast<Eigen::Index>(i));
+      put(points, {at.x(), at.y(), 0.0});
+      put(velocity, {v.x(), v.y(), 0.0});
+    }
+    const double area = twice_area(mesh, triangle) / 2 * problem.units.length;
+    dissipation.push_back(bound.certificate.of_triangle[t] * problem.units.stress / area);
+  }
+  constexpr std::uint8_t quadratic_triangle_cell = 22;
+  wiring::write_durably(file, [&](const std::filesystem::path& temporary) {
+    Grid grid(temporary, quadratic_triangle_cell, 6, points);
+    grid.add("velocity", velocity, 3, "");
+    grid.add("dissipation", dissipation, 1, "Pa/m");
+    grid.close();
+  });
+}
+
+void write_mechanism(const std::filesystem::path& file, const Case& problem,
+                     const Bound<UpperCertificate>& bound) {
+  const Mesh& mesh = bound.mesh;
+  const auto& field = bound.certificate.field.triangles;
+  double fastest = 0.0, densest = 0.0;
+  Point low = mesh.nodes.front(), high = low;
+  for (std::size_t t = 0; t < field.size(); ++t) {
+    fastest = std::max(fastest, field[t].colwise().norm().maxCoeff());
+    densest = std::max(
+        densest, bound.certificate.of_triangle[t] / std::sqrt(twice_area(mesh, mesh.triangles[t])));
+  }
+  for (const Point& node : mesh.nodes) {
+    low = low.cwiseMin(node);
+    high = high.cwiseMax(node);
+  }
+  // The fastest point moves by this part of a half width.
+  constexpr double step = 0.2, pixels = 160.0;
+  const double carried = fastest > 0.0 ? step / fastest : 0.0;
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(
+      out,
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.1f} {:.1f} {:.1f} {:.1f}\">"
+      "\n<title>{}: mechanism of the upper bound {:.6g} Pa</title>\n"
+      "<g stroke=\"#555\" stroke-width=\"0.5\">\n",
+      pixels * (low.x() - step), -pixels * (high.y() + step),
+      pixels * (high.x() - low.x() + 2 * step), pixels * (high.y() - low.y() + 2 * step),
+      escaped(problem.title), bound.certificate.multiplier * problem.units.stress);
+  for (std::size_t t = 0; t < field.size(); ++t) {
+    const double density =
+        bound.certificate.of_triangle[t] / std::sqrt(twice_area(mesh, mesh.triangles[t]));
+    const double shade = densest > 0.0 ? std::sqrt(std::max(0.0, density / densest)) : 0.0;
+    fmt::format_to(out, "<path fill=\"rgb({0},{1},{1})\" d=\"M", 255 - std::lround(60 * shade),
+                   255 - std::lround(225 * shade));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point at = corner_of_triangle(mesh, mesh.triangles[t], i) +
+                       carried * field[t].col(static_cast<Eigen::Index>(i));
+      fmt::format_to(out, " {:.2f},{:.2f}", pixels * at.x(), -pixels * at.y());
+    }
+    text += " Z\"/>\n";
+  }
+  text += "</g>\n</svg>\n";
+  wiring::write_text_durably(file, text);
+}
+
+}  // namespace limit

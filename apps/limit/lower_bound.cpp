@@ -1,0 +1,197 @@
+#include "limit/lower_bound.hpp"
+
+#include <algorithm>
+
+#include "limit/equation_builder.hpp"
+#include "limit/yield_cones.hpp"
+
+namespace limit {
+
+namespace {
+
+// So that a solver's answer to its tolerance lies inside the true cone.
+constexpr double reserve = 1e-9;
+
+// A linear form in one corner's (p, d, t).
+using Form = Eigen::Vector3d;
+
+Form stress_xx() {
+  return {1, 1, 0};
+}
+Form stress_yy() {
+  return {1, -1, 0};
+}
+Form stress_xy() {
+  return {0, 0, 1};
+}
+// Traction along `direction` on a plane of normal `normal`.
+Form traction(const Point& normal, const Point& direction) {
+  return normal.x() * direction.x() * stress_xx() + normal.y() * direction.y() * stress_yy() +
+         (normal.x() * direction.y() + normal.y() * direction.x()) * stress_xy();
+}
+
+// Outward unit normal of a counterclockwise side, and its length.
+struct SideFrame {
+  SideFrame(const Mesh& mesh, const Edge& edge)
+      : first(mesh.nodes[static_cast<std::size_t>(edge.first)]),
+        second(mesh.nodes[static_cast<std::size_t>(edge.second)]) {
+    const Point along = second - first;
+    length = along.norm();
+    tangent = along / length;
+    normal = Point(tangent.y(), -tangent.x());
+  }
+  Point first, second, tangent, normal;
+  double length;
+};
+
+class Builder {
+ public:
+  explicit Builder(const Problem& problem)
+      : problem_(problem), edges_(edges_of(problem.mesh)), overburden_(problem) {
+    for (const Triangle& triangle : problem.mesh.triangles) {
+      for (const int node : triangle.nodes) {
+        add_cone(triangle.region, problem.mesh.nodes[static_cast<std::size_t>(node)]);
+      }
+    }
+  }
+
+  ConeProgram program() {
+    equilibrium_of_triangles();
+    equilibrium_of_sides();
+    equilibrium_of_footing();
+    const Eigen::Index variables = multiplier() + 1;
+    ConeProgram program;
+    program.cones = cones_;
+    program.equations = equations_.matrix(variables);
+    program.right_side = equations_.right_side();
+    program.objective = Eigen::VectorXd::Unit(variables, multiplier());
+    program.start = Eigen::VectorXd::Zero(variables);
+    for (std::size_t k = 0; k < cones_.size(); ++k) {
+      program.start.segment<3>(3 * static_cast<Eigen::Index>(k)) = starts_[k];
+    }
+    return program;
+  }
+
+ private:
+  // First variable of a triangle's corner.
+  static Eigen::Index corner(int triangle, int corner) { return 9 * triangle + 3 * corner; }
+  Eigen::Index corner_at(int triangle, int node) const {
+    return corner(triangle,
+                  corner_of(problem_.mesh.triangles[static_cast<std::size_t>(triangle)], node));
+  }
+  Eigen::Index multiplier() const { return 3 * static_cast<Eigen::Index>(cones_.size()); }
+
+  void add_cone(int region, const Point& place) {
+    const Soil& soil = problem_.soils[static_cast<std::size_t>(region)];
+    const double load = overburden_.at(soil, place);
+    cones_.push_back(yield_cone(soil, load, reserve));
+    starts_.push_back(inner_point(cones_.back(), load));
+  }
+
+  void add(Eigen::Index variables, const Form& form, double factor = 1.0) {
+    for (Eigen::Index i = 0; i < 3; ++i) equations_.add(variables + i, factor * form[i]);
+  }
+
+  // div sigma + (0, -gamma) = 0, with the constant gradients of the corners' shape functions.
+  void equilibrium_of_triangles() {
+    const Mesh& mesh = problem_.mesh;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Triangle& triangle = mesh.triangles[t];
+      const double area2 = twice_area(mesh, triangle);
+      const double weight = problem_.soils[static_cast<std::size_t>(triangle.region)].unit_weight;
+      for (int row = 0; row < 2; ++row) {
+        equations_.begin(row == 0 ? 0.0 : weight);
+        for (int i = 0; i < 3; ++i) {
+          const auto at = [&](int k) -> const Point& {
+            return mesh.nodes[static_cast<std::size_t>(
+                triangle.nodes[static_cast<std::size_t>((i + k) % 3)])];
+          };
+          const Point gradient = Point(at(1).y() - at(2).y(), at(2).x() - at(1).x()) / area2;
+          add(corner(static_cast<int>(t), i),
+              row == 0 ? Form(gradient.x() * stress_xx() + gradient.y() * stress_xy())
+                       : Form(gradient.x() * stress_xy() + gradient.y() * stress_yy()));
+        }
+      }
+    }
+  }
+
+  void equilibrium_of_sides() {
+    for (const Edge& edge : edges_) {
+      const SideFrame side(problem_.mesh, edge);
+      for (const int node : {edge.first, edge.second}) {
+        const Eigen::Index left = corner_at(edge.left, node);
+        if (edge.right >= 0) {
+          const Eigen::Index right = corner_at(edge.right, node);
+          for (const Point& direction : {side.normal, side.tangent}) {
+            equations_.begin(0.0);
+            add(left, traction(side.normal, direction));
+            add(right, traction(side.normal, direction), -1.0);
+          }
+          continue;
+        }
+        const Boundary& boundary = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
+        if (boundary.normal == Known::traction) {
+          equations_.begin(boundary.normal_stress);
+          add(left, traction(side.normal, side.normal));
+        }
+        if (boundary.tangential == Known::traction) {
+          equations_.begin(boundary.shear_stress);
+          add(left, traction(side.normal, side.tangent));
+        }
+      }
+    }
+  }
+
+  void equilibrium_of_footing() {
+    const Footing& footing = problem_.footing;
+    for (int motion = 0; motion < 3; ++motion) {
+      if (!footing.may_move[static_cast<std::size_t>(motion)]) continue;
+      equations_.begin(footing.dead_load[static_cast<std::size_t>(motion)]);
+      for (const Edge& edge : edges_) {
+        if (edge.boundary >= 0) add_resultant(edge, motion);
+      }
+      equations_.add(multiplier(), -footing.live_load[static_cast<std::size_t>(motion)]);
+    }
+  }
+
+  // The traction's power on a rigid motion, over one side; both are linear along it.
+  void add_resultant(const Edge& edge, int motion) {
+    const Boundary& boundary = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
+    if (boundary.normal != Known::footing && boundary.tangential != Known::footing) return;
+    const SideFrame side(problem_.mesh, edge);
+    const auto velocity = [&](const Point& at) {
+      return motion == 0 ? Point(1, 0) : motion == 1 ? Point(0, 1) : Point(-at.y(), at.x());
+    };
+    const Point first = velocity(side.first), second = velocity(side.second);
+    add(corner_at(edge.left, edge.first),
+        traction(side.normal, side.length / 6 * (2 * first + second)));
+    add(corner_at(edge.left, edge.second),
+        traction(side.normal, side.length / 6 * (first + 2 * second)));
+  }
+
+  const Problem& problem_;
+  std::vector<Edge> edges_;
+  Overburden overburden_;
+  std::vector<YieldCone> cones_;
+  std::vector<Eigen::Vector3d> starts_;
+  EquationBuilder equations_;
+};
+
+}  // namespace
+
+ConeProgram lower_bound_program(const Problem& problem) {
+  return Builder(problem).program();
+}
+
+StressField stress_field(const Problem& problem, const Eigen::VectorXd& variables) {
+  StressField field(problem.mesh.triangles.size());
+  for (std::size_t t = 0; t < field.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d x = variables.segment<3>(9 * static_cast<Eigen::Index>(t) + 3 * i);
+      field[t].col(i) << x[0] + x[1], x[0] - x[1], x[2];
+    }
+  }
+  return field;
+}
+
+}  // namespace limit

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "limit/cone_program.hpp"
+#include "limit/problem.hpp"
+
+namespace limit {
+
+/// Stress (rows xx, yy, xy; tension positive) at the three corners of each triangle, linear between
+/// them; neighbours have corners of their own.
+using StressField = std::vector<Eigen::Matrix3d>;
+
+/// The lower-bound theorem on linear stress triangles with statically admissible discontinuities
+/// (Lyamin & Sloan 2002): maximise the multiplier over stress fields in equilibrium inside the
+/// triangles, across their sides, at the boundaries and with the footing, nowhere beyond yield.
+/// The variables are 9 per triangle, the last one is the multiplier.
+/// The strength is less by one part in 1e9, so that the answer of a solver lies inside.
+[[nodiscard]] ConeProgram lower_bound_program(const Problem& problem);
+
+/// The stress field in the variables of such a program.
+[[nodiscard]] StressField stress_field(const Problem& problem, const Eigen::VectorXd& variables);
+
+}  // namespace limit

@@ -1,0 +1,231 @@
+#include "limit/lower_certificate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "limit/equation_builder.hpp"
+#include "limit/least_change.hpp"
+
+namespace limit {
+
+namespace {
+
+const Point& node_at(const Mesh& mesh, int node) {
+  return mesh.nodes[static_cast<std::size_t>(node)];
+}
+
+Eigen::Index corner_index(const Mesh& mesh, int triangle, int node) {
+  const auto& nodes = mesh.triangles[static_cast<std::size_t>(triangle)].nodes;
+  return 9 * triangle + 3 * (std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+}
+
+/// All the equations of equilibrium in the corners' (xx, yy, xy); the multiplier is given.
+class Equilibrium {
+ public:
+  Equilibrium(const Problem& problem, double multiplier) : problem_(problem) {
+    const Mesh& mesh = problem.mesh;
+    const std::vector<Edge> edges = edges_of(mesh);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) balance(static_cast<int>(t));
+    for (const Edge& edge : edges) {
+      for (const int node : {edge.first, edge.second}) match(edge, node);
+    }
+    for (std::size_t motion = 0; motion < 3; ++motion) {
+      const Footing& footing = problem.footing;
+      if (!footing.may_move[motion]) continue;
+      equations_.begin(footing.dead_load[motion] + multiplier * footing.live_load[motion]);
+      for (const Edge& edge : edges) {
+        if (edge.boundary >= 0) resultant(edge, static_cast<int>(motion));
+      }
+    }
+  }
+
+  [[nodiscard]] Eigen::SparseMatrix<double, Eigen::RowMajor> matrix() const {
+    return equations_.matrix(static_cast<Eigen::Index>(9 * problem_.mesh.triangles.size()));
+  }
+  [[nodiscard]] Eigen::VectorXd right_side() const { return equations_.right_side(); }
+
+ private:
+  // direction . sigma . normal of a corner
+  void add(Eigen::Index corner, const Point& normal, const Point& direction, double factor) {
+    equations_.add(corner, factor * normal.x() * direction.x());
+    equations_.add(corner + 1, factor * normal.y() * direction.y());
+    equations_.add(corner + 2, factor * (normal.x() * direction.y() + normal.y() * direction.x()));
+  }
+
+  // The forces on the outline of a triangle carry its weight.
+  void balance(int triangle) {
+    const Mesh& mesh = problem_.mesh;
+    const Triangle& nodes = mesh.triangles[static_cast<std::size_t>(triangle)];
+    double perimeter = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      perimeter += (node_at(mesh, nodes.nodes[i]) - node_at(mesh, nodes.nodes[(i + 1) % 3])).norm();
+    }
+    const double weight = problem_.soils[static_cast<std::size_t>(nodes.region)].unit_weight *
+                          twice_area(mesh, nodes) / 2.0;
+    for (const Point& direction : {Point(1, 0), Point(0, 1)}) {
+      equations_.begin(direction.y() * weight / perimeter);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const int a = nodes.nodes[i], b = nodes.nodes[(i + 1) % 3];
+        const Point along = node_at(mesh, b) - node_at(mesh, a);
+        const Point outward(along.y(), -along.x());
+        add(corner_index(mesh, triangle, a), outward, direction, 0.5 / perimeter);
+        add(corner_index(mesh, triangle, b), outward, direction, 0.5 / perimeter);
+      }
+    }
+  }
+
+  // Both sides' tractions agree, or the side's is the one prescribed.
+  void match(const Edge& edge, int node) {
+    const Mesh& mesh = problem_.mesh;
+    const Point tangent = (node_at(mesh, edge.second) - node_at(mesh, edge.first)).normalized();
+    const Point normal(tangent.y(), -tangent.x());
+    const Eigen::Index left = corner_index(mesh, edge.left, node);
+    if (edge.right >= 0) {
+      const Eigen::Index right = corner_index(mesh, edge.right, node);
+      for (const Point& direction : {Point(1, 0), Point(0, 1)}) {
+        equations_.begin(0.0);
+        add(left, normal, direction, 1.0);
+        add(right, normal, direction, -1.0);
+      }
+      return;
+    }
+    const Boundary& boundary = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
+    if (boundary.normal == Known::traction) {
+      equations_.begin(boundary.normal_stress);
+      add(left, normal, normal, 1.0);
+    }
+    if (boundary.tangential == Known::traction) {
+      equations_.begin(boundary.shear_stress);
+      add(left, normal, tangent, 1.0);
+    }
+  }
+
+  // Simpson's rule on traction x motion, both linear.
+  void resultant(const Edge& edge, int motion) {
+    const Boundary& boundary = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
+    if (boundary.normal != Known::footing && boundary.tangential != Known::footing) return;
+    const Mesh& mesh = problem_.mesh;
+    const Point &a = node_at(mesh, edge.first), &b = node_at(mesh, edge.second);
+    const Point outward((b - a).y(), -(b - a).x());
+    const auto motion_at = [&](const Point& at) {
+      return motion == 0 ? Point(1, 0) : motion == 1 ? Point(0, 1) : Point(-at.y(), at.x());
+    };
+    const Eigen::Index first = corner_index(mesh, edge.left, edge.first);
+    const Eigen::Index second = corner_index(mesh, edge.left, edge.second);
+    const Point middle = motion_at((a + b) / 2.0);
+    add(first, outward, motion_at(a) + 2.0 * middle, 1.0 / 6.0);
+    add(second, outward, motion_at(b) + 2.0 * middle, 1.0 / 6.0);
+  }
+
+  const Problem& problem_;
+  EquationBuilder equations_;
+};
+
+// Radius of Mohr's circle less the one that yields, over a stress that cannot vanish.
+double excess(const Soil& soil, const Eigen::Vector3d& stress) {
+  const double mean = (stress[0] + stress[1]) / 2.0;
+  const double radius = std::hypot((stress[0] - stress[1]) / 2.0, stress[2]);
+  const double strength =
+      soil.cohesion * std::cos(soil.friction_angle) - mean * std::sin(soil.friction_angle);
+  return radius - strength;
+}
+
+Eigen::VectorXd as_vector(const StressField& field) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(9 * field.size()));
+  for (std::size_t t = 0; t < field.size(); ++t) {
+    x.segment<9>(static_cast<Eigen::Index>(9 * t)) = field[t].reshaped();
+  }
+  return x;
+}
+
+StressField as_field(const Eigen::VectorXd& x) {
+  StressField field(static_cast<std::size_t>(x.size() / 9));
+  for (std::size_t t = 0; t < field.size(); ++t) {
+    field[t] = x.segment<9>(static_cast<Eigen::Index>(9 * t)).reshaped(3, 3);
+  }
+  return field;
+}
+
+/// A state that needs little or no strength, and its multiplier: nothing at all where nothing loads
+/// the body, else every column of soil under its own weight, equal in all directions.
+struct Rest {
+  StressField field;
+  double multiplier = 0.0;
+};
+
+Rest resting_ground(const Problem& problem) {
+  const Mesh& mesh = problem.mesh;
+  double top = mesh.nodes.front().y();
+  for (const Point& node : mesh.nodes) top = std::max(top, node.y());
+  double surcharge = 0.0;
+  for (const Boundary& boundary : problem.boundaries) {
+    surcharge = std::max(surcharge, -boundary.normal_stress);
+  }
+  Rest rest{StressField(mesh.triangles.size()), surcharge};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& triangle = mesh.triangles[t];
+    const double weight = problem.soils[static_cast<std::size_t>(triangle.region)].unit_weight;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double stress = -surcharge - weight * (top - node_at(mesh, triangle.nodes[i]).y());
+      rest.field[t].col(static_cast<Eigen::Index>(i)) << stress, stress, 0.0;
+    }
+  }
+  return rest;
+}
+
+}  // namespace
+
+LowerCertificate certify_lower(const Problem& problem, const StressField& proposed,
+                               double multiplier) {
+  LowerCertificate certificate;
+  certificate.proposed = multiplier;
+  certificate.multiplier = multiplier;
+  const Equilibrium equilibrium(problem, multiplier);
+  const auto equations = equilibrium.matrix();
+  Eigen::VectorXd x = as_vector(proposed);
+  certificate.residual = satisfy(equations, equilibrium.right_side(), x);
+  certificate.field = as_field(x);
+
+  Rest rest = resting_ground(problem);
+  const Equilibrium at_rest(problem, rest.multiplier);
+  Eigen::VectorXd rest_stress = as_vector(rest.field);
+  const double balanced = 1e-9;
+  const bool can_rest =
+      (at_rest.matrix() * rest_stress - at_rest.right_side()).lpNorm<Eigen::Infinity>() < balanced;
+
+  certificate.yield_excess = -INFINITY;
+  double drawn = 0.0;
+  bool inside = true;
+  for (std::size_t t = 0; t < proposed.size(); ++t) {
+    const Soil& soil = problem.soils[static_cast<std::size_t>(problem.mesh.triangles[t].region)];
+    for (int i = 0; i < 3; ++i) {
+      const double here = excess(soil, certificate.field[t].col(i));
+      certificate.yield_excess = std::max(certificate.yield_excess, here);
+      if (here <= 0.0) continue;
+      // Convex: at the share t of rest the excess is at most (1 - t) here + t resting.
+      const double resting = excess(soil, rest.field[t].col(i));
+      inside = inside && can_rest && resting < 0.0;
+      drawn = std::max(drawn, here / (here - resting));
+    }
+  }
+  if (drawn > 0.0 && inside) {
+    constexpr double more = 1.0 + 1e-6;  // so that rounding does not undo it
+    drawn = std::min(1.0, drawn * more);
+    certificate.kept = 1.0 - drawn;
+    x = certificate.kept * x + drawn * rest_stress;
+    certificate.multiplier = certificate.kept * multiplier + drawn * rest.multiplier;
+    const Equilibrium after(problem, certificate.multiplier);
+    certificate.residual = (after.matrix() * x - after.right_side()).lpNorm<Eigen::Infinity>();
+    certificate.field = as_field(x);
+    for (std::size_t t = 0; t < proposed.size(); ++t) {
+      const Soil& soil = problem.soils[static_cast<std::size_t>(problem.mesh.triangles[t].region)];
+      for (int i = 0; i < 3; ++i) inside = inside && excess(soil, certificate.field[t].col(i)) <= 0;
+    }
+  }
+  // Relative to stresses up to the multiplier's size, in the problem's units of order one.
+  const double rounding = 1e-10 * std::max(1.0, std::abs(multiplier));
+  certificate.holds = inside && certificate.residual < rounding;
+  return certificate;
+}
+
+}  // namespace limit

@@ -1,0 +1,10 @@
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "limit/cli.hpp"
+
+int main(int count, char** words) {
+  const std::vector<std::string> arguments(words + 1, words + count);
+  return wiring::to_int(limit::fpm_limit(arguments, std::cout, std::cerr));
+}

@@ -1,0 +1,26 @@
+#include "limit/problem.hpp"
+
+namespace limit {
+
+Problem in_units(const Problem& problem, const Units& units) {
+  Problem scaled = problem;
+  const double force = units.stress * units.length;
+  for (Point& node : scaled.mesh.nodes) node /= units.length;
+  for (Soil& soil : scaled.soils) {
+    soil.cohesion /= units.stress;
+    soil.unit_weight /= units.stress / units.length;
+  }
+  for (Boundary& boundary : scaled.boundaries) {
+    boundary.normal_stress /= units.stress;
+    boundary.shear_stress /= units.stress;
+  }
+  Footing& footing = scaled.footing;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double arm = i == 2 ? units.length : 1.0;
+    footing.dead_load[i] /= force * arm;
+    footing.live_load[i] /= units.length * arm;
+  }
+  return scaled;
+}
+
+}  // namespace limit

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "limit/mesh.hpp"
+
+namespace limit {
+
+/// A rigid-perfectly-plastic Mohr-Coulomb soil (Tresca if the friction angle is 0), associated.
+struct Soil {
+  double cohesion = 0.0;        // [Pa]
+  double friction_angle = 0.0;  // [rad] 0 <= phi < pi/2
+  double unit_weight = 0.0;     // [N/m3] acts along -y
+};
+
+/// What is known on a boundary in one direction (normal or tangential to it).
+enum class Known {
+  traction,  // the traction; the velocity is free
+  support,   // the velocity is zero; the traction is whatever it must be
+  footing,   // the velocity is the footing's; the tractions have the footing's resultant
+};
+
+/// A part of the outline with the same conditions.
+struct Boundary {
+  std::string name;
+  Known normal = Known::traction;
+  Known tangential = Known::traction;
+  double normal_stress = 0.0;  // [Pa] tension positive; where normal == traction
+  double shear_stress = 0.0;   // [Pa] along the outline, body to the left
+};
+
+/// A rigid body on the boundaries whose conditions name it. Its three motions are those along x and
+/// y and the rotation (counterclockwise) about the origin; loads are work-conjugate to them.
+struct Footing {
+  std::array<bool, 3> may_move{false, false, false};
+  std::array<double, 3> dead_load{};  // [N/m, N/m, N]
+  std::array<double, 3> live_load{};  // per unit of the multiplier
+};
+
+/// A collapse problem: how far the live load can grow. The multiplier has the unit that makes
+/// `live_load` times it a load; for a footing pressure it is a pressure.
+struct Problem {
+  Mesh mesh;
+  std::vector<Soil> soils;           // by Triangle::region
+  std::vector<Boundary> boundaries;  // by BoundaryEdge::boundary
+  Footing footing;
+};
+
+/// What is made of order one before anything is solved.
+struct Units {
+  double length = 1.0;  // [m]
+  double stress = 1.0;  // [Pa]
+};
+
+/// The same problem in other units; its multiplier is the old one over `units.stress` if the live
+/// loads are forces per pressure.
+[[nodiscard]] Problem in_units(const Problem& problem, const Units& units);
+
+}  // namespace limit

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+
+#include "limit/case.hpp"
+#include "wiring/scene.hpp"
+
+namespace limit {
+
+/// A collapse problem, its Davis-reduced twin if a soil in it dilates by less than its friction
+/// angle, and the scene of fpm-run it comes from, if it does.
+struct SceneCase {
+  Case associated;
+  std::optional<Case> davis;
+  std::optional<wiring::Scene> scene;
+};
+
+/// The footing of a scene: half a body, mirrored at its left side, pressed down by a part of its
+/// top from there on. Materials become soils by their regions, whose boundaries the meshes follow.
+/// @throws std::invalid_argument, naming the key, for a scene that is no such footing.
+[[nodiscard]] SceneCase scene_case(const wiring::Scene& scene);
+
+}  // namespace limit

@@ -1,0 +1,204 @@
+#include "limit/upper_bound.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "limit/velocity_shapes.hpp"
+#include "limit/yield_cones.hpp"
+
+namespace limit {
+
+namespace {
+
+const Point& node_at(const Mesh& mesh, int node) {
+  return mesh.nodes[static_cast<std::size_t>(node)];
+}
+
+class Builder {
+ public:
+  explicit Builder(const Problem& problem)
+      : problem_(problem), edges_(edges_of(problem.mesh)), overburden_(problem) {
+    equations_ = static_cast<int>(12 * problem.mesh.triangles.size());
+    for (std::size_t motion = 0; motion < 3; ++motion) {
+      footing_[motion] = problem.footing.may_move[motion] ? equations_++ : -1;
+    }
+    right_side_ = Eigen::VectorXd::Zero(equations_);
+  }
+
+  ConeProgram program() {
+    for (std::size_t t = 0; t < problem_.mesh.triangles.size(); ++t) add_triangle(t);
+    for (const Edge& edge : edges_) {
+      add_side(edge);
+      if (edge.boundary >= 0) add_tractions(edge);
+    }
+    const auto multiplier = static_cast<int>(3 * cones_.size());
+    for (std::size_t motion = 0; motion < 3; ++motion) {
+      if (footing_[motion] < 0) continue;
+      right_side_[footing_[motion]] += problem_.footing.dead_load[motion];
+      entries_.emplace_back(footing_[motion], multiplier, -problem_.footing.live_load[motion]);
+    }
+    ConeProgram program;
+    program.equations.resize(equations_, multiplier + 1);
+    program.equations.setFromTriplets(entries_.begin(), entries_.end());
+    program.right_side = right_side_;
+    program.objective = Eigen::VectorXd::Unit(multiplier + 1, multiplier);
+    program.start = Eigen::VectorXd::Zero(multiplier + 1);
+    for (std::size_t k = 0; k < cones_.size(); ++k) {
+      program.start.segment<3>(3 * static_cast<Eigen::Index>(k)) = starts_[k];
+    }
+    program.cones = std::move(cones_);
+    return program;
+  }
+
+ private:
+  // First variable of a new cone.
+  int add_cone(int region, const Point& place) {
+    const Soil& soil = problem_.soils[static_cast<std::size_t>(region)];
+    const double load = overburden_.at(soil, place);
+    cones_.push_back(yield_cone(soil, load, 0.0));
+    starts_.push_back(inner_point(cones_.back(), load));
+    return 3 * static_cast<int>(cones_.size() - 1);
+  }
+
+  void add(int row, int column, double value) {
+    if (value != 0.0) entries_.emplace_back(row, column, value);
+  }
+
+  // Power of the corners' stresses, a third of the area each, p (exx + eyy) + d (exx - eyy) +
+  // t gxy, and of the weight; the integral of a quadratic is that of its middles alone.
+  void add_triangle(std::size_t t) {
+    const Mesh& mesh = problem_.mesh;
+    const Triangle& triangle = mesh.triangles[t];
+    const VelocityTriangle shapes = velocity_triangle(mesh, triangle);
+    const double weight = shapes.area / 3.0;
+    const double unit_weight =
+        problem_.soils[static_cast<std::size_t>(triangle.region)].unit_weight;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const int column = add_cone(triangle.region, node_at(mesh, triangle.nodes[corner]));
+      for (std::size_t i = 0; i < 6; ++i) {
+        const auto row = static_cast<int>(2 * (6 * t + i));
+        const Point slope = weight * shapes.slopes[corner][i];
+        add(row, column, slope.x());
+        add(row, column + 1, slope.x());
+        add(row, column + 2, slope.y());
+        add(row + 1, column, slope.y());
+        add(row + 1, column + 1, -slope.y());
+        add(row + 1, column + 2, slope.x());
+      }
+      right_side_[static_cast<Eigen::Index>(2 * (6 * t + 3 + corner) + 1)] -= unit_weight * weight;
+    }
+  }
+
+  // Power of the tractions at the control points of the jump across a side: of the neighbour's
+  // velocity, the footing's or nothing, less that of the triangle. (p, t) is (normal, shear x
+  // cos(phi)); d stays out.
+  void add_side(const Edge& edge) {
+    bool has_shear = true;
+    if (edge.boundary >= 0) {
+      const Boundary& boundary = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
+      if (boundary.normal == Known::traction && boundary.tangential != Known::traction) {
+        throw std::invalid_argument("boundary " + boundary.name +
+                                    ": it is held along but not across itself");
+      }
+      if (boundary.normal == Known::traction) return;
+      has_shear = boundary.tangential != Known::traction;
+    }
+    const Mesh& mesh = problem_.mesh;
+    const int region = mesh.triangles[static_cast<std::size_t>(edge.left)].region;
+    const double cosine = std::cos(problem_.soils[static_cast<std::size_t>(region)].friction_angle);
+    const Point along = node_at(mesh, edge.second) - node_at(mesh, edge.first);
+    const double length = along.norm();
+    const Point tangent = along / length, normal(tangent.y(), -tangent.x());
+    const std::array<Point, 3> at{node_at(mesh, edge.first), node_at(mesh, edge.first) + along / 2,
+                                  node_at(mesh, edge.second)};
+    const auto inside = places_along(mesh, edge.left, edge);
+    constexpr std::array<std::array<double, 3>, 3> control{
+        {{1.0, 0.0, 0.0}, {-0.5, 2.0, -0.5}, {0.0, 0.0, 1.0}}};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int column = add_cone(region, at[c]);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double factor = control[c][i] * length / 3.0;
+        const Point n = factor * normal;
+        const Point s = has_shear ? Point(factor / cosine * tangent) : Point(0, 0);
+        add_power(2 * inside[i], column, -n, -s);
+        if (edge.right >= 0) {
+          add_power(2 * places_along(mesh, edge.right, edge)[i], column, n, s);
+        } else {
+          add_footing_power(edge.boundary, at[i], column, n, s);
+        }
+      }
+    }
+  }
+
+  void add_power(int row, int column, const Point& normal, const Point& shear) {
+    for (int xy = 0; xy < 2; ++xy) {
+      add(row + xy, column, normal[xy]);
+      add(row + xy, column + 2, shear[xy]);
+    }
+  }
+
+  void add_footing_power(int boundary, const Point& at, int column, const Point& normal,
+                         const Point& shear) {
+    const Boundary& conditions = problem_.boundaries[static_cast<std::size_t>(boundary)];
+    for (int motion = 0; motion < 3; ++motion) {
+      const int row = footing_[static_cast<std::size_t>(motion)];
+      if (row < 0) continue;
+      const Point velocity = rigid_velocity(at, motion);
+      if (conditions.normal == Known::footing) add(row, column, normal.dot(velocity));
+      if (conditions.tangential == Known::footing) add(row, column + 2, shear.dot(velocity));
+    }
+  }
+
+  // Simpson's rule, exact for a constant traction on a quadratic velocity.
+  void add_tractions(const Edge& edge) {
+    const Mesh& mesh = problem_.mesh;
+    const Boundary& boundary = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
+    const Point along = node_at(mesh, edge.second) - node_at(mesh, edge.first);
+    const Point outward(along.y(), -along.x());  // times the length, as `along` is
+    Point force(0, 0);
+    if (boundary.normal == Known::traction) force += boundary.normal_stress * outward;
+    if (boundary.tangential == Known::traction) force += boundary.shear_stress * along;
+    const auto [first, middle, second] = places_along(mesh, edge.left, edge);
+    right_side_.segment<2>(2 * first) += force / 6.0;
+    right_side_.segment<2>(2 * middle) += force * (4.0 / 6.0);
+    right_side_.segment<2>(2 * second) += force / 6.0;
+  }
+
+  const Problem& problem_;
+  std::vector<Edge> edges_;
+  Overburden overburden_;
+  std::array<int, 3> footing_{};  // equation of each motion, or -1
+  int equations_ = 0;
+  std::vector<YieldCone> cones_;
+  std::vector<Eigen::Vector3d> starts_;
+  std::vector<Eigen::Triplet<double>> entries_;
+  Eigen::VectorXd right_side_;
+};
+
+}  // namespace
+
+ConeProgram upper_bound_program(const Problem& problem) {
+  return Builder(problem).program();
+}
+
+VelocityField velocity_field(const Problem& problem, const Eigen::VectorXd& multipliers) {
+  VelocityField field;
+  const std::size_t triangles = problem.mesh.triangles.size();
+  field.footing.setZero();
+  auto at = static_cast<Eigen::Index>(12 * triangles);
+  double power = 0.0;
+  for (std::size_t motion = 0; motion < 3; ++motion) {
+    if (!problem.footing.may_move[motion]) continue;
+    field.footing[static_cast<Eigen::Index>(motion)] = multipliers[at++];
+    power += problem.footing.live_load[motion] * field.footing[static_cast<Eigen::Index>(motion)];
+  }
+  const double scale = power != 0.0 ? 1.0 / power : 1.0;
+  field.footing *= scale;
+  for (std::size_t t = 0; t < triangles; ++t) {
+    field.triangles.emplace_back(
+        scale * Eigen::Map<const Eigen::Matrix<double, 2, 6>>(multipliers.data() + 12 * t));
+  }
+  return field;
+}
+
+}  // namespace limit

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "limit/cone_program.hpp"
+#include "limit/problem.hpp"
+
+namespace limit {
+
+/// Velocities of each triangle's corners and middles of the sides 01 12 20 (columns), quadratic
+/// within it; neighbours, supports and the footing have velocities of their own. And the footing's
+/// three motions.
+struct VelocityField {
+  std::vector<Eigen::Matrix<double, 2, 6>> triangles;
+  Eigen::Vector3d footing;
+};
+
+/// The upper-bound theorem on six-node triangles with straight sides and velocity jumps between
+/// them (Makrodimopoulos & Martin 2007, 2008), as its dual: maximise the multiplier over stresses
+/// at the corners and tractions along the sides that are nowhere beyond yield and whose power on
+/// every velocity is that of the loads. The strain rate is linear in a triangle and the jump
+/// quadratic along a side, so that a flow rule kept in the corners and by the jump's control points
+/// (Bernstein) is kept everywhere. The velocities are the multipliers of the equations: 12 per
+/// triangle, then the footing's motions that are free.
+[[nodiscard]] ConeProgram upper_bound_program(const Problem& problem);
+
+/// The velocity field of such a program's multipliers, scaled to unit power of the live load.
+[[nodiscard]] VelocityField velocity_field(const Problem& problem,
+                                           const Eigen::VectorXd& multipliers);
+
+}  // namespace limit

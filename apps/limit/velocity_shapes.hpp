@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "limit/problem.hpp"
+
+namespace limit {
+
+/// A six-node triangle with straight sides: corners 0 1 2, then the middles of the sides 01 12 20;
+/// the gradients of their shape functions in each corner.
+struct VelocityTriangle {
+  std::array<std::array<Point, 6>, 3> slopes{};
+  double area = 0.0;
+};
+
+[[nodiscard]] VelocityTriangle velocity_triangle(const Mesh& mesh, const Triangle& triangle);
+
+/// The velocities along a side of a triangle, first node, middle, second node, in the numbering in
+/// which triangle t has 6 t to 6 t + 5.
+[[nodiscard]] std::array<int, 3> places_along(const Mesh& mesh, int triangle, const Edge& edge);
+
+/// Where a rigid motion (0, 1 along x, y; 2 about the origin) takes a point, per unit of it.
+[[nodiscard]] Point rigid_velocity(const Point& at, int motion);
+
+}  // namespace limit

@@ -1,0 +1,34 @@
+#include "limit/yield_cones.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limit {
+
+Overburden::Overburden(const Problem& problem) {
+  top_ = problem.mesh.nodes.front().y();
+  for (const Point& node : problem.mesh.nodes) top_ = std::max(top_, node.y());
+  for (const Boundary& boundary : problem.boundaries) {
+    load_ = std::max(load_, -boundary.normal_stress);
+  }
+}
+
+double Overburden::at(const Soil& soil, const Point& place) const {
+  return load_ + soil.unit_weight * (top_ - place.y());
+}
+
+YieldCone yield_cone(const Soil& soil, double overburden, double reserve) {
+  const double strength = soil.cohesion * std::cos(soil.friction_angle) * (1.0 - reserve);
+  const double slope = std::sin(soil.friction_angle) * (1.0 - reserve);
+  // A place without strength must not have a scale of zero.
+  constexpr double least = 1e-6;
+  return {strength, slope, std::max(strength + slope * overburden, least)};
+}
+
+Eigen::Vector3d inner_point(const YieldCone& cone, double overburden) {
+  const double strength = cone.strength + cone.slope * overburden;
+  const double more = strength > 0.0 ? 0.0 : cone.scale / std::max(cone.slope, 1e-6);
+  return {-overburden - more, 0.0, 0.0};
+}
+
+}  // namespace limit

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "limit/cone_program.hpp"
+#include "limit/problem.hpp"
+
+namespace limit {
+
+/// A rough guess of the compressive vertical stress, for scales and starts: the weight up to the
+/// highest node, and the largest compressive stress prescribed on the outline.
+class Overburden {
+ public:
+  explicit Overburden(const Problem& problem);
+  [[nodiscard]] double at(const Soil& soil, const Point& place) const;
+
+ private:
+  double top_ = 0.0;
+  double load_ = 0.0;
+};
+
+/// The soil's cone, scaled by its strength under the compressive stress `overburden`; its strength
+/// is less by `reserve` (a fraction).
+[[nodiscard]] YieldCone yield_cone(const Soil& soil, double overburden, double reserve);
+
+/// (p, d, t) of an isotropic stress strictly inside the cone.
+[[nodiscard]] Eigen::Vector3d inner_point(const YieldCone& cone, double overburden);
+
+}  // namespace limit

@@ -1,0 +1,161 @@
+#include "limit/bracket.hpp"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "limit/case.hpp"
+
+namespace {
+
+using namespace limit;
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double pi = std::numbers::pi;
+
+Strip weightless(double phi) {
+  Strip strip;
+  strip.soil = {1.0, phi * degree, 0.0};
+  return strip;
+}
+
+// Small meshes: what is asserted is that the exact value lies inside, and how far a bound of this
+// size may be off by the study in share/doc/limit-analysis.md.
+Bracket small_bracket(const Strip& strip, int attempts = 1) {
+  const Box box = box_of(strip);
+  BracketOptions options;
+  options.gap = 1e-6;
+  options.max_triangles = attempts > 1 ? 170 : 1;
+  return bracket(
+      in_units(strip_problem(strip, even_fan(box.width, box.depth, 12, 5, 1.5)), units_of(strip)),
+      in_units(strip_problem(strip, even_fan(box.width, box.depth, 10, 6, 2.0)), units_of(strip)),
+      options);
+}
+
+void expect_inside(const Strip& strip, double exact, double below, double above) {
+  const Bracket found = small_bracket(strip);
+  ASSERT_TRUE(found.lower && found.upper);
+  const double stress = units_of(strip).stress;
+  EXPECT_LT(found.lower_bound() * stress, exact);
+  EXPECT_GT(found.upper_bound() * stress, exact);
+  EXPECT_GT(found.lower_bound() * stress, below * exact);
+  EXPECT_LT(found.upper_bound() * stress, above * exact);
+}
+
+TEST(Bracket, HoldsPrandtlsPressureOnTrescaSoil) {
+  expect_inside(weightless(0), 2.0 + pi, 0.96, 1.12);
+}
+
+TEST(Bracket, HoldsPrandtlsPressureOnFrictionalSoil) {
+  expect_inside(weightless(20), 14.834712, 0.93, 1.25);
+}
+
+TEST(Bracket, HoldsThePressureOfAWeightySoilBySlipLines) {
+  // Method of characteristics, smooth base: 48.752 kPa for gamma b = 3992.67 Pa.
+  Strip strip;
+  strip.soil = {2.5e3, 20 * degree, 1850.0 * 9.81};
+  strip.half_width = 0.22;
+  strip.rough = false;
+  expect_inside(strip, 48752.0, 0.85, 1.25);
+}
+
+TEST(Bracket, OfSoilWithASurchargeAlone) {
+  // Without cohesion and weight the pressure is q N_q, N_q = 6.399 at 20 degrees.
+  Strip strip;
+  strip.soil = {0.0, 20 * degree, 0.0};
+  strip.surcharge = 100.0;
+  const double nq = std::exp(pi * std::tan(strip.soil.friction_angle)) *
+                    std::pow(std::tan(pi / 4 + strip.soil.friction_angle / 2), 2);
+  expect_inside(strip, 100.0 * nq, 0.93, 1.25);
+}
+
+TEST(Bracket, DoesNotLoosenWhenRefined) {
+  const Bracket coarse = small_bracket(weightless(10));
+  const Bracket fine = small_bracket(weightless(10), 2);
+  ASSERT_TRUE(coarse.lower && coarse.upper && fine.lower && fine.upper);
+  EXPECT_GT(fine.attempts.size(), coarse.attempts.size());
+  EXPECT_GE(fine.lower_bound(), coarse.lower_bound());
+  EXPECT_LE(fine.upper_bound(), coarse.upper_bound());
+  for (const Attempt& attempt : fine.attempts) {
+    if (!attempt.certified) continue;
+    if (attempt.is_lower) {
+      EXPECT_GE(fine.lower->certificate.multiplier, *attempt.certified);
+    } else {
+      EXPECT_LE(fine.upper->certificate.multiplier, *attempt.certified);
+    }
+  }
+}
+
+TEST(Bracket, DoesNotDependOnTheUnits) {
+  Strip strip;
+  strip.soil = {2.5e3, 20 * degree, 1850.0 * 9.81};
+  strip.half_width = 0.22;
+  Strip in_kilo = strip;  // kPa and mm
+  in_kilo.soil = {2.5, 20 * degree, 1.85 * 9.81e-3};
+  in_kilo.half_width = 220.0;
+  const Bracket a = small_bracket(strip), b = small_bracket(in_kilo);
+  // Ipopt's tolerance, 1e-8, times the condition of the answer: the same to the digits printed.
+  constexpr double digits = 1e-6;
+  const double ratio = units_of(in_kilo).stress / units_of(strip).stress * 1e3;
+  EXPECT_NEAR(b.lower_bound() * ratio / a.lower_bound(), 1.0, digits);
+  EXPECT_NEAR(b.upper_bound() * ratio / a.upper_bound(), 1.0, digits);
+}
+
+TEST(LowerCertificate, DrawsAFieldBeyondYieldInwards) {
+  const Strip strip = weightless(20);
+  const Box box = box_of(strip);
+  const Problem problem =
+      in_units(strip_problem(strip, even_fan(box.width, box.depth, 8, 3, 1.5)), units_of(strip));
+  const ConeProgram program = lower_bound_program(problem);
+  const ConeSolution solution = solve(program, {});
+  StressField field = stress_field(problem, solution.variables);
+  const double multiplier = solution.variables[solution.variables.size() - 1];
+  const LowerCertificate honest = certify_lower(problem, field, multiplier);
+  EXPECT_TRUE(honest.holds);
+  // Twice the optimum is in equilibrium with twice the load, and beyond yield.
+  for (auto& stress : field) stress *= 2.0;
+  const LowerCertificate greedy = certify_lower(problem, field, 2.0 * multiplier);
+  EXPECT_TRUE(greedy.holds);
+  EXPECT_GT(greedy.yield_excess, 0.0);
+  EXPECT_LT(greedy.kept, 1.0);
+  EXPECT_LE(greedy.multiplier, honest.multiplier * (1.0 + 1e-6));
+}
+
+TEST(LowerCertificate, RestoresEquilibriumThatIsLost) {
+  const Strip strip = weightless(0);
+  const Problem problem = strip_problem(strip, even_fan(3.0, 1.5, 8, 3, 1.5));
+  const StressField nothing(problem.mesh.triangles.size(), Eigen::Matrix3d::Zero());
+  const LowerCertificate found = certify_lower(problem, nothing, 1.0);
+  // A multiplier of 1 = c is well below collapse: the nearest equilibrium may or may not be
+  // admissible, but drawn towards rest it must be, and in equilibrium.
+  EXPECT_TRUE(found.holds);
+  EXPECT_LT(found.residual, 1e-12);
+  EXPECT_LE(found.multiplier, 1.0);
+}
+
+TEST(UpperCertificate, RepairsAFieldThatContracts) {
+  const Strip strip = weightless(20);
+  const Box box = box_of(strip);
+  const Problem problem =
+      in_units(strip_problem(strip, even_fan(box.width, box.depth, 8, 4, 2.0)), units_of(strip));
+  SolverOptions options;
+  options.form = ConeForm::barrier;
+  const ConeSolution solution = solve(upper_bound_program(problem), options);
+  VelocityField field = velocity_field(problem, solution.multipliers);
+  const VelocityField inner = velocity_field(problem, solution.interior_multipliers);
+  const UpperCertificate honest = certify_upper(problem, field, inner);
+  EXPECT_TRUE(honest.holds);
+  EXPECT_EQ(honest.kept, 1.0);
+  // Some thousandths of a velocity, everywhere, in turn.
+  for (std::size_t t = 0; t < field.triangles.size(); ++t) {
+    field.triangles[t].col(static_cast<Eigen::Index>(t % 6)).array() += 1e-3;
+  }
+  const UpperCertificate repaired = certify_upper(problem, field, inner);
+  EXPECT_GT(repaired.violation, 0.0);
+  if (repaired.holds) {
+    EXPECT_LT(repaired.kept, 1.0);
+    EXPECT_GE(repaired.multiplier * units_of(strip).stress, 14.834712);
+  }
+}
+
+}  // namespace
