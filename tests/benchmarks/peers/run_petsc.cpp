@@ -1,5 +1,6 @@
 // Every problem by PETSc's matrix-free SNES: line search with the default and with Eisenstat-Walker
-// forcing, GMRES restarted after 30 and after 200, and the trust region.
+// forcing, GMRES restarted after 30 and after 200. (Its trust region solved 15 of the problems
+// without preconditioner, and does not end when evaluations are refused.)
 #include <petscsnes.h>
 
 #include <limits>
@@ -114,8 +115,7 @@ int main(int argc, char** argv) {
   const Choice choices[] = {{"bt 30", SNESNEWTONLS, false, 30},
                             {"bt 200", SNESNEWTONLS, false, 200},
                             {"bt EW 30", SNESNEWTONLS, true, 30},
-                            {"bt EW 200", SNESNEWTONLS, true, 200},
-                            {"trust region", SNESNEWTONTR, true, 200}};
+                            {"bt EW 200", SNESNEWTONLS, true, 200}};
   peers::run_all(argc > 1 ? argv[1] : "", [&](const peers::Trial& trial) {
     for (const Choice& choice : choices) (void)run(trial, choice);
   });
