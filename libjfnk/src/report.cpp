@@ -73,7 +73,10 @@ std::string worst(const Report& report) {
 
 /// "||F|| = 1.2, asked 0.1, largest in components 7 (-1.1), 3 (0.4)".
 std::string where(const Report& report) {
+  // A solve that did not converge can have met the tolerance of F only if more was asked.
+  const bool step_is_long = report.residual_norm <= report.tolerance;
   return "||F|| = " + number(report.residual_norm) + ", asked " + number(report.tolerance) +
+         (step_is_long ? " (met, but the last step is longer than tolerances.step allows)" : "") +
          ", largest in component" + worst(report);
 }
 

@@ -28,6 +28,20 @@ TEST(AppendixA, CountsOfALinearScalarAreThoseByHand) {
   EXPECT_EQ(report.counts.total(), 5);
 }
 
+TEST(AppendixA, SaysSoWhenOnlyTheStepIsTooLong) {
+  // As above, cut off after the first step: ||F|| is met, ||du||/||u|| = 1 is not.
+  Options options = appendix_a(1e-4, 1e-4);
+  options.max_evaluations = 3;
+  Vector u = Vector::Zero(1);
+  const Report report =
+      solve([](const Vector& v, Vector& r) { r[0] = 2.0 * v[0] - 4.0; }, u, options);
+  EXPECT_EQ(report.status, jfnk::Status::evaluation_limit);
+  EXPECT_LE(report.residual_norm, report.tolerance);
+  EXPECT_NE(report.reason.find("the last step is longer than tolerances.step allows"),
+            std::string::npos)
+      << report.reason;
+}
+
 /// Table A1 for one unknown, written down independently; returns every point evaluated.
 template <class F>
 std::vector<double> table_a1(F f, double d, double eps_f, double eps_u, double noise) {
