@@ -57,8 +57,9 @@ Sparsity banded_sparsity(Eigen::Index n, Eigen::Index lower, Eigen::Index upper)
   return sparsity;
 }
 
-ColouredJacobian::ColouredJacobian(const ResidualRef& residual, Sparsity sparsity, double noise)
-    : residual_(residual), matrix_(std::move(sparsity)), noise_(noise) {
+ColouredJacobian::ColouredJacobian(const ResidualRef& residual, const Sparsity& sparsity,
+                                   double noise)
+    : residual_(residual), matrix_(sparsity), noise_(noise) {
   if (matrix_.rows() != matrix_.cols()) {
     throw std::invalid_argument("jfnk::ColouredJacobian: the sparsity is " +
                                 std::to_string(matrix_.rows()) + " x " +

@@ -36,7 +36,7 @@ class ColouredJacobian {
   requires(!std::same_as<F, ResidualRef>)
       ColouredJacobian(F& residual, Sparsity sparsity, double noise = 1.5e-8)
       : ColouredJacobian(ResidualRef(residual), std::move(sparsity), noise) {}
-  ColouredJacobian(const ResidualRef& residual, Sparsity sparsity, double noise = 1.5e-8);
+  ColouredJacobian(const ResidualRef& residual, const Sparsity& sparsity, double noise = 1.5e-8);
 
   /// Differences F about u and factorises.
   void setup(const Vector& u);
