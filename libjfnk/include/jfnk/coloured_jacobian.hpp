@@ -34,8 +34,8 @@ class ColouredJacobian {
   /// @throws std::invalid_argument if the sparsity is not square
   template <Residual F>
   requires(!std::same_as<F, ResidualRef>)
-      ColouredJacobian(F& residual, Sparsity sparsity, double noise = 1.5e-8)
-      : ColouredJacobian(ResidualRef(residual), std::move(sparsity), noise) {}
+      ColouredJacobian(F& residual, const Sparsity& sparsity, double noise = 1.5e-8)
+      : ColouredJacobian(ResidualRef(residual), sparsity, noise) {}
   ColouredJacobian(const ResidualRef& residual, const Sparsity& sparsity, double noise = 1.5e-8);
 
   /// Differences F about u and factorises.
