@@ -181,7 +181,7 @@ struct Research {
 struct Output {
   std::optional<std::string> directory;  // absent: out/<stem of the scene file>
   int frames_every = 10;
-  int checkpoints_every = 10;
+  int checkpoints_every = 25;
   double checkpoints_every_minutes = 15.0;
   int checkpoints_kept = 3;
   int checkpoints_kept_every = 0;
