@@ -82,6 +82,8 @@ class Hdf5File {
   [[nodiscard]] bool is_group(const std::string& path) const;
   [[nodiscard]] DatasetInfo info(const std::string& path) const;
   /// Names in a group, sorted.
+  /// @throws FileError also if the group is nested deeper than any file of ours has one, so that a
+  /// walk through a damaged file ends.
   [[nodiscard]] std::vector<std::string> list(const std::string& path) const;
   /// Names of an object's attributes, sorted.
   [[nodiscard]] std::vector<std::string> list_attributes(const std::string& path) const;

@@ -125,6 +125,11 @@ bool Hdf5File::is_group(const std::string& path) const {
 }
 
 std::vector<std::string> Hdf5File::list(const std::string& path) const {
+  // In a damaged file a link can lead back to where it came from: no walk must follow it for ever.
+  constexpr std::ptrdiff_t deepest = 3;
+  if (std::ranges::count(path, '/') > deepest) {
+    throw FileError(file_, path + " is a group deeper than any of ours: a link leads in a circle");
+  }
   const Silence silence;
   const Handle group(
       check(H5Gopen2(id_, path.c_str(), H5P_DEFAULT), file_, path + " cannot be opened as a group"),

@@ -121,6 +121,15 @@ TEST(Hdf5File, KnowsWhatItHolds) {
   EXPECT_FALSE(file.has("/c/inner"));
 }
 
+// Found by the fuzzer: a damaged link that leads back to its own group.
+TEST(Hdf5File, RefusesToListGroupsThatLeadInACircle) {
+  const test::TemporaryFolder folder;
+  Hdf5File file = Hdf5File::create(folder / "a.hdf");
+  file.make_group("/a/b/c/d");
+  EXPECT_THAT(file.list("/a/b/c"), ElementsAre("d"));
+  EXPECT_THROW(static_cast<void>(file.list("/a/b/c/d")), FileError);
+}
+
 TEST(Hdf5File, RefusesAnotherShapeOrTypeAndNamesIt) {
   const test::TemporaryFolder folder;
   Hdf5File file = Hdf5File::create(folder / "a.hdf");
