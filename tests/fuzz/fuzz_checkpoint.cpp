@@ -17,6 +17,11 @@ void read_as_a_run_does(const wiring::Hdf5File& file, const wiring::Scene& scene
 
 }  // namespace
 
+// HDF5 1.10 loses a few hundred bytes of an object header that it finds damaged while it opens it.
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libhdf5";
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const fuzz::MemoryFile memory(data, size);
   const auto path = memory.path();
