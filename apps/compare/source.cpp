@@ -10,6 +10,7 @@
 #include "wiring/checkpoint_folder.hpp"
 #include "wiring/curve.hpp"
 #include "wiring/hdf5_file.hpp"
+#include "wiring/unsealed_file.hpp"
 
 using wiring::CurveRow;
 using wiring::FileError;
@@ -117,7 +118,7 @@ Source checkpoint_source(const std::filesystem::path& path) {
 
 Source frame_source(const std::filesystem::path& path) {
   Origins origins;
-  origins.file = std::make_shared<const Hdf5File>(Hdf5File::open(path));
+  origins.file = std::make_shared<const Hdf5File>(wiring::open_unsealed(path));
   if (!origins.file->has("/VTKHDF/PointData")) throw FileError(path, "is no frame");
   add_datasets(origins, "/VTKHDF/PointData", "");
   origins.datasets["Points"] = points_path;

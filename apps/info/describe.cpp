@@ -10,6 +10,7 @@
 #include "wiring/curve.hpp"
 #include "wiring/hdf5_file.hpp"
 #include "wiring/run_lock.hpp"
+#include "wiring/unsealed_file.hpp"
 #include "wiring/vtkhdf.hpp"
 
 namespace {
@@ -116,7 +117,7 @@ std::string checkpoint_summary(const std::filesystem::path& checkpoint) {
 std::string describe_file(const std::filesystem::path& path) {
   wiring::CheckpointNotes notes;
   const bool checkpoint = wiring::is_checkpoint(path);
-  const Hdf5File file = checkpoint ? wiring::open_checkpoint(path, notes) : Hdf5File::open(path);
+  const Hdf5File file = checkpoint ? wiring::open_checkpoint(path, notes) : wiring::open_unsealed(path);
   std::string out = fmt::format("{} ({} bytes)\n", path.string(), std::filesystem::file_size(path));
   if (checkpoint) out += describe_checkpoint(notes) + "  contents\n";
   describe_group(out, file, "/", checkpoint ? 2 : 1);

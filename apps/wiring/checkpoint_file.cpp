@@ -7,6 +7,7 @@
 
 #include "wiring/checkpoint_folder.hpp"
 #include "wiring/file_seal.hpp"
+#include "wiring/unsealed_file.hpp"
 
 namespace wiring {
 
@@ -70,16 +71,20 @@ bool begins_as_hdf5(const std::filesystem::path& file) {
   return text == signature;
 }
 
-/// Holds the seal against the file, before HDF5 sees a byte of it.
-void require_unbroken_seal(const std::filesystem::path& path) {
+/// Holds the seal against the file, before HDF5 sees a byte of it. The first schema had none.
+Hdf5File open_behind_seal(const std::filesystem::path& path) {
   std::error_code failure;
   if (!std::filesystem::exists(path, failure)) throw FileError(path, "there is no such file");
-  if (const auto seal = read_seal(path)) {
+  const auto seal = read_seal(path);
+  if (seal) {
     require_unbroken(path, *seal);
     if (seal->schema > checkpoint_schema) throw unknown_schema(path, seal->schema, seal->writer);
-  } else if (!begins_as_hdf5(path)) {
+    return Hdf5File::open(path);
+  }
+  if (!begins_as_hdf5(path)) {
     throw FileError(path, "is no checkpoint of this program, or its beginning is lost");
   }
+  return open_unsealed(path);
 }
 
 std::int64_t known_schema_of(const Hdf5File& file) {
@@ -161,12 +166,13 @@ void write_digest(Hdf5File& file, const ContentDigest& digest) {
 
 bool is_checkpoint(const std::filesystem::path& file) {
   if (has_seal(file) || step_of(file)) return true;
-  return Hdf5File::open(file).has(schema_path);  // one of the first schema under another name
+  return open_unsealed(file).has(schema_path);  // one of the first schema under another name
 }
 
 Hdf5File open_checkpoint(const std::filesystem::path& path, CheckpointNotes& notes) {
-  require_unbroken_seal(path);
-  return open_just_sealed(path, notes);
+  Hdf5File file = open_behind_seal(path);
+  notes = notes_of(file);
+  return file;
 }
 
 Hdf5File open_just_sealed(const std::filesystem::path& path, CheckpointNotes& notes) {

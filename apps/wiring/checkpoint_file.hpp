@@ -13,7 +13,7 @@
 namespace wiring {
 
 /// Layout of checkpoint files; raised when a reader of the former one would go wrong. Older ones
-/// are read: 1 had no seal, and of the lineage only the parent's name.
+/// are read: 1 had no seal (see open_unsealed), and of the lineage only the parent's name.
 inline constexpr std::int64_t checkpoint_schema = 2;
 
 /// What a checkpoint holds beside the mechanical state. It makes a checkpoint sufficient by itself:

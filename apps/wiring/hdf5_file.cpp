@@ -86,6 +86,20 @@ void require_type(hid_t dataset, const std::filesystem::path& file, const std::s
   }
 }
 
+// A damaged extent must not make a reader ask for more memory than there is.
+void require_plausible(const Shape& shape, hid_t file_id, const std::filesystem::path& file,
+                       const std::string& path) {
+  constexpr double most_values_per_byte = 1032.0;  // the limit of deflate, one byte each
+  hsize_t bytes = 0;
+  check(H5Fget_filesize(file_id, &bytes), file, path);
+  const double values =
+      std::accumulate(shape.begin(), shape.end(), 1.0,
+                      [](double product, std::size_t extent) { return product * double(extent); });
+  if (values > most_values_per_byte * static_cast<double>(bytes)) {
+    throw FileError(file, path + " claims more values than the file holds");
+  }
+}
+
 template <class T>
 void read_values(hid_t dataset, const std::filesystem::path& file, const std::string& path,
                  std::span<T> values) {
@@ -112,6 +126,13 @@ Hdf5File Hdf5File::create(const std::filesystem::path& file, const Hdf5Layout& l
   if (made.report_->not_opened != 0) throw system_error(file, what, made.report_->not_opened);
   check(made.id_, file, what);
   return made;
+}
+
+Hdf5File Hdf5File::open_copy(const std::filesystem::path& copy,
+                             const std::filesystem::path& original) {
+  Hdf5File opened = open(copy);
+  opened.file_ = original;
+  return opened;
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& file) {
@@ -200,7 +221,9 @@ std::vector<T> Hdf5File::read_all(const std::string& path) const {
   const Silence silence;
   const Handle dataset = open_dataset(id_, file_, path);
   require_type<T>(dataset.id(), file_, path);
-  std::vector<T> values(product(shape_of(dataset.id(), file_, path)));
+  const Shape shape = shape_of(dataset.id(), file_, path);
+  require_plausible(shape, id_, file_, path);
+  std::vector<T> values(product(shape));
   read_values<T>(dataset.id(), file_, path, values);
   return values;
 }

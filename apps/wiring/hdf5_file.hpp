@@ -51,6 +51,9 @@ class Hdf5File {
                                        const SystemCalls& system = system_calls());
   /// Opens a file for reading.
   [[nodiscard]] static Hdf5File open(const std::filesystem::path& file);
+  /// The same of a copy; file() and messages name what it is a copy of.
+  [[nodiscard]] static Hdf5File open_copy(const std::filesystem::path& copy,
+                                          const std::filesystem::path& original);
 
   Hdf5File(Hdf5File&& other) noexcept;
   Hdf5File& operator=(Hdf5File&& other) noexcept;
@@ -72,6 +75,7 @@ class Hdf5File {
   template <class T>
   void read(const std::string& path, std::span<T> values, const Shape& shape) const;
   /// Reads a dataset of this type and any shape.
+  /// @throws FileError also if it claims more values than the file can hold.
   template <class T>
   [[nodiscard]] std::vector<T> read_all(const std::string& path) const;
   [[nodiscard]] std::string read_text(const std::string& path) const;

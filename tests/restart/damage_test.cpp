@@ -9,6 +9,7 @@
 #include "wiring/content_digest.hpp"
 #include "wiring/file_seal.hpp"
 #include "wiring/hdf5_file.hpp"
+#include "wiring/unsealed_file.hpp"
 
 namespace wiring::test {
 namespace {
@@ -202,6 +203,34 @@ TEST(CheckpointOfTheFirstSchema, WithAFlippedByteIsRefusedOrIsWhatItWas) {
     }
   }
   EXPECT_GT(refused, 0);
+}
+
+// Found by the fuzzer: a group that is its own grandchild, and a header on which HDF5 1.10 reads
+// beyond its memory. A process of its own bears what becomes of that; this one gets a reason.
+TEST(UnsealedFile, OnWhichHdf5GoesAstrayIsRefused) {
+  const std::filesystem::path folder = FPM_STORED_CHECKPOINTS;
+  EXPECT_NE(refusal_of(folder / "groups-in-a-circle.hdf"), "");
+  EXPECT_NE(refusal_of(folder / "header-beyond-its-end.hdf"), "");
+}
+
+// Whatever HDF5 does to its process, here the worst: a file that ends the one that reads it.
+TEST(UnsealedFile, ThatEndsItsReaderIsRefused) {
+  const TemporaryFolder folder;
+  const auto file = folder / "frame.hdf";
+  {
+    Hdf5File made = Hdf5File::create(file);
+    made.write_text("/a", "text");
+    made.close();
+  }
+  EXPECT_EQ(open_unsealed(file).read_text("/a"), "text");
+  EXPECT_EQ(open_unsealed(file).file(), file);
+  std::string reason;
+  try {
+    (void)open_unsealed(file, [](const auto&, const auto&) { std::abort(); });
+  } catch (const FileError& failure) {
+    reason = failure.reason();
+  }
+  EXPECT_EQ(reason, "is damaged: HDF5 falls on it (Aborted)");
 }
 
 TEST_F(DamagedCheckpoint, FromAnotherProgramIsRefused) {
