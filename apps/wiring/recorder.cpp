@@ -121,6 +121,12 @@ double Recorder<Dim>::elapsed() const {
 }
 
 template <int Dim>
+void Recorder<Dim>::begin_branch() {
+  if (checkpointed_step_ == state_.programme.step) return;
+  write_checkpoint("start of the branch", Eigen::VectorXd::Zero(model_.unknowns()));
+}
+
+template <int Dim>
 void Recorder<Dim>::take(const StepRecord& record, const Eigen::VectorXd& reaction) {
   history_.push_back(row_of(record, scene_, elapsed()));
   cuts_ += record.cuts;

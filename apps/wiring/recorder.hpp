@@ -29,6 +29,10 @@ class Recorder {
   Recorder(const RunRequest& request, const RunFolder& folder, const Model<Dim>& model,
            const RunStart<Dim>& start, State<Dim>& state, std::ostream& out);
 
+  /// Gives a branch a checkpoint of its own before its first step: it no longer needs the folder it
+  /// comes from. Does nothing for a run that has one.
+  void begin_branch();
+
   /// Records a converged step; checkpoints and frames as often as the scene says.
   void take(const StepRecord& record, const Eigen::VectorXd& reaction);
 

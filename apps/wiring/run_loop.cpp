@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <exception>
 
 #include "wiring/diagnosis.hpp"
 #include "wiring/recorder.hpp"
@@ -81,14 +82,16 @@ class Run {
     // Held before its checkpoints are read: nobody else adds one meanwhile. A folder that is not
     // there is made only once the run is known to begin.
     std::optional<RunFolder> folder;
+    std::exception_ptr no_folder;  // which a finished run does not need
     const bool exists = std::filesystem::is_directory(request_.directory);
-    if (exists && !request_.check_only) folder.emplace(request_.directory, system_);
+    if (exists && !request_.check_only) no_folder = take(folder);
     RunStart<Dim> start = start_of(request_, model_);
     for (const std::string& refusal : start.refusals) err_ << "error: " << refusal << '\n';
     if (!start.refusals.empty()) return ExitCode::input_refused;
     LoadStepper<Dim> stepper(scene_, model_, start.state);
     if (request_.check_only) return check(start, stepper);
     if (stepper.finished()) return say_finished(start);
+    if (no_folder) std::rethrow_exception(no_folder);
 
     if (!folder) folder.emplace(request_.directory, system_);
     Recorder<Dim> recorder(request_, *folder, model_, start, start.state, out_);
@@ -99,6 +102,7 @@ class Run {
         const Eigen::Index rows = stepper.research();
         if (rows > 0) recorder.say(fmt::format("{} rows re-searched", rows));
       }
+      recorder.begin_branch();
       return advance(start.state, stepper, recorder, *folder);
     } catch (const FileError& failure) {
       throw FileError(failure.file(), failure.reason() + what_is_left(recorder.last_checkpoint()));
@@ -106,6 +110,17 @@ class Run {
   }
 
  private:
+  /// @return why a folder to resume in cannot be written to, if it cannot
+  std::exception_ptr take(std::optional<RunFolder>& folder) const {
+    try {
+      folder.emplace(request_.directory, system_);
+    } catch (const FileError&) {
+      if (!request_.resume) throw;
+      return std::current_exception();
+    }
+    return nullptr;
+  }
+
   ExitCode check(RunStart<Dim>& start, const LoadStepper<Dim>& stepper) {
     const std::size_t state_bytes = bytes_of(start.state);
     out_ << check_report(scene_, static_cast<std::size_t>(model_.size()),

@@ -5,11 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <thread>
 
+#include "faulty_system.hpp"
 #include "restart.hpp"
 #include "wiring/curve.hpp"
 #include "wiring/hdf5_file.hpp"
@@ -98,6 +100,23 @@ TEST(Finished, RunThatIsResumedSaysSoAndTouchesNothing) {
   EXPECT_THAT(again.out, HasSubstr("the run is finished at step 6; nothing to do"));
   EXPECT_EQ(bytes_of_file(run / "curve.csv"), curve);
   EXPECT_EQ(log_of(run), log);
+}
+
+TEST(Finished, RunIsNamedSoInAFolderThatCannotBeWrittenTo) {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  ASSERT_EQ(fpm_run_in(run, block).code, ExitCode::done);
+  const auto read_only = faulty_system([](std::int64_t, const Call& call) {
+    return call.name == "open" && call.path.ends_with("run.lock") ? Fault{Fault::Kind::fails, EROFS}
+                                                                  : Fault{};
+  });
+  const Outcome again = fpm_run_in(run, block, {"--resume"}, read_only);
+  EXPECT_EQ(again.code, ExitCode::done) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("the run is finished at step 6; nothing to do"));
+  const Outcome from_before =
+      fpm_run_in(run, block, {"--resume=" + checkpoint_of(run, 4).string()}, read_only);
+  EXPECT_EQ(from_before.code, ExitCode::checkpoint_unusable);
+  EXPECT_THAT(from_before.err, HasSubstr("Read-only file system"));
 }
 
 // Goes on from step 10 with ten evaluations for ten digits: no step can converge.

@@ -12,6 +12,7 @@
 namespace wiring::test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -60,6 +61,34 @@ TEST(Branch, NamesItsParentAndLeavesItUntouched) {
   ASSERT_EQ(fpm_run_in(twig, block, on).code, ExitCode::done);
   EXPECT_THAT(notes_in(last_checkpoint(twig)).lineage,
               ElementsAre(parent, ancestor_at(second, {})));
+}
+
+// Killed before its first own checkpoint, a branch would have to be branched off again.
+TEST(Branch, GoesOnFromItsOwnStartThoughItsTrunkIsGone) {
+  const TemporaryFolder folder;
+  const auto trunk = folder / "trunk", branch = folder / "branch";
+  const std::vector<std::string> rigid{"--set", "research.enabled=false"};
+  ASSERT_EQ(fpm_run_in(trunk, footing, rigid).code, ExitCode::done);
+  const auto fork = checkpoint_of(trunk, 6);
+  const std::vector<std::string> kept{"--set", "output.checkpoints_kept=1000"};
+  auto arguments = kept;
+  arguments.push_back("--resume=" + fork.string());
+  ASSERT_EQ(fpm_run_in(branch, footing, arguments).code, ExitCode::done);
+  const auto end = last_checkpoint(branch), whole = folder / "whole.hdf";
+  std::filesystem::copy_file(end, whole);
+  const auto curve = curve_without_wall(branch);
+
+  const auto start = checkpoint_of(branch, 6);
+  EXPECT_EQ(notes_in(start).reason, "start of the branch");
+  ASSERT_EQ(notes_in(start).lineage.size(), 1U);
+  EXPECT_EQ(notes_in(start).lineage.front().checkpoint, fork.string());
+  EXPECT_THAT(notes_in(start).lineage.front().changed, Contains("research.enabled: false -> true"));
+  std::filesystem::remove_all(trunk);
+  arguments = kept;
+  arguments.push_back("--resume=" + start.string());
+  ASSERT_EQ(fpm_run_in(branch, footing, arguments).code, ExitCode::done);
+  EXPECT_THAT(differing_fields(end, whole), IsEmpty());
+  EXPECT_EQ(curve_without_wall(branch), curve);
 }
 
 TEST(Branch, OverwritesNoOtherRun) {
