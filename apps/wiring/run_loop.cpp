@@ -10,6 +10,7 @@
 
 #include "wiring/diagnosis.hpp"
 #include "wiring/recorder.hpp"
+#include "wiring/run_lock.hpp"
 #include "wiring/run_report.hpp"
 #include "wiring/scene_derived.hpp"
 #include "wiring/state_file.hpp"
@@ -110,12 +111,12 @@ class Run {
   }
 
  private:
-  /// @return why a folder to resume in cannot be written to, if it cannot
+  /// @return why a folder to resume in, which nobody else has, cannot be written to
   std::exception_ptr take(std::optional<RunFolder>& folder) const {
     try {
       folder.emplace(request_.directory, system_);
     } catch (const FileError&) {
-      if (!request_.resume) throw;
+      if (!request_.resume || lock_owner(request_.directory).alive) throw;
       return std::current_exception();
     }
     return nullptr;
