@@ -9,6 +9,7 @@
 #include "info/describe_checkpoint.hpp"
 #include "wiring/curve.hpp"
 #include "wiring/hdf5_file.hpp"
+#include "wiring/limit_bracket.hpp"
 #include "wiring/run_lock.hpp"
 #include "wiring/unsealed_file.hpp"
 #include "wiring/vtkhdf.hpp"
@@ -96,6 +97,14 @@ std::string curve_summary(const std::filesystem::path& curve) {
   }
 }
 
+std::string bracket_summary(const std::filesystem::path& bracket) {
+  try {
+    return "collapse load " + wiring::bracket_line(wiring::read_limit_bracket(bracket));
+  } catch (const FileError& failure) {
+    return failure.reason();
+  }
+}
+
 std::string lock_summary(const std::filesystem::path& folder) {
   const wiring::LockOwner owner = wiring::lock_owner(folder);
   if (owner.alive) return "running: " + owner.name;
@@ -117,7 +126,8 @@ std::string checkpoint_summary(const std::filesystem::path& checkpoint) {
 std::string describe_file(const std::filesystem::path& path) {
   wiring::CheckpointNotes notes;
   const bool checkpoint = wiring::is_checkpoint(path);
-  const Hdf5File file = checkpoint ? wiring::open_checkpoint(path, notes) : wiring::open_unsealed(path);
+  const Hdf5File file =
+      checkpoint ? wiring::open_checkpoint(path, notes) : wiring::open_unsealed(path);
   std::string out = fmt::format("{} ({} bytes)\n", path.string(), std::filesystem::file_size(path));
   if (checkpoint) out += describe_checkpoint(notes) + "  contents\n";
   describe_group(out, file, "/", checkpoint ? 2 : 1);
@@ -141,6 +151,8 @@ std::string describe_folder(const std::filesystem::path& folder) {
   line("run", lock_summary(folder));
   const auto curve = folder / "curve.csv";
   line("curve", std::filesystem::exists(curve) ? curve_summary(curve) : "none");
+  const auto bracket = folder / "limit" / "bracket.json";
+  if (std::filesystem::exists(bracket)) line("limit", bracket_summary(bracket));
   const auto frames = hdf_files(folder / "frames");
   line("frames", frames.empty() ? "none"
                                 : fmt::format("{}, last {}", frames.size(),

@@ -8,8 +8,8 @@
 #include "limit/bracket.hpp"
 #include "limit/hand_formulas.hpp"
 #include "limit/problem.hpp"
-#include "limit/run_check.hpp"
 #include "limit/strip.hpp"
+#include "wiring/plateau_check.hpp"
 
 namespace limit {
 
@@ -28,7 +28,7 @@ struct Case {
 struct Answer {
   Bracket bracket;
   std::optional<Bracket> davis;
-  std::optional<RunCheck> run;
+  std::optional<wiring::PlateauCheck> run;
 };
 
 /// A strip footing as a case; `box` absent: box_of(strip).

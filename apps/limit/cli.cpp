@@ -244,8 +244,9 @@ ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ost
   Answer answer{bracket(problem->associated, chosen, watch), std::nullopt, std::nullopt};
   if (problem->davis) answer.davis = bracket(*problem->davis, chosen, watch);
   if (values.count("curve") != 0 && answer.bracket.lower && answer.bracket.upper) {
-    answer.run = check_run(curve, *problem->scene, answer.bracket.lower_bound() * stress,
-                           answer.bracket.upper_bound() * stress);
+    answer.run =
+        wiring::check_plateau(curve, *problem->scene, answer.bracket.lower_bound() * stress,
+                              answer.bracket.upper_bound() * stress);
   }
   out << text_report(problem->associated, answer, chosen);
   if (values.count("json") != 0) {

@@ -77,7 +77,7 @@ ordered_json as_json(const Bracket& bracket, double stress) {
   return json;
 }
 
-ordered_json as_json(const RunCheck& run) {
+ordered_json as_json(const wiring::PlateauCheck& run) {
   const auto or_null = [](const std::optional<double>& value) {
     return value ? ordered_json(*value) : ordered_json(nullptr);
   };

@@ -37,7 +37,8 @@ RunFolder::RunFolder(std::filesystem::path path, const SystemCalls& system)
 
 std::optional<std::filesystem::path> RunFolder::set_previous_aside() const {
   std::vector<std::filesystem::path> results;
-  for (const auto& result : {curve(), series(), log(), failure(), frames(), checkpoints()}) {
+  for (const auto& result :
+       {curve(), series(), log(), failure(), limit(), frames(), checkpoints()}) {
     if (std::filesystem::exists(result)) results.push_back(result);
   }
   if (results.empty()) return std::nullopt;

@@ -30,6 +30,7 @@ class RunFolder {
   [[nodiscard]] std::filesystem::path series() const { return path_ / "run.hdf.series"; }
   [[nodiscard]] std::filesystem::path log() const { return path_ / "run.log"; }
   [[nodiscard]] std::filesystem::path failure() const { return path_ / "failure.hdf"; }
+  [[nodiscard]] std::filesystem::path limit() const { return path_ / "limit"; }
   [[nodiscard]] std::filesystem::path frames() const { return path_ / "frames"; }
   [[nodiscard]] std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
 

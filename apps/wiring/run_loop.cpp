@@ -7,8 +7,10 @@
 #include <cctype>
 #include <chrono>
 #include <exception>
+#include <thread>
 
 #include "wiring/diagnosis.hpp"
+#include "wiring/limit_check.hpp"
 #include "wiring/recorder.hpp"
 #include "wiring/run_lock.hpp"
 #include "wiring/run_report.hpp"
@@ -91,7 +93,7 @@ class Run {
     if (!start.refusals.empty()) return ExitCode::input_refused;
     LoadStepper<Dim> stepper(scene_, model_, start.state);
     if (request_.check_only) return check(start, stepper);
-    if (stepper.finished()) return say_finished(start);
+    if (stepper.finished()) return say_finished(start, folder);
     if (no_folder) std::rethrow_exception(no_folder);
 
     if (!folder) folder.emplace(request_.directory, system_);
@@ -133,12 +135,30 @@ class Run {
     return ExitCode::done;
   }
 
-  ExitCode say_finished(const RunStart<Dim>& start) {
-    if (!request_.quiet) {
-      out_ << fmt::format("{}: the run is finished at step {}; nothing to do\n",
-                          start.checkpoint.string(), start.state.programme.step);
+  ExitCode say_finished(const RunStart<Dim>& start, const std::optional<RunFolder>& folder) {
+    const auto say = [&](const std::string& line) {
+      if (!request_.quiet && !line.empty()) out_ << line << '\n';
+    };
+    say(fmt::format("{}: the run is finished at step {}; nothing to do", start.checkpoint.string(),
+                    start.state.programme.step));
+    if (folder) {
+      LimitCheck limit(scene_, *folder, request_.limit_program);
+      wait_for(limit, say);
+      say(limit.verdict(start.history));
     }
     return ExitCode::done;
+  }
+
+  /// Says what there is to say of the bounds until all is said, or a stop is asked for.
+  template <class Say>
+  void wait_for(LimitCheck& limit, Say&& say) const {
+    constexpr std::chrono::milliseconds pause{50};
+    do {
+      for (const std::string& line : limit.news()) say(line);
+      if (!limit.pending()) break;
+      std::this_thread::sleep_for(pause);
+    } while (stop_.now().empty());
+    for (const std::string& line : limit.news()) say(line);
   }
 
   static std::string resumed_line(const RunStart<Dim>& start) {
@@ -168,7 +188,9 @@ class Run {
                    const RunFolder& folder) {
     // Of the last converged step, whatever is tried after it.
     Eigen::VectorXd reaction = Eigen::VectorXd::Zero(model_.unknowns());
+    LimitCheck limit(scene_, folder, request_.limit_program);
     while (!stepper.finished()) {
+      for (const std::string& line : limit.news()) recorder.say(line);
       if (!stop_.now().empty()) return interrupt(recorder, reaction);
       const ProgrammeState before = state.programme;
       const StepResult result =
@@ -181,10 +203,10 @@ class Run {
       // What was tried in vain is forgotten: a run resumed from here tries the same.
       state.programme = before;
       if (result.outcome == StepOutcome::stopped) return interrupt(recorder, reaction);
-      return fail(state, result, recorder, reaction, folder);
+      return fail(state, result, recorder, reaction, folder, limit);
     }
     recorder.finish("end of the programme", reaction, false);
-    report(recorder, folder);
+    report(recorder, folder, limit);
     return ExitCode::done;
   }
 
@@ -198,13 +220,13 @@ class Run {
   }
 
   ExitCode fail(const State<Dim>& state, const StepResult& result, Recorder<Dim>& recorder,
-                const Eigen::VectorXd& reaction, const RunFolder& folder) {
+                const Eigen::VectorXd& reaction, const RunFolder& folder, LimitCheck& limit) {
     recorder.finish(result.outcome == StepOutcome::hopeless ? "no hope" : "no convergence",
                     reaction, false);
     recorder.write_failure(result, reaction);
     const std::string why =
         failure_report(scene_, model_, state, result) + "\n  fields: " + folder.failure().string();
-    report(recorder, folder);
+    report(recorder, folder, limit);
     if (!scene_.programme.stop_at_failure) {
       recorder.say("the programme ends here, as programme.stop_at_failure = false asks: " + why);
       return ExitCode::done;
@@ -215,9 +237,13 @@ class Run {
     return ExitCode::not_converged;
   }
 
-  void report(Recorder<Dim>& recorder, const RunFolder& folder) {
+  void report(Recorder<Dim>& recorder, const RunFolder& folder, LimitCheck& limit) const {
     recorder.say(end_report(scene_, recorder.history(), recorder.elapsed(), folder,
                             recorder.last_checkpoint()));
+    if (limit.pending()) recorder.say("waiting for fpm-limit; it may be interrupted and resumed");
+    wait_for(limit, [&](const std::string& line) { recorder.say(line); });
+    const std::string verdict = limit.verdict(recorder.history());
+    if (!verdict.empty()) recorder.say(verdict);
   }
 
   const RunRequest& request_;

@@ -25,6 +25,7 @@ struct RunRequest {
   int threads = 0;                    // 0: OpenMP's own choice
   std::optional<double> max_wall_s;   // [s] stop at the first converged step after it
   bool quiet = false;
+  std::filesystem::path limit_program;  // fpm-limit, for `limit.check`
 };
 
 }  // namespace wiring

@@ -190,6 +190,14 @@ struct Output {
   bool operator==(const Output&) const = default;
 };
 
+/// Whether, and how sharply, a footing's run is held against the bounds of its collapse load.
+struct Limit {
+  bool check = false;
+  double gap = 0.02;
+  double max_seconds = 120.0;
+  bool operator==(const Limit&) const = default;
+};
+
 /// A whole run as the user describes it, checked: every cross-field rule holds.
 struct Scene {
   std::string title;
@@ -207,6 +215,7 @@ struct Scene {
   Solver solver;
   Research research;
   Output output;
+  Limit limit;
   bool operator==(const Scene&) const = default;
 };
 

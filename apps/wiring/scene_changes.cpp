@@ -11,8 +11,8 @@ namespace wiring {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> free_tables{"programme.", "solver.", "research.",
-                                                      "output."};
+constexpr std::array<std::string_view, 5> free_tables{"programme.", "solver.", "research.",
+                                                      "output.", "limit."};
 constexpr std::array<std::string_view, 2> free_keys{"title", "drive.target"};
 
 std::string text_at(const TableInfo& table, const Field& field, const Scene& scene,

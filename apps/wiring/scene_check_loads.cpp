@@ -210,6 +210,12 @@ void check_run(const Scene& scene, Diagnosis& diagnosis) {
     diagnosis.error("research.enabled", "found true with small_strain kinematics",
                     "a geometrically linear body keeps its neighbours: use finite_strain");
   }
+  const bool footing = scene.geometry.dimension == 2 && scene.drive.kind == DriveKind::displacement;
+  if (scene.limit.check && !footing &&
+      diagnosis.good({"limit.check", "drive.kind", "geometry.dimension"})) {
+    diagnosis.error("limit.check", "found true",
+                    "bounds are computed for a plane footing that is driven by a displacement");
+  }
 }
 
 void check_scene(const Scene& scene, Diagnosis& diagnosis) {

@@ -125,10 +125,27 @@ TableInfo output() {
       .build();
 }
 
+TableInfo limit() {
+  return TableBuilder<Limit>("limit", &Scene::limit,
+                             "A footing's run held against the bounds of its collapse load, "
+                             "which fpm-limit computes meanwhile.")
+      .key("check", &Limit::check,
+           {.doc = "Start fpm-limit beside the run, keep its bracket in limit.json, and say in the "
+                   "end how the plateau of the curve lies to it."})
+      .key("gap", &Limit::gap,
+           {.range = {0.0, 1.0, true, true},
+            .doc = "Wanted distance of the bounds, over their mean."})
+      .key("max_seconds", &Limit::max_seconds,
+           {.unit = "s",
+            .range = positive(),
+            .doc = "Processor time after which the best bounds so far are taken."})
+      .build();
+}
+
 }  // namespace
 
 std::vector<TableInfo> run_tables() {
-  return {programme(), solver(), research(), output()};
+  return {programme(), solver(), research(), output(), limit()};
 }
 
 }  // namespace wiring

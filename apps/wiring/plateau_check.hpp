@@ -7,10 +7,10 @@
 #include "wiring/curve.hpp"
 #include "wiring/scene.hpp"
 
-namespace limit {
+namespace wiring {
 
 /// Where the curve of a particle run lies against a bracket of its collapse load.
-struct RunCheck {
+struct PlateauCheck {
   enum class Place { below, inside, above };
 
   double plateau = 0.0;     // [Pa] mean over the last fifth of the settlement
@@ -25,10 +25,10 @@ struct RunCheck {
 /// Compares a curve with the bounds [Pa].
 /// @throws std::invalid_argument for a curve without settlement, or a scene without drive.width,
 /// whose curve has no mean pressure.
-[[nodiscard]] RunCheck check_run(const std::vector<wiring::CurveRow>& curve,
-                                 const wiring::Scene& scene, double lower, double upper);
+[[nodiscard]] PlateauCheck check_plateau(const std::vector<CurveRow>& curve, const Scene& scene,
+                                         double lower, double upper);
 
 /// The comparison in some lines of text.
-[[nodiscard]] std::string text_of(const RunCheck& check);
+[[nodiscard]] std::string text_of(const PlateauCheck& check);
 
-}  // namespace limit
+}  // namespace wiring

@@ -1,4 +1,4 @@
-#include "limit/run_check.hpp"
+#include "wiring/plateau_check.hpp"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,12 @@
 #include <iterator>
 #include <stdexcept>
 
-namespace limit {
+namespace wiring {
 
 namespace {
 
 // Time-weighted by settlement, as steps are not equal.
-double mean_of_last_fifth(const std::vector<wiring::CurveRow>& curve) {
+double mean_of_last_fifth(const std::vector<CurveRow>& curve) {
   const double from = 0.8 * curve.back().settlement;
   double sum = 0.0, length = 0.0;
   for (std::size_t i = 1; i < curve.size(); ++i) {
@@ -23,30 +23,28 @@ double mean_of_last_fifth(const std::vector<wiring::CurveRow>& curve) {
   return length > 0.0 ? sum / length : curve.back().mean_pressure;
 }
 
-std::optional<double> first_above(const std::vector<wiring::CurveRow>& curve, double pressure) {
-  const auto at = std::find_if(curve.begin(), curve.end(), [&](const wiring::CurveRow& row) {
-    return row.mean_pressure > pressure;
-  });
+std::optional<double> first_above(const std::vector<CurveRow>& curve, double pressure) {
+  const auto at = std::find_if(curve.begin(), curve.end(),
+                               [&](const CurveRow& row) { return row.mean_pressure > pressure; });
   return at == curve.end() ? std::nullopt : std::optional(at->settlement);
 }
 
-std::vector<std::string> reasons_of(RunCheck::Place place, const wiring::Scene& scene) {
+std::vector<std::string> reasons_of(PlateauCheck::Place place, const Scene& scene) {
   std::vector<std::string> reasons;
-  if (place == RunCheck::Place::above) {
-    if (scene.approximation.kinematics == wiring::KinematicsKind::finite_strain) {
+  if (place == PlateauCheck::Place::above) {
+    if (scene.approximation.kinematics == KinematicsKind::finite_strain) {
       reasons.emplace_back(
           "finite strain: the footing sinks in and the surface heaves, while the bounds are for "
-          "the "
-          "geometry of the beginning");
+          "the geometry of the beginning");
     }
     reasons.emplace_back(
         "spacing: an edge resolved by few particles bears more; compare a finer one");
     reasons.emplace_back("hourglass control: compare the energy-corrected pressure of the curve");
   }
-  if (place == RunCheck::Place::below) {
+  if (place == PlateauCheck::Place::below) {
     reasons.emplace_back("the run may not have reached collapse: does the curve still rise?");
     const bool is_associated =
-        std::all_of(scene.material.begin(), scene.material.end(), [](const wiring::Material& m) {
+        std::all_of(scene.material.begin(), scene.material.end(), [](const Material& m) {
           return m.dilation_angle.value_or(0.0) == m.friction_angle.value_or(0.0);
         });
     if (!is_associated) {
@@ -60,22 +58,22 @@ std::vector<std::string> reasons_of(RunCheck::Place place, const wiring::Scene& 
 
 }  // namespace
 
-RunCheck check_run(const std::vector<wiring::CurveRow>& curve, const wiring::Scene& scene,
-                   double lower, double upper) {
+PlateauCheck check_plateau(const std::vector<CurveRow>& curve, const Scene& scene, double lower,
+                           double upper) {
   if (!scene.drive.width) {
     throw std::invalid_argument("drive.width: absent; without it the curve has no mean pressure");
   }
   if (curve.empty() || !(curve.back().settlement > 0.0)) {
     throw std::invalid_argument("the curve has no settlement");
   }
-  RunCheck check;
+  PlateauCheck check;
   check.plateau = mean_of_last_fifth(curve);
   check.settlement = curve.back().settlement;
   if (check.plateau > upper) {
-    check.place = RunCheck::Place::above;
+    check.place = PlateauCheck::Place::above;
     check.distance = check.plateau / upper - 1.0;
   } else if (check.plateau < lower) {
-    check.place = RunCheck::Place::below;
+    check.place = PlateauCheck::Place::below;
     check.distance = 1.0 - check.plateau / lower;
   }
   check.passed_lower = first_above(curve, lower);
@@ -84,19 +82,19 @@ RunCheck check_run(const std::vector<wiring::CurveRow>& curve, const wiring::Sce
   return check;
 }
 
-std::string text_of(const RunCheck& check) {
-  std::string text = "The run:\n";
+std::string text_of(const PlateauCheck& check) {
+  std::string text = "The run against the bounds of its collapse load:\n";
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "  mean pressure over the last fifth of the settlement ({:g} m): {:.6g} Pa, ",
                  check.settlement, check.plateau);
   switch (check.place) {
-    case RunCheck::Place::inside:
+    case PlateauCheck::Place::inside:
       text += "inside the bracket\n";
       break;
-    case RunCheck::Place::above:
+    case PlateauCheck::Place::above:
       fmt::format_to(out, "{:.1f} % above the upper bound\n", 100.0 * check.distance);
       break;
-    case RunCheck::Place::below:
+    case PlateauCheck::Place::below:
       fmt::format_to(out, "{:.1f} % below the lower bound\n", 100.0 * check.distance);
       break;
   }
@@ -110,4 +108,4 @@ std::string text_of(const RunCheck& check) {
   return text;
 }
 
-}  // namespace limit
+}  // namespace wiring
