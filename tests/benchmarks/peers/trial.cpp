@@ -1,10 +1,61 @@
 #include "trial.hpp"
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <cmath>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
+#include <stdexcept>
 
 namespace peers {
+namespace {
+
+// Exit code of a process that went on asking for evaluations.
+constexpr int insatiable = 9;
+
+void print(const Trial& trial, const std::string& name, const Outcome& outcome, double ms) {
+  std::printf("%s;%s;%s;%s;%d;%d;%d;%.2f;%s\n", trial.problem().name.c_str(),
+              set_of(trial.problem()), trial.preconditioned() ? "factors" : "none", name.c_str(),
+              outcome.claimed ? 1 : 0, outcome.solved ? 1 : 0, outcome.evaluations, ms,
+              outcome.note.c_str());
+  std::fflush(stdout);
+}
+
+/// In the process of one solve.
+[[noreturn]] void solve_and_exit(Trial trial, const Configuration& configuration) {
+  // By processor time, which the load of the machine does not change; a process that sleeps is
+  // ended by the clock.
+  const rlimit limit{max_seconds, max_seconds + 1};
+  setrlimit(RLIMIT_CPU, &limit);
+  alarm(20 * max_seconds);
+  const Outcome outcome = configuration.solve(trial);
+  print(trial, configuration.name, outcome, trial.milliseconds());
+  std::_Exit(0);
+}
+
+std::string reason_of(int status) {
+  if (WIFEXITED(status) && WEXITSTATUS(status) == insatiable) return "ended: goes on for ever";
+  if (WIFEXITED(status)) return "ended with code " + std::to_string(WEXITSTATUS(status));
+  if (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM) return "ended: takes too long";
+  return "ended by signal " + std::to_string(WTERMSIG(status));
+}
+
+void run(const Trial& trial, const Configuration& configuration) {
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("peers: no further process");
+  if (child == 0) solve_and_exit(trial, configuration);
+  int status = 0;
+  if (waitpid(child, &status, 0) != child) throw std::runtime_error("peers: lost a process");
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  print(trial, configuration.name, {false, false, 0, reason_of(status)}, 0.0);
+}
+
+}  // namespace
 
 Trial::Trial(const Problem& problem, bool preconditioned) : problem_(&problem) {
   goal_ = problem.tolerance * norm_at(problem.start);
@@ -23,11 +74,19 @@ double Trial::norm_at(const Vector& u) const {
 }
 
 bool Trial::evaluate(const Vector& u, Vector& r) {
-  if (exhausted()) return false;
+  if (evaluations_ == 0) begin_ = std::clock();
+  if (exhausted()) {
+    if (++refusals_ > max_refusals) std::_Exit(insatiable);
+    return false;
+  }
   ++evaluations_;
   if (!problem_->residual(u, r) || !r.allFinite()) return false;
   if (met_at_ == 0 && norm(r) <= goal_) met_at_ = evaluations_;
   return true;
+}
+
+double Trial::milliseconds() const {
+  return 1e3 * static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC;
 }
 
 void Trial::precondition(const Vector& r, Vector& z) const {
@@ -54,20 +113,16 @@ void Trial::factorise() {
   factors_ = std::make_shared<Eigen::PartialPivLU<Eigen::MatrixXd>>(J);
 }
 
-void print_result(const Trial& trial, const std::string& solver, bool claimed, bool solved,
-                  int evaluations, const std::string& note) {
-  std::printf("%s;%s;%s;%s;%d;%d;%d;%s\n", trial.problem().name.c_str(),
-              trial.problem().for_tuning ? "tuning" : "held out",
-              trial.preconditioned() ? "factors" : "none", solver.c_str(), claimed ? 1 : 0,
-              solved ? 1 : 0, evaluations, note.c_str());
-  std::fflush(stdout);
-}
-
-void run_all(const std::string& filter, const std::function<void(const Trial&)>& solve) {
+void run_all(const std::string& filter, const std::vector<Configuration>& configurations) {
   const std::vector<Problem> problems = all_problems();
   for (const bool preconditioned : {false, true}) {
     for (const Problem& problem : problems) {
-      if (problem.name.find(filter) != std::string::npos) solve(Trial(problem, preconditioned));
+      if (problem.name.find(filter) == std::string::npos) continue;
+      const Trial fresh(problem, preconditioned);
+      for (const Configuration& configuration : configurations) {
+        if (configuration.needs_preconditioner && !preconditioned) continue;
+        run(fresh, configuration);
+      }
     }
   }
 }
