@@ -34,9 +34,12 @@ int peers_max_seconds() {
   return peers::max_seconds;
 }
 
-/// A fresh trial of a problem; never freed.
+/// A fresh trial of a problem, until `peers_close`.
 peers::Trial* peers_open(int problem, int preconditioned) {
   return new peers::Trial(problems()[static_cast<std::size_t>(problem)], preconditioned != 0);
+}
+void peers_close(peers::Trial* trial) {
+  delete trial;
 }
 int peers_unknowns(const peers::Trial* trial) {
   return static_cast<int>(trial->size());

@@ -14,28 +14,6 @@ namespace {
 using peers::Problem;
 using peers::Vector;
 
-/// Central differences of F / f_scale by u / u_scale.
-Eigen::MatrixXd jacobian(const Problem& problem, const Vector& u) {
-  // For noisy residuals a step that makes more of a difference than their noise.
-  const double step = problem.tolerance > 1e-5 ? 1e-3 : 1e-6;
-  Eigen::MatrixXd J(u.size(), u.size());
-  Vector probe = u;
-  Vector plus(u.size());
-  Vector minus(u.size());
-  for (Eigen::Index j = 0; j < u.size(); ++j) {
-    const double unit = problem.u_scale.size() > 0 ? problem.u_scale[j] : 1.0;
-    const double h = step * std::max(unit, std::abs(u[j]));
-    probe[j] = u[j] + h;
-    problem.residual(probe, plus);
-    probe[j] = u[j] - h;
-    problem.residual(probe, minus);
-    probe[j] = u[j];
-    J.col(j) = (plus - minus) * (0.5 * unit / h);
-    if (problem.f_scale.size() > 0) J.col(j).array() /= problem.f_scale.array();
-  }
-  return J;
-}
-
 /// The lowest ||F|| over the goal on the way.
 double newton(const Problem& problem, bool damped) {
   constexpr int most_steps = 60;
@@ -46,9 +24,7 @@ double newton(const Problem& problem, bool damped) {
   double lowest = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps && lowest > trial.goal(); ++step) {
     problem.residual(u, r);
-    if (problem.f_scale.size() > 0) r.array() /= problem.f_scale.array();
-    Vector du = -jacobian(problem, u).partialPivLu().solve(r);
-    if (problem.u_scale.size() > 0) du.array() *= problem.u_scale.array();
+    const Vector du = -difference_jacobian(problem, u).partialPivLu().solve(r);
     double length = 1.0;
     while (damped && length > shortest &&
            !(trial.norm_at(u + length * du) <= (1.0 - 1e-4 * length) * trial.norm_at(u))) {

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """usage: run_scipy.py LIBRARY [NAME]
 
-Every problem with NAME in its name by scipy's newton_krylov; LIBRARY is that of problems_c.cpp. Prints
-the lines that trial.hpp describes, and gives each solve a process of its own as run_all there does.
+Every problem with NAME in its name by scipy's newton_krylov; LIBRARY is that of problems_c.cpp.
+Prints the lines that trial.hpp describes, and gives each solve a process of its own as run_all
+there does.
 """
 import ctypes
 import os
@@ -40,8 +41,9 @@ def load(path):
     for name, result, arguments in [
             ("problems", ctypes.c_int, []), ("name", ctypes.c_char_p, [ctypes.c_int]),
             ("set", ctypes.c_char_p, [ctypes.c_int]), ("max_seconds", ctypes.c_int, []),
-            ("open", trial, [ctypes.c_int, ctypes.c_int]), ("unknowns", ctypes.c_int, [trial]),
-            ("start", None, [trial, DOUBLES]), ("goal", ctypes.c_double, [trial]),
+            ("open", trial, [ctypes.c_int, ctypes.c_int]), ("close", None, [trial]),
+            ("unknowns", ctypes.c_int, [trial]), ("start", None, [trial, DOUBLES]),
+            ("goal", ctypes.c_double, [trial]),
             ("evaluate", ctypes.c_int, [trial, DOUBLES, DOUBLES]),
             ("precondition", None, [trial, DOUBLES, DOUBLES]), ("met_at", ctypes.c_int, [trial]),
             ("exhausted", ctypes.c_int, [trial]), ("milliseconds", ctypes.c_double, [trial])]:
@@ -86,7 +88,7 @@ def solve(peers, trial, preconditioned, choices):
         return False, type(error).__name__
 
 
-def run(peers, problem, preconditioned, name, choices):
+def run(peers, problem, trial, preconditioned, name, choices):
     line = [peers.peers_name(problem).decode(), peers.peers_set(problem).decode(),
             "factors" if preconditioned else "none", "scipy " + name]
     sys.stdout.flush()
@@ -95,11 +97,10 @@ def run(peers, problem, preconditioned, name, choices):
         limit = peers.peers_max_seconds()
         resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 1))
         signal.alarm(20 * limit)
-        trial = peers.peers_open(problem, preconditioned)
         claimed, note = solve(peers, trial, preconditioned, choices)
         met = peers.peers_met_at(trial)
-        print(*line, int(claimed), int(met > 0), met, "%.2f" % peers.peers_milliseconds(trial), note,
-              sep=";", flush=True)
+        ms = peers.peers_milliseconds(trial)
+        print(*line, int(claimed), int(met > 0), met, "%.2f" % ms, note, sep=";", flush=True)
         os._exit(0)
     status = os.waitpid(child, 0)[1]
     if status != 0:
@@ -112,11 +113,15 @@ def main():
     warnings.simplefilter("ignore")
     numpy.seterr(all="ignore")
     peers = load(sys.argv[1])
+    wanted = sys.argv[2] if len(sys.argv) > 2 else ""
     for preconditioned in (False, True):
         for problem in range(peers.peers_problems()):
-            if (sys.argv[2] if len(sys.argv) > 2 else "") in peers.peers_name(problem).decode():
-                for name, choices in CONFIGURATIONS.items():
-                    run(peers, problem, preconditioned, name, choices)
+            if wanted not in peers.peers_name(problem).decode():
+                continue
+            trial = peers.peers_open(problem, preconditioned)  # each process has its own copy
+            for name, choices in CONFIGURATIONS.items():
+                run(peers, problem, trial, preconditioned, name, choices)
+            peers.peers_close(trial)
 
 
 main()

@@ -57,9 +57,32 @@ void run(const Trial& trial, const Configuration& configuration) {
 
 }  // namespace
 
+Eigen::MatrixXd difference_jacobian(const Problem& problem, const Vector& u) {
+  // For noisy residuals a step that makes more of a difference than their noise.
+  const double step = problem.tolerance > 1e-5 ? 1e-3 : 1e-6;
+  const Eigen::Index n = u.size();
+  Eigen::MatrixXd J(n, n);
+  Vector probe = u;
+  Vector plus(n);
+  Vector minus(n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double unit = problem.u_scale.size() == 0 ? 1.0 : problem.u_scale[j];
+    const double h = step * std::max(unit, std::abs(u[j]));
+    probe[j] = u[j] + h;
+    problem.residual(probe, plus);
+    probe[j] = u[j] - h;
+    problem.residual(probe, minus);
+    probe[j] = u[j];
+    J.col(j) = (plus - minus) / (2.0 * h);
+  }
+  return J;
+}
+
 Trial::Trial(const Problem& problem, bool preconditioned) : problem_(&problem) {
   goal_ = problem.tolerance * norm_at(problem.start);
-  if (preconditioned) factorise();
+  if (!preconditioned) return;
+  factors_ = std::make_shared<Eigen::PartialPivLU<Eigen::MatrixXd>>(
+      difference_jacobian(problem, problem.start));
 }
 
 double Trial::norm(const Vector& r) const {
@@ -91,26 +114,6 @@ double Trial::milliseconds() const {
 
 void Trial::precondition(const Vector& r, Vector& z) const {
   z = factors_->solve(r);
-}
-
-void Trial::factorise() {
-  const Vector& u = problem_->start;
-  const Eigen::Index n = u.size();
-  Eigen::MatrixXd J(n, n);
-  Vector probe = u;
-  Vector plus(n);
-  Vector minus(n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const double unit = problem_->u_scale.size() == 0 ? 1.0 : problem_->u_scale[j];
-    const double h = (problem_->tolerance > 1e-5 ? 1e-3 : 1e-6) * std::max(unit, std::abs(u[j]));
-    probe[j] = u[j] + h;
-    problem_->residual(probe, plus);
-    probe[j] = u[j] - h;
-    problem_->residual(probe, minus);
-    probe[j] = u[j];
-    J.col(j) = (plus - minus) / (2.0 * h);
-  }
-  factors_ = std::make_shared<Eigen::PartialPivLU<Eigen::MatrixXd>>(J);
 }
 
 void run_all(const std::string& filter, const std::vector<Configuration>& configurations) {

@@ -18,8 +18,11 @@ inline constexpr int max_refusals = 1000;
 /// Processor time after which it is ended as well [s].
 inline constexpr int max_seconds = 60;
 
-/// A problem seen through a counter, with the LU factors of the Jacobian at the start (by
-/// differences, not counted) as a preconditioner that is never refreshed.
+/// The Jacobian at u by central differences, not counted.
+Eigen::MatrixXd difference_jacobian(const Problem& problem, const Vector& u);
+
+/// A problem seen through a counter, with the LU factors of the Jacobian at the start as a
+/// preconditioner that is never refreshed.
 class Trial {
  public:
   /// Copies share the factors.
@@ -49,7 +52,6 @@ class Trial {
 
  private:
   [[nodiscard]] double norm(const Vector& r) const;
-  void factorise();
 
   const Problem* problem_;
   double goal_ = 0.0;
