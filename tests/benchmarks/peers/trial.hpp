@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/LU>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <string>
@@ -58,7 +57,7 @@ class Trial {
   int evaluations_ = 0;
   int met_at_ = 0;
   int refusals_ = 0;
-  std::clock_t begin_ = 0;
+  double begin_ = 0.0;
   std::shared_ptr<const Eigen::PartialPivLU<Eigen::MatrixXd>> factors_;
 };
 
