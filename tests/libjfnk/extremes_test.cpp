@@ -113,8 +113,11 @@ TEST(Extremes, ARankMissingEverywhereDoesNotHinder) {
              (i < n / 2 ? 0.01 : -0.01);
     }
   };
-  for (const Report& report : all_reports(F, Vector::Zero(n))) {
-    EXPECT_TRUE(report.converged()) << report.reason;
+  for (const Method method : {Method::newton_krylov, Method::hybrid}) {
+    Vector u = Vector::Zero(n);
+    EXPECT_TRUE(solve(F, u, by(method)).converged());
+    u.setZero();
+    EXPECT_TRUE(solve(F, u, by(method), Halving{}).converged());
   }
 }
 
