@@ -6,13 +6,6 @@
 namespace peers {
 namespace {
 
-Vector vector(std::initializer_list<double> values) {
-  Vector v(static_cast<Eigen::Index>(values.size()));
-  Eigen::Index i = 0;
-  for (const double value : values) v[i++] = value;
-  return v;
-}
-
 bool rosenbrock(const Vector& x, Vector& r) {
   for (Eigen::Index i = 0; i + 1 < x.size(); i += 2) {
     r[i] = 10.0 * (x[i + 1] - x[i] * x[i]);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,26 @@ struct Problem {
   /// Typical sizes of unknowns and residuals, for solvers that take them; empty: ones.
   Vector u_scale = {};
   Vector f_scale = {};
+  /// Of the second set.
+  bool second = false;
+  /// A root, where one is known.
+  Vector root = {};
 };
+
+/// The name of the set a problem belongs to.
+inline const char* set_of(const Problem& problem) {
+  if (problem.second) return "held out 2";
+  return problem.for_tuning ? "tuning" : "held out";
+}
+
+inline Vector vector(std::initializer_list<double> values) {
+  return Eigen::Map<const Vector>(values.begin(), static_cast<Eigen::Index>(values.size()));
+}
+
+/// The problem with noise of a given size added to every component, under another name.
+Problem noisy(Problem problem, const char* name, bool for_tuning, double level);
+/// The problem in units that spread over the given decades, rows and columns unlike.
+Problem in_other_units(Problem problem, const char* name, bool for_tuning, double decades);
 
 /// Partial differential equations on grids.
 void add_grids(std::vector<Problem>& problems);
@@ -30,12 +50,16 @@ void add_grids(std::vector<Problem>& problems);
 void add_classics(std::vector<Problem>& problems);
 /// Kinks, noise, units far apart, residuals that end somewhere.
 void add_troubles(std::vector<Problem>& problems);
+/// Problems of all these kinds that were written after libjfnk's constants had been chosen; none
+/// may be chosen by looking at them.
+void add_second_set(std::vector<Problem>& problems);
 
 inline std::vector<Problem> all_problems() {
   std::vector<Problem> problems;
   add_grids(problems);
   add_classics(problems);
   add_troubles(problems);
+  add_second_set(problems);
   return problems;
 }
 

@@ -1,5 +1,4 @@
 // Every problem by libjfnk as it comes: default options, tolerance and scales of the problem.
-#include <cstdio>
 #include <string>
 
 #include "jfnk/jfnk.hpp"
@@ -36,8 +35,7 @@ jfnk::Report solve(peers::Trial& trial, jfnk::Vector& u, const jfnk::Options& op
 }  // namespace
 
 int main(int argc, char** argv) {
-  peers::run_all(argc > 1 ? argv[1] : "", [](const peers::Trial& fresh) {
-    peers::Trial trial = fresh;
+  const auto solve_by_default = [](peers::Trial& trial) {
     jfnk::Options options;
     options.tolerances.relative = trial.problem().tolerance;
     options.max_evaluations = peers::max_evaluations;
@@ -47,8 +45,8 @@ int main(int argc, char** argv) {
     const jfnk::Report report = solve(trial, u, options);
     // F / f_scale is formed in another order here and there: a few rounding units of grace.
     const bool solved = report.converged() && trial.norm_at(u) <= trial.goal() * (1.0 + 1e-12);
-    peers::print_result(trial, "libjfnk", report.converged(), solved, trial.evaluations(),
-                        purposes(report));
-  });
+    return peers::Outcome{report.converged(), solved, trial.evaluations(), purposes(report)};
+  };
+  peers::run_all(argc > 1 ? argv[1] : "", {{"libjfnk", solve_by_default}});
   return 0;
 }

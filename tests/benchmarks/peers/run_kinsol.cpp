@@ -57,7 +57,7 @@ struct Choice {
   int strategy = KIN_LINESEARCH;
 };
 
-void run(peers::Trial trial, const Choice& choice, SUNContext context) {
+peers::Outcome solve(peers::Trial& trial, const Choice& choice, SUNContext context) {
   const auto n = static_cast<sunindextype>(trial.size());
   N_Vector u = N_VNew_Serial(n, context);
   N_Vector u_scale = N_VNew_Serial(n, context);
@@ -91,11 +91,10 @@ void run(peers::Trial trial, const Choice& choice, SUNContext context) {
     if (trial.preconditioned()) KINSetPreconditioner(memory, nullptr, precondition);
   }
   const int flag = KINSol(memory, u, choice.anderson ? KIN_FP : choice.strategy, u_scale, f_scale);
-  peers::print_result(trial, "KINSOL " + choice.name, flag >= 0, trial.met_at() > 0, trial.met_at(),
-                      "flag " + std::to_string(flag));
   KINFree(&memory);
   if (linear != nullptr) SUNLinSolFree(linear);
   for (N_Vector v : {u, u_scale, f_scale}) N_VDestroy(v);
+  return {flag >= 0, trial.met_at() > 0, trial.met_at(), "flag " + std::to_string(flag)};
 }
 
 }  // namespace
@@ -110,11 +109,14 @@ int main(int argc, char** argv) {
                             {"full steps", KIN_ETACHOICE1, 200, false, KIN_NONE},
                             {"Anderson 5", 0, 5, true},
                             {"Anderson 20", 0, 20, true}};
-  peers::run_all(argc > 1 ? argv[1] : "", [&](const peers::Trial& trial) {
-    for (const Choice& choice : choices) {
-      if (!choice.anderson || trial.preconditioned()) run(trial, choice, context);
-    }
-  });
+  std::vector<peers::Configuration> configurations;
+  for (const Choice& choice : choices) {
+    configurations.push_back(
+        {"KINSOL " + choice.name,
+         [&choice, context](peers::Trial& trial) { return solve(trial, choice, context); },
+         choice.anderson});
+  }
+  peers::run_all(argc > 1 ? argv[1] : "", configurations);
   SUNContext_Free(&context);
   return 0;
 }

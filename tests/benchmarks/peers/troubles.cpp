@@ -47,43 +47,6 @@ double scatter(double u, std::uint64_t seed) {
   return 2.0 * static_cast<double>(z >> 11U) * 0x1p-53 - 1.0;
 }
 
-/// Another problem with noise of a given size added to every component.
-Problem noisy(Problem problem, const char* name, bool for_tuning, double level) {
-  problem.name = name;
-  problem.for_tuning = for_tuning;
-  problem.tolerance = 1e-4;
-  problem.residual = [clean = problem.residual, level](const Vector& u, Vector& r) {
-    if (!clean(u, r)) return false;
-    for (Eigen::Index i = 0; i < u.size(); ++i) {
-      r[i] += level * scatter(u[i], static_cast<std::uint64_t>(i));
-    }
-    return true;
-  };
-  return problem;
-}
-
-/// Another problem in units that spread over the given decades, rows and columns unlike.
-Problem in_other_units(Problem problem, const char* name, bool for_tuning, double decades) {
-  const Eigen::Index n = problem.start.size();
-  problem.name = name;
-  problem.for_tuning = for_tuning;
-  problem.u_scale.resize(n);
-  problem.f_scale.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    problem.u_scale[i] =
-        std::pow(10.0, 0.5 * decades * std::sin(1.0 + 2.0 * static_cast<double>(i)));
-    problem.f_scale[i] = std::pow(10.0, 0.5 * decades * std::cos(3.0 * static_cast<double>(i)));
-  }
-  problem.start.array() *= problem.u_scale.array();
-  problem.residual = [plain = problem.residual, us = problem.u_scale, fs = problem.f_scale](
-                         const Vector& u, Vector& r) {
-    if (!plain(u.cwiseQuotient(us), r)) return false;
-    r.array() *= fs.array();
-    return true;
-  };
-  return problem;
-}
-
 /// Deflection of a plate pulled by a voltage: -u'' = lambda / (1 - u)^2; the gap closes at u = 1.
 Problem gap(const char* name, bool for_tuning, int n, double lambda) {
   const double h = 1.0 / (n + 1.0);
@@ -126,6 +89,43 @@ Problem pipes(const char* name, bool for_tuning, int n) {
 }
 
 }  // namespace
+
+Problem noisy(Problem problem, const char* name, bool for_tuning, double level) {
+  problem.name = name;
+  problem.for_tuning = for_tuning;
+  problem.tolerance = 1e-4;
+  problem.root.resize(0);
+  problem.residual = [clean = problem.residual, level](const Vector& u, Vector& r) {
+    if (!clean(u, r)) return false;
+    for (Eigen::Index i = 0; i < u.size(); ++i) {
+      r[i] += level * scatter(u[i], static_cast<std::uint64_t>(i));
+    }
+    return true;
+  };
+  return problem;
+}
+
+Problem in_other_units(Problem problem, const char* name, bool for_tuning, double decades) {
+  const Eigen::Index n = problem.start.size();
+  problem.name = name;
+  problem.for_tuning = for_tuning;
+  problem.u_scale.resize(n);
+  problem.f_scale.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    problem.u_scale[i] =
+        std::pow(10.0, 0.5 * decades * std::sin(1.0 + 2.0 * static_cast<double>(i)));
+    problem.f_scale[i] = std::pow(10.0, 0.5 * decades * std::cos(3.0 * static_cast<double>(i)));
+  }
+  problem.start.array() *= problem.u_scale.array();
+  if (problem.root.size() > 0) problem.root.array() *= problem.u_scale.array();
+  problem.residual = [plain = problem.residual, us = problem.u_scale, fs = problem.f_scale](
+                         const Vector& u, Vector& r) {
+    if (!plain(u.cwiseQuotient(us), r)) return false;
+    r.array() *= fs.array();
+    return true;
+  };
+  return problem;
+}
 
 void add_troubles(std::vector<Problem>& problems) {
   problems.push_back(truss("truss", true, 12, 0.02, 0.05));
