@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -11,22 +12,57 @@ namespace {
 // noise in the action.
 constexpr double far_less = 0.3;
 
+/// Evaluations allowed without progress: once Newton steps were made, what one of them took.
 int patience(const Solve& solve) {
   constexpr int unpreconditioned = 20;
   constexpr int preconditioned = 10;
+  constexpr int least = 4;
   const int chosen = solve.options.multisecant.patience;
   if (chosen > 0) return chosen;
-  return solve.evaluator.preconditioner().is_identity() ? unpreconditioned : preconditioned;
+  const bool plain = solve.evaluator.preconditioner().is_identity();
+  const int most = plain ? unpreconditioned : preconditioned;
+  const double step = solve.course.step_cost;
+  return step > 0.0 ? static_cast<int>(std::clamp<double>(step, least, most)) : most;
 }
 
-/// The multisecant step from work.base into work.step:
-/// du = -dU gamma - mixing P (F - dF gamma), gamma = argmin ||F - dF gamma||.
-void find_step(Solve& solve) {
+/// Whether Broyden's updates of the preconditioner are kept besides the least squares.
+bool has_broyden(const Solve& solve) {
+  return solve.options.multisecant.broyden && !solve.evaluator.preconditioner().is_identity();
+}
+
+/// H r = dU gamma + mixing P (r - dF gamma), gamma = argmin ||r - dF gamma||.
+void invert_by_least_squares(Solve& solve, const Vector& r, Vector& z) {
   Workspace& work = solve.work;
   Vector& remainder = work.evaluator.probe;
-  work.secants.project(work.base.r, work.step, remainder, solve.evaluator.product());
+  work.secants.project(r, z, remainder, solve.evaluator.product());
   solve.evaluator.precondition(remainder, work.direction);
-  work.step -= solve.course.mixing * work.direction;
+  z = solve.course.mixing * work.direction - z;
+}
+
+/// H r by rank-one updates of mixing P.
+void invert_by_broyden(Solve& solve, const Vector& r, Vector& z) {
+  solve.evaluator.precondition(r, z);
+  z *= solve.course.mixing;
+  solve.work.broyden.improve(z, solve.evaluator.product());
+}
+
+/// The step from work.base into work.step.
+void find_step(Solve& solve) {
+  Workspace& work = solve.work;
+  const Course& course = solve.course;
+  if (!has_broyden(solve)) {
+    invert_by_least_squares(solve, work.base.r, work.step);
+    work.step *= -1.0;
+  } else {
+    if (!course.inverted) {
+      invert_by_least_squares(solve, work.base.r, work.by_least_squares);
+      invert_by_broyden(solve, work.base.r, work.by_broyden);
+      solve.course.inverted = true;
+    }
+    const bool drawn = course.lead == 0.0;
+    const bool first = drawn ? work.secants.size() > work.broyden.size() : course.lead > 0.0;
+    work.step = first ? -work.by_least_squares : -work.by_broyden;
+  }
   solve.evaluator.filter(work.base.u, work.step);
 }
 
@@ -47,17 +83,42 @@ Ending look(Solve& solve, Iteration& line) {
   return Ending::patience_lost;
 }
 
+/// Lets both models foretell the step that led to the change of F just seen, and then learn from
+/// it: work.step led from work.trial to work.base.
+void learn(Solve& solve) {
+  constexpr double memory = 0.8;  // of former pairs in the lead: the last five or so count
+  Workspace& work = solve.work;
+  Course& course = solve.course;
+  const InnerProductRef& product = solve.evaluator.product();
+  const double floor = std::numeric_limits<double>::epsilon() * product.norm(work.step);
+
+  invert_by_least_squares(solve, work.base.r, work.image);
+  work.direction = work.step - work.image + work.by_least_squares;
+  const double by_least_squares = product.norm(work.direction) + floor;
+  invert_by_broyden(solve, work.base.r, work.image);
+  work.by_broyden = work.image - work.by_broyden;
+  work.direction = work.step - work.by_broyden;
+  const double by_broyden = product.norm(work.direction) + floor;
+  const double gain = std::log(by_broyden / by_least_squares);
+  course.lead = memory * course.lead + (std::isfinite(gain) ? gain : 0.0);
+
+  if (work.broyden.full()) work.broyden.clear();
+  work.broyden.add(work.step, work.by_broyden, product);
+  course.inverted = false;
+}
+
 /// Stores the pair (trial - base) and makes the trial the base; returns the change of F.
 double move(Solve& solve, Iteration& line) {
   Workspace& work = solve.work;
   const InnerProductRef& product = solve.evaluator.product();
-  Vector& difference = work.evaluator.probe;
   work.step = work.trial.u - work.base.u;
-  difference = work.trial.r - work.base.r;
   line.step_norm = product.norm(work.step);
+  std::swap(work.base, work.trial);
+  if (has_broyden(solve)) learn(solve);
+  Vector& difference = work.evaluator.probe;
+  difference = work.base.r - work.trial.r;
   const double change = product.norm(difference);
   work.secants.add(work.step, difference, solve.options.multisecant.max_condition, product);
-  std::swap(work.base, work.trial);
   return change;
 }
 
@@ -101,9 +162,13 @@ void begin_multisecant(Solve& solve) {
   course.stage_iterations = 0;
   course.stage_limit = alone ? solve.options.max_iterations : std::numeric_limits<int>::max();
   course.stage_start_norm = solve.work.best.norm;
+  course.stage_start_evaluations = solve.evaluations();
   course.wild = 0;
+  course.lead = 0.0;
+  course.inverted = false;
   course.mark = solve.work.best.norm;
   course.last_fall = solve.evaluations();
+  solve.work.broyden.clear();
   if (solve.options.multisecant.renew && solve.work.gmres.can_shorten()) renew_memory(solve);
 }
 
@@ -142,7 +207,10 @@ Ending multisecant_step(Solve& solve) {
   if (solve.evaluations() - course.last_fall >= patience(solve)) return Ending::patience_lost;
   course.wild = work.base.norm > rule.wild * work.best.norm ? course.wild + 1 : 0;
   if (course.wild >= rule.wild_patience) return Ending::patience_lost;
-  if (work.base.norm > rule.rejection * work.best.norm) solve.return_to_best();
+  if (work.base.norm > rule.rejection * work.best.norm) {
+    solve.return_to_best();
+    course.inverted = false;
+  }
   return Ending::go_on;
 }
 

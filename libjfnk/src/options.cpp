@@ -196,6 +196,8 @@ Options plasticity() {
   options.multisecant.progress = 1.0;
   options.multisecant.scale_mixing = false;
   options.multisecant.max_condition = 1e8;
+  options.multisecant.broyden = false;
+  options.multisecant.max_cuts = 10;
   options.multisecant.renew = false;
   options.multisecant.wild_patience = std::numeric_limits<int>::max();
   options.stagnation.left = 1.0;

@@ -8,7 +8,7 @@ namespace detail {
 namespace {
 
 // First integer of a snapshot; raised when its fields change.
-constexpr std::int64_t snapshot_version = 1;
+constexpr std::int64_t snapshot_version = 2;
 
 struct Writer {
   Snapshot& out;
@@ -50,12 +50,15 @@ void walk_course(Walker& walk, Course& c) {
   walk(c.stage_limit);
   walk(c.round);
   walk(c.stage_start_norm);
+  walk(c.stage_start_evaluations);
   walk(c.mark);
   walk(c.last_fall);
   walk(c.wild);
   walk(c.mixing);
   walk(c.mixing_known);
   walk(c.expected_change);
+  walk(c.lead);
+  walk(c.inverted);
   walk(c.forcing.previous_norm);
   walk(c.forcing.previous_eta);
   walk(c.forcing.first);
@@ -70,11 +73,14 @@ void walk_course(Walker& walk, Course& c) {
   walk(c.noise_measured);
   walk(c.restarted);
   walk(c.transient_tried);
+  walk(c.step_cost);
   walk(c.time_step);
   walk(c.shift_sign);
   walk(c.setup_evaluations);
   walk(c.setup_norm);
   walk(c.setup_best_rate);
+  walk(c.doubted);
+  walk(c.suspended);
 }
 
 template <class Walker>
@@ -136,6 +142,9 @@ void walk_state(Walker& walk, Workspace& work, Course& course, Report& report) {
   walk(work.evaluator_state.without_preconditioner);
   walk(work.setup_point);
   work.secants.for_each_field(walk);
+  work.broyden.for_each_field(walk);
+  walk(work.by_least_squares);
+  walk(work.by_broyden);
   for (Iteration& line : report.history) walk_line(walk, line);
 }
 

@@ -61,6 +61,11 @@ void resize(Workspace& work, Eigen::Index n, Eigen::Index global, const Options&
   if (options.method != Method::newton_krylov) {
     const Eigen::Index pairs = std::min<Eigen::Index>(options.multisecant.memory, global);
     work.secants.resize(n, static_cast<int>(pairs));
+    const bool broyden = preconditioned && options.multisecant.broyden;
+    work.broyden.resize(n, broyden ? options.multisecant.memory : 0);
+    for (Vector* v : {&work.by_least_squares, &work.by_broyden, &work.image}) {
+      v->resize(broyden ? n : 0);
+    }
   }
 }
 

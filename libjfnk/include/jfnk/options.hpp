@@ -134,7 +134,7 @@ struct Multisecant {
   /// (1, inf).
   double wild = 3.0;
   /// See wild. Range [1, inf).
-  int wild_patience = 6;
+  int wild_patience = 4;
   /// A point with ||F|| > rejection * best ||F|| is left for the best one. Range (1, inf).
   double rejection = 30.0;
   /// Factor of the preconditioned remainder, u -= mixing P (F - dF gamma). Range (0, 1].
@@ -145,10 +145,14 @@ struct Multisecant {
   /// Oldest pairs are dropped until the unit columns of dF have a condition estimate below this.
   /// Range (1, 1e15].
   double max_condition = 1e4;
+  /// With a preconditioner, keep Broyden's rank-one updates of it besides the least squares over all
+  /// pairs; the next step is by the one that would have foretold the last ones better. Costs three
+  /// applications of the preconditioner per iteration instead of one, and twice the memory.
+  bool broyden = true;
   /// After Newton steps begin with the Krylov space of the last one instead of the pairs of before.
   bool renew = true;
   /// Halvings towards the best point after leaving the domain of F. Range [0, inf).
-  int max_cuts = 10;
+  int max_cuts = 3;
 };
 
 /// The schedule of Method::hybrid.
