@@ -46,22 +46,27 @@ void invert_by_broyden(Solve& solve, const Vector& r, Vector& z) {
   solve.work.broyden.improve(z, solve.evaluator.product());
 }
 
+/// Whether the next step is Broyden's: it foretold the last ones well, and not worse.
+bool trusts_broyden(const Solve& solve) {
+  // Broyden, Dennis & Moré (1973) ask ||I - H J|| < 1/2 of H; 0.4 to 0.6 serve alike.
+  constexpr double greatest_error = 0.6;
+  const Course& course = solve.course;
+  const bool drawn = course.lead == 0.0;
+  const bool leads =
+      drawn ? solve.work.broyden.size() >= solve.work.secants.size() : course.lead < 0.0;
+  return leads && course.broyden_error <= greatest_error;
+}
+
 /// The step from work.base into work.step.
 void find_step(Solve& solve) {
   Workspace& work = solve.work;
-  const Course& course = solve.course;
   if (!has_broyden(solve)) {
     invert_by_least_squares(solve, work.base.r, work.step);
     work.step *= -1.0;
   } else {
-    if (!course.inverted) {
-      invert_by_least_squares(solve, work.base.r, work.by_least_squares);
-      invert_by_broyden(solve, work.base.r, work.by_broyden);
-      solve.course.inverted = true;
-    }
-    const bool drawn = course.lead == 0.0;
-    const bool first = drawn ? work.secants.size() > work.broyden.size() : course.lead > 0.0;
-    work.step = first ? -work.by_least_squares : -work.by_broyden;
+    invert_by_least_squares(solve, work.base.r, work.by_least_squares);
+    if (!solve.course.inverted) invert_by_broyden(solve, work.base.r, work.by_broyden);
+    work.step = trusts_broyden(solve) ? -work.by_broyden : -work.by_least_squares;
   }
   solve.evaluator.filter(work.base.u, work.step);
 }
@@ -83,28 +88,36 @@ Ending look(Solve& solve, Iteration& line) {
   return Ending::patience_lost;
 }
 
-/// Lets both models foretell the step that led to the change of F just seen, and then learn from
-/// it: work.step led from work.trial to work.base.
-void learn(Solve& solve) {
-  constexpr double memory = 0.8;  // of former pairs in the lead: the last five or so count
+/// Lets both models foretell work.step, which led from work.trial to work.base, from the change of
+/// F; then Broyden's learns from it.
+void compare_models(Solve& solve) {
+  // Of former pairs: the last five or so count for the lead, the last two for the error.
+  constexpr double memory = 0.8;
+  constexpr double error_memory = 0.5;
+  constexpr double hopeless = 1e100;
   Workspace& work = solve.work;
   Course& course = solve.course;
   const InnerProductRef& product = solve.evaluator.product();
-  const double floor = std::numeric_limits<double>::epsilon() * product.norm(work.step);
-
+  const auto error = [&](const Vector& image) {
+    work.direction = work.step - image;
+    const double relative = product.norm(work.direction) / product.norm(work.step);
+    return std::isfinite(relative)
+               ? std::clamp(relative, std::numeric_limits<double>::epsilon(), hopeless)
+               : hopeless;
+  };
   invert_by_least_squares(solve, work.base.r, work.image);
-  work.direction = work.step - work.image + work.by_least_squares;
-  const double by_least_squares = product.norm(work.direction) + floor;
+  work.by_least_squares = work.image - work.by_least_squares;
+  const double by_least_squares = error(work.by_least_squares);
   invert_by_broyden(solve, work.base.r, work.image);
   work.by_broyden = work.image - work.by_broyden;
-  work.direction = work.step - work.by_broyden;
-  const double by_broyden = product.norm(work.direction) + floor;
-  const double gain = std::log(by_broyden / by_least_squares);
-  course.lead = memory * course.lead + (std::isfinite(gain) ? gain : 0.0);
-
+  const double by_broyden = error(work.by_broyden);
+  course.lead = memory * course.lead + std::log(by_broyden / by_least_squares);
+  course.broyden_error = std::max(error_memory * course.broyden_error, by_broyden);
   if (work.broyden.full()) work.broyden.clear();
-  work.broyden.add(work.step, work.by_broyden, product);
-  course.inverted = false;
+  course.inverted = work.broyden.add(work.step, work.by_broyden, product) && work.broyden.size() > 1;
+  if (!course.inverted) return;
+  work.by_broyden = work.image;
+  work.broyden.improve_by_last(work.by_broyden, product);
 }
 
 /// Stores the pair (trial - base) and makes the trial the base; returns the change of F.
@@ -114,7 +127,7 @@ double move(Solve& solve, Iteration& line) {
   work.step = work.trial.u - work.base.u;
   line.step_norm = product.norm(work.step);
   std::swap(work.base, work.trial);
-  if (has_broyden(solve)) learn(solve);
+  if (has_broyden(solve)) compare_models(solve);
   Vector& difference = work.evaluator.probe;
   difference = work.base.r - work.trial.r;
   const double change = product.norm(difference);
@@ -165,6 +178,7 @@ void begin_multisecant(Solve& solve) {
   course.stage_start_evaluations = solve.evaluations();
   course.wild = 0;
   course.lead = 0.0;
+  course.broyden_error = 0.0;
   course.inverted = false;
   course.mark = solve.work.best.norm;
   course.last_fall = solve.evaluations();
@@ -194,6 +208,7 @@ Ending multisecant_step(Solve& solve) {
     Ending ending = Ending::go_on;
     if (adapt_to_noise(solve, ending)) {
       solve.return_to_best();
+      course.inverted = false;
       return Ending::go_on;
     }
     if (ending != Ending::go_on) return ending;

@@ -176,6 +176,9 @@ void renew_preconditioner(Solve& solve) {
   course.setup_norm = solve.work.best.norm;
   course.setup_best_rate = 0.0;
   course.radius = 0.0;  // it is measured through the preconditioner
+  // as are Broyden's updates
+  solve.work.broyden.clear();
+  course.inverted = false;
 }
 
 }  // namespace

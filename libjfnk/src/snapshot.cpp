@@ -58,6 +58,7 @@ void walk_course(Walker& walk, Course& c) {
   walk(c.mixing_known);
   walk(c.expected_change);
   walk(c.lead);
+  walk(c.broyden_error);
   walk(c.inverted);
   walk(c.forcing.previous_norm);
   walk(c.forcing.previous_eta);

@@ -51,7 +51,8 @@ struct Course {
   bool mixing_known = false;
   double expected_change = 0.0;  ///< of F in the first step, if an action foretold it
   double lead = 0.0;             ///< of least squares over Broyden; see Multisecant::broyden
-  bool inverted = false;         ///< work.by_least_squares and by_broyden belong to work.base
+  double broyden_error = 0.0;    ///< likewise
+  bool inverted = false;         ///< work.by_broyden belongs to work.base
   // Newton
   ForcingState forcing;
   double radius = 0.0;  ///< of the dogleg; 0: none
@@ -92,7 +93,7 @@ struct Workspace {
   BiCGStab bicgstab;
   SecantMemory secants;
   BroydenMemory broyden;
-  Vector by_least_squares;  // H F at base, by secants
+  Vector by_least_squares;  // H F at base by secants
   Vector by_broyden;        // and by broyden
   Vector image;
 };
