@@ -12,17 +12,17 @@ namespace {
 // noise in the action.
 constexpr double far_less = 0.3;
 
-/// Evaluations allowed without progress: once Newton steps were made, what one of them took.
+/// Evaluations allowed without progress: with a preconditioner, whose Newton steps are cheap, after
+/// those of a round no more than they took.
 int patience(const Solve& solve) {
   constexpr int unpreconditioned = 20;
   constexpr int preconditioned = 10;
   constexpr int least = 4;
   const int chosen = solve.options.multisecant.patience;
   if (chosen > 0) return chosen;
-  const bool plain = solve.evaluator.preconditioner().is_identity();
-  const int most = plain ? unpreconditioned : preconditioned;
-  const double step = solve.course.step_cost;
-  return step > 0.0 ? static_cast<int>(std::clamp<double>(step, least, most)) : most;
+  if (solve.evaluator.preconditioner().is_identity()) return unpreconditioned;
+  const int cost = solve.course.round_cost;
+  return cost > 0 ? std::clamp(cost, least, preconditioned) : preconditioned;
 }
 
 /// Whether Broyden's updates of the preconditioner are kept besides the least squares.
@@ -114,7 +114,8 @@ void compare_models(Solve& solve) {
   course.lead = memory * course.lead + std::log(by_broyden / by_least_squares);
   course.broyden_error = std::max(error_memory * course.broyden_error, by_broyden);
   if (work.broyden.full()) work.broyden.clear();
-  course.inverted = work.broyden.add(work.step, work.by_broyden, product) && work.broyden.size() > 1;
+  course.inverted =
+      work.broyden.add(work.step, work.by_broyden, product) && work.broyden.size() > 1;
   if (!course.inverted) return;
   work.by_broyden = work.image;
   work.broyden.improve_by_last(work.by_broyden, product);

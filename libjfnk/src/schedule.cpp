@@ -75,7 +75,7 @@ void begin_again(Solve& solve) {
   solve.work.secants.clear();
   course.mixing_known = false;
   course.round = 0;
-  course.step_cost = 0.0;
+  course.round_cost = 0;
   if (alone(solve)) {
     begin_newton(solve, final_newton_steps(solve.options));
   } else {
@@ -112,10 +112,7 @@ Ending rescue(Solve& solve, Ending failure) {
 
 Ending after_newton(Solve& solve, Ending ending) {
   Course& course = solve.course;
-  if (course.stage_iterations > 0) {
-    const double spent = solve.evaluations() - course.stage_start_evaluations;
-    course.step_cost = spent / course.stage_iterations;
-  }
+  course.round_cost = solve.evaluations() - course.stage_start_evaluations;
   if (ending == Ending::schedule_done) {
     if (in_final_newton(solve)) return ending;
     next_round(solve);

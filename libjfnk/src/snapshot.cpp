@@ -74,7 +74,7 @@ void walk_course(Walker& walk, Course& c) {
   walk(c.noise_measured);
   walk(c.restarted);
   walk(c.transient_tried);
-  walk(c.step_cost);
+  walk(c.round_cost);
   walk(c.time_step);
   walk(c.shift_sign);
   walk(c.setup_evaluations);

@@ -66,7 +66,7 @@ struct Course {
   bool noise_measured = false;
   bool restarted = false;
   bool transient_tried = false;
-  double step_cost = 0.0;  ///< evaluations of a step in the last round of Newton; 0: none yet
+  int round_cost = 0;  ///< evaluations of the last round of Newton; 0: none yet
   // pseudo-transient
   double time_step = 0.0;
   double shift_sign = 1.0;
