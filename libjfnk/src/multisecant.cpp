@@ -12,17 +12,17 @@ namespace {
 // noise in the action.
 constexpr double far_less = 0.3;
 
-/// Evaluations allowed without progress: with a preconditioner, whose Newton steps are cheap, after
-/// those of a round no more than they took.
+/// Evaluations allowed without progress: after a round of Newton no more than that took.
 int patience(const Solve& solve) {
   constexpr int unpreconditioned = 20;
   constexpr int preconditioned = 10;
   constexpr int least = 4;
   const int chosen = solve.options.multisecant.patience;
   if (chosen > 0) return chosen;
-  if (solve.evaluator.preconditioner().is_identity()) return unpreconditioned;
+  const bool plain = solve.evaluator.preconditioner().is_identity();
+  const int most = plain ? unpreconditioned : preconditioned;
   const int cost = solve.course.round_cost;
-  return cost > 0 ? std::clamp(cost, least, preconditioned) : preconditioned;
+  return cost > 0 ? std::clamp(cost, least, most) : most;
 }
 
 /// Whether Broyden's updates of the preconditioner are kept besides the least squares.

@@ -90,6 +90,38 @@ TEST(Hybrid, FollowsItsScheduleAndThenGivesUp) {
   EXPECT_EQ(report.residual_norm, lowest);
 }
 
+/// Uphill: the Jacobian of Bratu's problem is positive there.
+struct Misleading {
+  void apply(const Vector& r, Vector& z) const { z = -r; }
+};
+
+TEST(Hybrid, TriesARoundWithoutAPreconditionerByWhichNothingFell) {
+  const jfnk_test::Bratu bratu(8, 4.0);
+  Vector u = Vector::Zero(64);
+  const Report report = solve(bratu, u, Options{}, Misleading{});
+  EXPECT_TRUE(report.converged()) << report.reason;
+  EXPECT_EQ(report.newton_iterations, 0);
+  EXPECT_EQ(report.counts.difference_actions, 1);  // the mixing of the round without it
+}
+
+TEST(Multisecant, BroydensUpdatesSpareEvaluationsAndCostTwoApplicationsEach) {
+  const jfnk_test::Bratu bratu(16, 6.0);
+  const CholeskyPreconditioner P(jfnk_test::laplacian(16));
+  Options options;
+  options.method = Method::multisecant;
+  options.tolerances.relative = 1e-8;
+  Vector u = Vector::Zero(256);
+  const Report both = solve(bratu, u, options, P);
+  options.multisecant.broyden = false;
+  u.setZero();
+  const Report alone = solve(bratu, u, options, P);
+  ASSERT_TRUE(both.converged());
+  ASSERT_TRUE(alone.converged());
+  EXPECT_LE(both.counts.total(), alone.counts.total());
+  EXPECT_EQ(alone.counts.preconditioner, alone.multisecant_iterations);
+  EXPECT_LE(both.counts.preconditioner, 3 * both.multisecant_iterations + 2);
+}
+
 // With full memory type-II Anderson is GMRES on a linear problem (Walker & Ni 2011), one
 // evaluation ahead; n + 1 iterations reach the root.
 TEST(Multisecant, SolvesALinearProblemInAtMostNPlusOneIterations) {

@@ -126,7 +126,7 @@ struct Multisecant {
   int memory = 200;
   /// Given up after this many evaluations in which the best ||F|| did not fall below
   /// progress times its value at the last such fall; 0 stands for 20 without and 10 with a
-  /// preconditioner, and with one after a round of Newton for what that took if it is less (4 at
+  /// preconditioner, or for what the Newton steps of the round before took if that is less (4 at
   /// least). Range [0, inf).
   int patience = 0;
   /// See patience; 1 accepts any improvement. Range (0, 1].
