@@ -90,9 +90,9 @@ TEST(Hybrid, FollowsItsScheduleAndThenGivesUp) {
   EXPECT_EQ(report.residual_norm, lowest);
 }
 
-/// Uphill: the Jacobian of Bratu's problem is positive there.
+/// Of steps so long that exp(u) overflows even after all cuts.
 struct Misleading {
-  void apply(const Vector& r, Vector& z) const { z = -r; }
+  void apply(const Vector& r, Vector& z) const { z = 1e6 * r; }
 };
 
 TEST(Hybrid, TriesARoundWithoutAPreconditionerByWhichNothingFell) {
@@ -104,20 +104,21 @@ TEST(Hybrid, TriesARoundWithoutAPreconditionerByWhichNothingFell) {
   EXPECT_EQ(report.counts.difference_actions, 1);  // the mixing of the round without it
 }
 
+// Started at the inverse Jacobian of the first point, on a problem whose Jacobian changes there and
+// then: 24 evaluations against 31 on the elastoplastic frame of tests/benchmarks/peers.
 TEST(Multisecant, BroydensUpdatesSpareEvaluationsAndCostTwoApplicationsEach) {
-  const jfnk_test::Bratu bratu(16, 6.0);
-  const CholeskyPreconditioner P(jfnk_test::laplacian(16));
+  PlasticTruss truss(12, 12, 1e-3, 0.05);
+  truss.push(0.02);
+  const CholeskyPreconditioner P(truss.elastic_stiffness());
+  Vector u = Vector::Zero(truss.size());
+  const Report both = solve(truss, u, Options{}, P);
   Options options;
-  options.method = Method::multisecant;
-  options.tolerances.relative = 1e-8;
-  Vector u = Vector::Zero(256);
-  const Report both = solve(bratu, u, options, P);
   options.multisecant.broyden = false;
   u.setZero();
-  const Report alone = solve(bratu, u, options, P);
+  const Report alone = solve(truss, u, options, P);
   ASSERT_TRUE(both.converged());
   ASSERT_TRUE(alone.converged());
-  EXPECT_LE(both.counts.total(), alone.counts.total());
+  EXPECT_LT(both.counts.total(), alone.counts.total());
   EXPECT_EQ(alone.counts.preconditioner, alone.multisecant_iterations);
   EXPECT_LE(both.counts.preconditioner, 3 * both.multisecant_iterations + 2);
 }
