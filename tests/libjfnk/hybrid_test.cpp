@@ -104,23 +104,36 @@ TEST(Hybrid, TriesARoundWithoutAPreconditionerByWhichNothingFell) {
   EXPECT_EQ(report.counts.difference_actions, 1);  // the mixing of the round without it
 }
 
-// Started at the inverse Jacobian of the first point, on a problem whose Jacobian changes there and
-// then: 24 evaluations against 31 on the elastoplastic frame of tests/benchmarks/peers.
-TEST(Multisecant, BroydensUpdatesSpareEvaluationsAndCostTwoApplicationsEach) {
+TEST(Multisecant, BroydensUpdatesSpareEvaluationsOnPlasticity) {
   PlasticTruss truss(12, 12, 1e-3, 0.05);
   truss.push(0.02);
   const CholeskyPreconditioner P(truss.elastic_stiffness());
-  Vector u = Vector::Zero(truss.size());
-  const Report both = solve(truss, u, Options{}, P);
   Options options;
+  Vector u = Vector::Zero(truss.size());
+  const Report both = solve(truss, u, options, P);
   options.multisecant.broyden = false;
   u.setZero();
   const Report alone = solve(truss, u, options, P);
   ASSERT_TRUE(both.converged());
   ASSERT_TRUE(alone.converged());
   EXPECT_LT(both.counts.total(), alone.counts.total());
-  EXPECT_EQ(alone.counts.preconditioner, alone.multisecant_iterations);
-  EXPECT_LE(both.counts.preconditioner, 3 * both.multisecant_iterations + 2);
+}
+
+TEST(Multisecant, BroydensUpdatesCostTwoApplicationsEach) {
+  const jfnk_test::Bratu bratu(16, 6.0);
+  const CholeskyPreconditioner P(jfnk_test::laplacian(16));
+  Options options;
+  options.method = Method::multisecant;
+  for (const bool broyden : {false, true}) {
+    options.multisecant.broyden = broyden;
+    Vector u = Vector::Zero(256);
+    const Report report = solve(bratu, u, options, P);
+    ASSERT_TRUE(report.converged());
+    // The very first pair finds nothing to go on with: once more for the second step.
+    const int expected =
+        broyden ? 3 * report.multisecant_iterations + 2 : report.multisecant_iterations;
+    EXPECT_EQ(report.counts.preconditioner, expected);
+  }
 }
 
 // With full memory type-II Anderson is GMRES on a linear problem (Walker & Ni 2011), one
