@@ -114,6 +114,7 @@ void compare_models(Solve& solve) {
   course.lead = memory * course.lead + std::log(by_broyden / by_least_squares);
   course.broyden_error = std::max(error_memory * course.broyden_error, by_broyden);
   if (work.broyden.full()) work.broyden.clear();
+  // The first pair after a restart was foretold by another H.
   course.inverted =
       work.broyden.add(work.step, work.by_broyden, product) && work.broyden.size() > 1;
   if (!course.inverted) return;

@@ -197,7 +197,6 @@ Options plasticity() {
   options.multisecant.scale_mixing = false;
   options.multisecant.max_condition = 1e8;
   options.multisecant.broyden = false;
-  options.multisecant.max_cuts = 10;
   options.multisecant.renew = false;
   options.multisecant.wild_patience = std::numeric_limits<int>::max();
   options.stagnation.left = 1.0;

@@ -154,7 +154,7 @@ struct Multisecant {
   /// After Newton steps begin with the Krylov space of the last one instead of the pairs of before.
   bool renew = true;
   /// Halvings towards the best point after leaving the domain of F. Range [0, inf).
-  int max_cuts = 3;
+  int max_cuts = 10;
 };
 
 /// The schedule of Method::hybrid.
