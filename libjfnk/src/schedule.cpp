@@ -39,18 +39,21 @@ void begin_without_preconditioner(Solve& solve) {
   Course& course = solve.course;
   course.doubted = true;
   course.suspended = true;
+  solve.work.aside = solve.work.best;
   course.mixing_known = false;
   solve.evaluator.drop_preconditioner();
   solve.work.secants.clear();
   begin_multisecant(solve);
 }
 
+/// The preconditioner fits where it was set up: a round without it that failed is undone.
 void end_without_preconditioner(Solve& solve) {
   Course& course = solve.course;
   course.suspended = false;
   course.mixing_known = false;
   solve.evaluator.resume_preconditioner();
   solve.work.secants.clear();
+  solve.undo_round();
 }
 
 /// The next round, or the last Newton steps.

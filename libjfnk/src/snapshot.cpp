@@ -138,6 +138,7 @@ void walk_state(Walker& walk, Workspace& work, Course& course, Report& report) {
   walk_iterate(walk, work.base);
   walk_iterate(walk, work.best);
   walk_iterate(walk, work.first);
+  walk_iterate(walk, work.aside);
   walk(work.evaluator_state.start_norm);
   walk(work.evaluator_state.noise);
   walk(work.evaluator_state.without_preconditioner);
@@ -191,7 +192,7 @@ void Solver::load(const Snapshot& snapshot) {
   read(setup_size);
   read(lines);
   const auto held = static_cast<std::int64_t>(snapshot.reals.size());
-  const bool plausible = n >= 0 && 4 * n <= held && (setup_size == 0 || setup_size == n) &&
+  const bool plausible = n >= 0 && 5 * n <= held && (setup_size == 0 || setup_size == n) &&
                          lines >= 0 && lines <= held && capacity >= 0;
   if (!plausible) detail::Reader::fail();
   if (method != m.options.method || capacity > m.options.multisecant.memory) {

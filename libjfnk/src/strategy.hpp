@@ -84,6 +84,7 @@ struct Workspace {
   Iterate trial;  // where it looks
   Iterate best;   // lowest norm so far
   Iterate first;  // where the solve began
+  Iterate aside;  // of a round without the preconditioner: its start, then what it came to
   Vector step;
   Vector direction;
   Vector setup_point;  // of the preconditioner
@@ -112,6 +113,8 @@ struct Solve {
   /// Makes base, just reached by a step of the given norm, the solver's own: tells the residual,
   /// keeps it if it is the best, writes the line.
   [[nodiscard]] Ending accept_base(const Iteration& line) const;
+  /// Goes on from where the round without the preconditioner began; what it came to stays aside.
+  void undo_round() const;
   /// Goes back to the best point.
   void return_to_best() const;
   /// Evaluations so far.
