@@ -95,6 +95,8 @@ class Evaluator {
   }
   /// Goes on without the preconditioner.
   void drop_preconditioner() { state_.without_preconditioner = true; }
+  /// Takes a dropped one up again.
+  void resume_preconditioner() { state_.without_preconditioner = false; }
   /// The inner product of the problem.
   [[nodiscard]] const InnerProductRef& product() const { return residual_.inner_product(); }
 

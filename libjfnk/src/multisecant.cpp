@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -11,22 +12,62 @@ namespace {
 // noise in the action.
 constexpr double far_less = 0.3;
 
+/// Evaluations allowed without progress: after a round of Newton no more than that took.
 int patience(const Solve& solve) {
   constexpr int unpreconditioned = 20;
   constexpr int preconditioned = 10;
+  constexpr int least = 4;
   const int chosen = solve.options.multisecant.patience;
   if (chosen > 0) return chosen;
-  return solve.evaluator.preconditioner().is_identity() ? unpreconditioned : preconditioned;
+  const bool plain = solve.evaluator.preconditioner().is_identity();
+  const int most = plain ? unpreconditioned : preconditioned;
+  const int cost = solve.course.round_cost;
+  return cost > 0 ? std::clamp(cost, least, most) : most;
 }
 
-/// The multisecant step from work.base into work.step:
-/// du = -dU gamma - mixing P (F - dF gamma), gamma = argmin ||F - dF gamma||.
-void find_step(Solve& solve) {
+/// Whether Broyden's updates of the preconditioner are kept besides the least squares.
+bool has_broyden(const Solve& solve) {
+  return solve.options.multisecant.broyden && !solve.evaluator.preconditioner().is_identity();
+}
+
+/// H r = dU gamma + mixing P (r - dF gamma), gamma = argmin ||r - dF gamma||.
+void invert_by_least_squares(Solve& solve, const Vector& r, Vector& z) {
   Workspace& work = solve.work;
   Vector& remainder = work.evaluator.probe;
-  work.secants.project(work.base.r, work.step, remainder, solve.evaluator.product());
+  work.secants.project(r, z, remainder, solve.evaluator.product());
   solve.evaluator.precondition(remainder, work.direction);
-  work.step -= solve.course.mixing * work.direction;
+  z = solve.course.mixing * work.direction - z;
+}
+
+/// H r by rank-one updates of mixing P.
+void invert_by_broyden(Solve& solve, const Vector& r, Vector& z) {
+  solve.evaluator.precondition(r, z);
+  z *= solve.course.mixing;
+  solve.work.broyden.improve(z, solve.evaluator.product());
+}
+
+/// Whether the next step is Broyden's: it foretold the last ones well, and not worse.
+bool trusts_broyden(const Solve& solve) {
+  // Broyden, Dennis & Moré (1973) ask ||I - H J|| < 1/2 of H; 0.4 to 0.6 serve alike.
+  constexpr double greatest_error = 0.6;
+  const Course& course = solve.course;
+  const bool drawn = course.lead == 0.0;
+  const bool leads =
+      drawn ? solve.work.broyden.size() >= solve.work.secants.size() : course.lead < 0.0;
+  return leads && course.broyden_error <= greatest_error;
+}
+
+/// The step from work.base into work.step.
+void find_step(Solve& solve) {
+  Workspace& work = solve.work;
+  if (!has_broyden(solve)) {
+    invert_by_least_squares(solve, work.base.r, work.step);
+    work.step *= -1.0;
+  } else {
+    invert_by_least_squares(solve, work.base.r, work.by_least_squares);
+    if (!solve.course.inverted) invert_by_broyden(solve, work.base.r, work.by_broyden);
+    work.step = trusts_broyden(solve) ? -work.by_broyden : -work.by_least_squares;
+  }
   solve.evaluator.filter(work.base.u, work.step);
 }
 
@@ -47,17 +88,52 @@ Ending look(Solve& solve, Iteration& line) {
   return Ending::patience_lost;
 }
 
+/// Lets both models foretell work.step, which led from work.trial to work.base, from the change of
+/// F; then Broyden's learns from it.
+void compare_models(Solve& solve) {
+  // Of former pairs: the last five or so count for the lead, the last two for the error.
+  constexpr double memory = 0.8;
+  constexpr double error_memory = 0.5;
+  constexpr double hopeless = 1e100;
+  Workspace& work = solve.work;
+  Course& course = solve.course;
+  const InnerProductRef& product = solve.evaluator.product();
+  const auto error = [&](const Vector& image) {
+    work.direction = work.step - image;
+    const double relative = product.norm(work.direction) / product.norm(work.step);
+    return std::isfinite(relative)
+               ? std::clamp(relative, std::numeric_limits<double>::epsilon(), hopeless)
+               : hopeless;
+  };
+  invert_by_least_squares(solve, work.base.r, work.image);
+  work.by_least_squares = work.image - work.by_least_squares;
+  const double by_least_squares = error(work.by_least_squares);
+  invert_by_broyden(solve, work.base.r, work.image);
+  work.by_broyden = work.image - work.by_broyden;
+  const double by_broyden = error(work.by_broyden);
+  course.lead = memory * course.lead + std::log(by_broyden / by_least_squares);
+  course.broyden_error = std::max(error_memory * course.broyden_error, by_broyden);
+  if (work.broyden.full()) work.broyden.clear();
+  // The first pair after a restart was foretold by another H.
+  course.inverted =
+      work.broyden.add(work.step, work.by_broyden, product) && work.broyden.size() > 1;
+  if (!course.inverted) return;
+  work.by_broyden = work.image;
+  work.broyden.improve_by_last(work.by_broyden, product);
+}
+
 /// Stores the pair (trial - base) and makes the trial the base; returns the change of F.
 double move(Solve& solve, Iteration& line) {
   Workspace& work = solve.work;
   const InnerProductRef& product = solve.evaluator.product();
-  Vector& difference = work.evaluator.probe;
   work.step = work.trial.u - work.base.u;
-  difference = work.trial.r - work.base.r;
   line.step_norm = product.norm(work.step);
+  std::swap(work.base, work.trial);
+  if (has_broyden(solve)) compare_models(solve);
+  Vector& difference = work.evaluator.probe;
+  difference = work.base.r - work.trial.r;
   const double change = product.norm(difference);
   work.secants.add(work.step, difference, solve.options.multisecant.max_condition, product);
-  std::swap(work.base, work.trial);
   return change;
 }
 
@@ -101,9 +177,14 @@ void begin_multisecant(Solve& solve) {
   course.stage_iterations = 0;
   course.stage_limit = alone ? solve.options.max_iterations : std::numeric_limits<int>::max();
   course.stage_start_norm = solve.work.best.norm;
+  course.stage_start_evaluations = solve.evaluations();
   course.wild = 0;
+  course.lead = 0.0;
+  course.broyden_error = 0.0;
+  course.inverted = false;
   course.mark = solve.work.best.norm;
   course.last_fall = solve.evaluations();
+  solve.work.broyden.clear();
   if (solve.options.multisecant.renew && solve.work.gmres.can_shorten()) renew_memory(solve);
 }
 
@@ -129,6 +210,7 @@ Ending multisecant_step(Solve& solve) {
     Ending ending = Ending::go_on;
     if (adapt_to_noise(solve, ending)) {
       solve.return_to_best();
+      course.inverted = false;
       return Ending::go_on;
     }
     if (ending != Ending::go_on) return ending;
@@ -142,7 +224,10 @@ Ending multisecant_step(Solve& solve) {
   if (solve.evaluations() - course.last_fall >= patience(solve)) return Ending::patience_lost;
   course.wild = work.base.norm > rule.wild * work.best.norm ? course.wild + 1 : 0;
   if (course.wild >= rule.wild_patience) return Ending::patience_lost;
-  if (work.base.norm > rule.rejection * work.best.norm) solve.return_to_best();
+  if (work.base.norm > rule.rejection * work.best.norm) {
+    solve.return_to_best();
+    course.inverted = false;
+  }
   return Ending::go_on;
 }
 

@@ -49,6 +49,7 @@ void begin_newton(Solve& solve, int steps) {
   course.stage_iterations = 0;
   course.stage_limit = steps;
   course.stage_start_norm = solve.work.best.norm;
+  course.stage_start_evaluations = solve.evaluations();
   course.forcing = {};
   course.radius = 0.0;
   course.last_norms_count = 0;

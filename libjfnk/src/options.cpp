@@ -196,6 +196,7 @@ Options plasticity() {
   options.multisecant.progress = 1.0;
   options.multisecant.scale_mixing = false;
   options.multisecant.max_condition = 1e8;
+  options.multisecant.broyden = false;
   options.multisecant.renew = false;
   options.multisecant.wild_patience = std::numeric_limits<int>::max();
   options.stagnation.left = 1.0;

@@ -24,6 +24,38 @@ int final_newton_steps(const Options& options) {
                                                  : options.hybrid.final_newton_steps;
 }
 
+/// Whether a round without the preconditioner is worth a try: if no step by it was a gain at all.
+bool doubts_preconditioner(const Solve& solve) {
+  const Course& course = solve.course;
+  const Options& options = solve.options;
+  const bool gained =
+      solve.work.best.norm <= options.multisecant.progress * course.stage_start_norm;
+  return options.stagnation.restart && course.round == 0 && !course.doubted && !gained &&
+         !solve.evaluator.preconditioner().is_identity();
+}
+
+/// A round of multisecant without the preconditioner, from the best point.
+void begin_without_preconditioner(Solve& solve) {
+  Course& course = solve.course;
+  course.doubted = true;
+  course.suspended = true;
+  solve.work.aside = solve.work.best;
+  course.mixing_known = false;
+  solve.evaluator.drop_preconditioner();
+  solve.work.secants.clear();
+  begin_multisecant(solve);
+}
+
+/// The preconditioner fits where it was set up: a round without it that failed is undone.
+void end_without_preconditioner(Solve& solve) {
+  Course& course = solve.course;
+  course.suspended = false;
+  course.mixing_known = false;
+  solve.evaluator.resume_preconditioner();
+  solve.work.secants.clear();
+  solve.undo_round();
+}
+
 /// The next round, or the last Newton steps.
 void next_round(Solve& solve) {
   ++solve.course.round;
@@ -46,6 +78,7 @@ void begin_again(Solve& solve) {
   solve.work.secants.clear();
   course.mixing_known = false;
   course.round = 0;
+  course.round_cost = 0;
   if (alone(solve)) {
     begin_newton(solve, final_newton_steps(solve.options));
   } else {
@@ -82,6 +115,7 @@ Ending rescue(Solve& solve, Ending failure) {
 
 Ending after_newton(Solve& solve, Ending ending) {
   Course& course = solve.course;
+  course.round_cost = solve.evaluations() - course.stage_start_evaluations;
   if (ending == Ending::schedule_done) {
     if (in_final_newton(solve)) return ending;
     next_round(solve);
@@ -142,6 +176,9 @@ void renew_preconditioner(Solve& solve) {
   course.setup_norm = solve.work.best.norm;
   course.setup_best_rate = 0.0;
   course.radius = 0.0;  // it is measured through the preconditioner
+  // as are Broyden's updates
+  solve.work.broyden.clear();
+  course.inverted = false;
 }
 
 }  // namespace
@@ -193,6 +230,11 @@ Ending advance(Solve& solve) {
   switch (course.stage) {
     case Stage::multisecant:
       if (solve.options.method == Method::multisecant) return ending;
+      if (doubts_preconditioner(solve)) {
+        begin_without_preconditioner(solve);
+        return Ending::go_on;
+      }
+      if (course.suspended) end_without_preconditioner(solve);
       begin_newton(solve, newton_steps(solve.options, course.round));
       return Ending::go_on;
     case Stage::newton:

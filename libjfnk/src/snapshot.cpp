@@ -8,7 +8,7 @@ namespace detail {
 namespace {
 
 // First integer of a snapshot; raised when its fields change.
-constexpr std::int64_t snapshot_version = 1;
+constexpr std::int64_t snapshot_version = 2;
 
 struct Writer {
   Snapshot& out;
@@ -50,12 +50,16 @@ void walk_course(Walker& walk, Course& c) {
   walk(c.stage_limit);
   walk(c.round);
   walk(c.stage_start_norm);
+  walk(c.stage_start_evaluations);
   walk(c.mark);
   walk(c.last_fall);
   walk(c.wild);
   walk(c.mixing);
   walk(c.mixing_known);
   walk(c.expected_change);
+  walk(c.lead);
+  walk(c.broyden_error);
+  walk(c.inverted);
   walk(c.forcing.previous_norm);
   walk(c.forcing.previous_eta);
   walk(c.forcing.first);
@@ -70,11 +74,14 @@ void walk_course(Walker& walk, Course& c) {
   walk(c.noise_measured);
   walk(c.restarted);
   walk(c.transient_tried);
+  walk(c.round_cost);
   walk(c.time_step);
   walk(c.shift_sign);
   walk(c.setup_evaluations);
   walk(c.setup_norm);
   walk(c.setup_best_rate);
+  walk(c.doubted);
+  walk(c.suspended);
 }
 
 template <class Walker>
@@ -131,11 +138,15 @@ void walk_state(Walker& walk, Workspace& work, Course& course, Report& report) {
   walk_iterate(walk, work.base);
   walk_iterate(walk, work.best);
   walk_iterate(walk, work.first);
+  walk_iterate(walk, work.aside);
   walk(work.evaluator_state.start_norm);
   walk(work.evaluator_state.noise);
   walk(work.evaluator_state.without_preconditioner);
   walk(work.setup_point);
   work.secants.for_each_field(walk);
+  work.broyden.for_each_field(walk);
+  walk(work.by_least_squares);
+  walk(work.by_broyden);
   for (Iteration& line : report.history) walk_line(walk, line);
 }
 
@@ -181,7 +192,7 @@ void Solver::load(const Snapshot& snapshot) {
   read(setup_size);
   read(lines);
   const auto held = static_cast<std::int64_t>(snapshot.reals.size());
-  const bool plausible = n >= 0 && 4 * n <= held && (setup_size == 0 || setup_size == n) &&
+  const bool plausible = n >= 0 && 5 * n <= held && (setup_size == 0 || setup_size == n) &&
                          lines >= 0 && lines <= held && capacity >= 0;
   if (!plausible) detail::Reader::fail();
   if (method != m.options.method || capacity > m.options.multisecant.memory) {

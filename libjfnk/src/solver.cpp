@@ -15,7 +15,8 @@ bool Solve::record(Iteration line, const Iterate& at) const {
   line.index = static_cast<int>(report.history.size());
   line.residual_norm = at.norm;
   line.reference_norm = at.reference;
-  line.best_residual_norm = work.best.norm;
+  const bool set_aside = course.doubted && !course.suspended && work.aside.norm < work.best.norm;
+  line.best_residual_norm = set_aside ? work.aside.norm : work.best.norm;
   line.evaluations = report.counts.total();
   report.history.push_back(line);
   return observer(report.history.back());
@@ -32,6 +33,11 @@ Ending Solve::accept_base(const Iteration& line) const {
   return go_on ? Ending::go_on : Ending::stopped;
 }
 
+void Solve::undo_round() const {
+  std::swap(work.best, work.aside);
+  return_to_best();
+}
+
 void Solve::return_to_best() const {
   const bool moves = work.base.norm != work.best.norm;
   work.base = work.best;
@@ -40,7 +46,8 @@ void Solve::return_to_best() const {
 
 void resize(Workspace& work, Eigen::Index n, Eigen::Index global, const Options& options,
             bool preconditioned) {
-  for (Iterate* point : {&work.base, &work.trial, &work.best, &work.first}) point->resize(n);
+  for (Iterate* point : {&work.base, &work.trial, &work.best, &work.first, &work.aside})
+    point->resize(n);
   for (Vector* v : {&work.step, &work.direction, &work.evaluator.probe}) v->resize(n);
   const bool u_scaled = options.u_scale.size() > 0;
   work.evaluator.physical.resize(u_scaled ? n : 0);
@@ -61,6 +68,11 @@ void resize(Workspace& work, Eigen::Index n, Eigen::Index global, const Options&
   if (options.method != Method::newton_krylov) {
     const Eigen::Index pairs = std::min<Eigen::Index>(options.multisecant.memory, global);
     work.secants.resize(n, static_cast<int>(pairs));
+    const bool broyden = preconditioned && options.multisecant.broyden;
+    work.broyden.resize(n, broyden ? options.multisecant.memory : 0);
+    for (Vector* v : {&work.by_least_squares, &work.by_broyden, &work.image}) {
+      v->resize(broyden ? n : 0);
+    }
   }
 }
 
@@ -104,6 +116,10 @@ void describe_best(Solve& solve) {
 
 void finish(Solve& solve, Status status) {
   Report& report = solve.report;
+  const bool set_aside = solve.course.doubted && !solve.course.suspended;
+  if (set_aside && status != Status::converged && solve.work.aside.norm < solve.work.best.norm) {
+    std::swap(solve.work.best, solve.work.aside);
+  }
   solve.course.stage = Stage::ended;
   report.status = status;
   if (!report.history.empty()) {
@@ -201,6 +217,7 @@ bool start(Solve& solve) {
   report.initial_residual_norm = first.norm;
   solve.work.base = first;
   solve.work.first = first;
+  solve.work.aside = solve.work.best;
   solve.evaluator.accept(first.u);
   const bool go_on = solve.record(Iteration{}, first);
   describe_best(solve);

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "broyden_memory.hpp"
 #include "evaluator.hpp"
 #include "forcing.hpp"
 #include "jfnk/bicgstab.hpp"
@@ -41,6 +42,7 @@ struct Course {
   int stage_limit = 0;  ///< of stage_iterations
   int round = 0;
   double stage_start_norm = 0.0;  ///< lowest ||F|| when the stage began
+  int stage_start_evaluations = 0;
   // multisecant
   double mark = 0.0;  ///< see Multisecant::patience
   int last_fall = 0;  ///< evaluations at the mark
@@ -48,6 +50,9 @@ struct Course {
   double mixing = 1.0;
   bool mixing_known = false;
   double expected_change = 0.0;  ///< of F in the first step, if an action foretold it
+  double lead = 0.0;             ///< of least squares over Broyden; see Multisecant::broyden
+  double broyden_error = 0.0;    ///< likewise
+  bool inverted = false;         ///< work.by_broyden belongs to work.base
   // Newton
   ForcingState forcing;
   double radius = 0.0;  ///< of the dogleg; 0: none
@@ -61,6 +66,7 @@ struct Course {
   bool noise_measured = false;
   bool restarted = false;
   bool transient_tried = false;
+  int round_cost = 0;  ///< evaluations of the last round of Newton; 0: none yet
   // pseudo-transient
   double time_step = 0.0;
   double shift_sign = 1.0;
@@ -68,6 +74,8 @@ struct Course {
   int setup_evaluations = 0;     ///< counts at the last setup
   double setup_norm = 0.0;       ///< lowest ||F|| at the last setup
   double setup_best_rate = 0.0;  ///< gain per evaluation soon after it
+  bool doubted = false;          ///< a round without it was tried
+  bool suspended = false;        ///< such a round goes on
 };
 
 /// Vectors that live from solve to solve.
@@ -76,6 +84,7 @@ struct Workspace {
   Iterate trial;  // where it looks
   Iterate best;   // lowest norm so far
   Iterate first;  // where the solve began
+  Iterate aside;  // of a round without the preconditioner: its start, then what it came to
   Vector step;
   Vector direction;
   Vector setup_point;  // of the preconditioner
@@ -84,6 +93,10 @@ struct Workspace {
   Gmres gmres;
   BiCGStab bicgstab;
   SecantMemory secants;
+  BroydenMemory broyden;
+  Vector by_least_squares;  // H F at base by secants
+  Vector by_broyden;        // and by broyden
+  Vector image;
 };
 
 /// One solve: the problem, the choices, the workspace and the record, shared by the stages.
@@ -100,6 +113,8 @@ struct Solve {
   /// Makes base, just reached by a step of the given norm, the solver's own: tells the residual,
   /// keeps it if it is the best, writes the line.
   [[nodiscard]] Ending accept_base(const Iteration& line) const;
+  /// Goes on from where the round without the preconditioner began; what it came to stays aside.
+  void undo_round() const;
   /// Goes back to the best point.
   void return_to_best() const;
   /// Evaluations so far.

@@ -90,6 +90,52 @@ TEST(Hybrid, FollowsItsScheduleAndThenGivesUp) {
   EXPECT_EQ(report.residual_norm, lowest);
 }
 
+/// Of steps so long that exp(u) overflows even after all cuts.
+struct Misleading {
+  void apply(const Vector& r, Vector& z) const { z = 1e6 * r; }
+};
+
+TEST(Hybrid, TriesARoundWithoutAPreconditionerByWhichNothingFell) {
+  const jfnk_test::Bratu bratu(8, 4.0);
+  Vector u = Vector::Zero(64);
+  const Report report = solve(bratu, u, Options{}, Misleading{});
+  EXPECT_TRUE(report.converged()) << report.reason;
+  EXPECT_EQ(report.newton_iterations, 0);
+  EXPECT_EQ(report.counts.difference_actions, 1);  // the mixing of the round without it
+}
+
+TEST(Multisecant, BroydensUpdatesSpareEvaluationsOnPlasticity) {
+  PlasticTruss truss(12, 12, 1e-3, 0.05);
+  truss.push(0.02);
+  const CholeskyPreconditioner P(truss.elastic_stiffness());
+  Options options;
+  Vector u = Vector::Zero(truss.size());
+  const Report both = solve(truss, u, options, P);
+  options.multisecant.broyden = false;
+  u.setZero();
+  const Report alone = solve(truss, u, options, P);
+  ASSERT_TRUE(both.converged());
+  ASSERT_TRUE(alone.converged());
+  EXPECT_LT(both.counts.total(), alone.counts.total());
+}
+
+TEST(Multisecant, BroydensUpdatesCostTwoApplicationsEach) {
+  const jfnk_test::Bratu bratu(16, 6.0);
+  const CholeskyPreconditioner P(jfnk_test::laplacian(16));
+  Options options;
+  options.method = Method::multisecant;
+  for (const bool broyden : {false, true}) {
+    options.multisecant.broyden = broyden;
+    Vector u = Vector::Zero(256);
+    const Report report = solve(bratu, u, options, P);
+    ASSERT_TRUE(report.converged());
+    // The very first pair finds nothing to go on with: once more for the second step.
+    const int expected =
+        broyden ? 3 * report.multisecant_iterations + 2 : report.multisecant_iterations;
+    EXPECT_EQ(report.counts.preconditioner, expected);
+  }
+}
+
 // With full memory type-II Anderson is GMRES on a linear problem (Walker & Ni 2011), one
 // evaluation ahead; n + 1 iterations reach the root.
 TEST(Multisecant, SolvesALinearProblemInAtMostNPlusOneIterations) {

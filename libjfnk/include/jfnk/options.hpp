@@ -126,7 +126,8 @@ struct Multisecant {
   int memory = 200;
   /// Given up after this many evaluations in which the best ||F|| did not fall below
   /// progress times its value at the last such fall; 0 stands for 20 without and 10 with a
-  /// preconditioner. Range [0, inf).
+  /// preconditioner, or for what the Newton steps of the round before took if that is less (4 at
+  /// least). Range [0, inf).
   int patience = 0;
   /// See patience; 1 accepts any improvement. Range (0, 1].
   double progress = 0.9;
@@ -145,6 +146,11 @@ struct Multisecant {
   /// Oldest pairs are dropped until the unit columns of dF have a condition estimate below this.
   /// Range (1, 1e15].
   double max_condition = 1e4;
+  /// With a preconditioner, keep Broyden's rank-one updates of it besides the least squares over
+  /// all pairs. A step is by Broyden's H where ||s - H y|| <= 0.6 ||s|| held for the last pairs (s,
+  /// y) and was smaller there than by least squares. Costs three applications of the preconditioner
+  /// per iteration instead of one, and twice the memory.
+  bool broyden = true;
   /// After Newton steps begin with the Krylov space of the last one instead of the pairs of before.
   bool renew = true;
   /// Halvings towards the best point after leaving the domain of F. Range [0, inf).

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "jfnk/residual.hpp"
+
+namespace jfnk::detail {
+
+/// An approximate inverse Jacobian H = (I + w_k s_k^T) ... (I + w_1 s_1^T) P: Broyden's first
+/// method (Broyden 1965), begun at a preconditioner, in product form.
+///
+/// Each factor makes H dr = du for one pair and leaves H as it is across du. With a preconditioner
+/// that was once the inverse Jacobian this ends superlinearly, where the least squares of
+/// `SecantMemory` need as many pairs as there are directions in which the Jacobian has changed.
+class BroydenMemory {
+ public:
+  /// Allocates for n unknowns and `capacity` pairs, and forgets all pairs.
+  void resize(Eigen::Index n, int capacity);
+  /// Forgets all pairs.
+  void clear() { size_ = 0; }
+  /// Pairs held.
+  [[nodiscard]] int size() const { return size_; }
+  /// Whether there is no room for another pair.
+  [[nodiscard]] bool full() const { return size_ == static_cast<int>(s_.size()); }
+
+  /// P r becomes H r. Cost: 4 n size() flops. No allocation.
+  void improve(Vector& z, const InnerProductRef& product) const;
+  /// H r of before the last `add` becomes H r.
+  void improve_by_last(Vector& z, const InnerProductRef& product) const;
+
+  /// Adds a pair, damped so that H stays regular (Moré & Trangenstein 1976).
+  /// @param du  change of u
+  /// @param image  H dr, by the H of before
+  /// @return false, and nothing changes, if there is no room, du = 0 or anything is not finite
+  bool add(const Vector& du, const Vector& image, const InnerProductRef& product);
+
+  /// Calls `walk` on every number that decides what follows, for saving and loading; `resize` must
+  /// have been called.
+  template <class Walker>
+  void for_each_field(Walker& walk) {
+    walk(size_);
+    for (int i = 0; i < size_ && i < static_cast<int>(s_.size()); ++i) {
+      walk(s_[static_cast<std::size_t>(i)]);
+      walk(w_[static_cast<std::size_t>(i)]);
+    }
+  }
+
+ private:
+  int size_ = 0;
+  std::vector<Vector> s_;
+  std::vector<Vector> w_;
+};
+
+}  // namespace jfnk::detail
