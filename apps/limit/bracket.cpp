@@ -50,7 +50,7 @@ class Side {
   [[nodiscard]] bool can_refine() const { return !indicators_.empty(); }
 
   void refine() {
-    constexpr double share = 0.5;
+    constexpr double share = 0.7;
     problem_.mesh = bisected(problem_.mesh, largest(indicators_, share));
   }
 

@@ -16,7 +16,7 @@ enum class Engine { interior_point, ipopt };
 
 struct BracketOptions {
   double gap = 0.02;           // wanted: (upper - lower) / their mean, > 0
-  int max_triangles = 3000;    // of one mesh
+  int max_triangles = 12000;   // of one mesh
   double max_seconds = 120.0;  // of processor time, for all attempts together
   int max_iterations = 300;    // of the solver, per attempt
   Engine engine = Engine::interior_point;

@@ -34,6 +34,14 @@ double largest_step(const Cones& at, const Cones& direction) {
   return step;
 }
 
+// Short of the boundary; well short of it while centring, or it does not end: from a point by the
+// boundary Newton's direction to the centre leads across it again.
+double damped(double largest, bool centres) {
+  constexpr double close = 0.98, far = 0.7;
+  if (close * largest >= 1.0) return 1.0;
+  return (centres ? far : close) * largest;
+}
+
 /// Minimises cost' x, equations x = right_side, with the slack u = (strength, 0, 0) - G (p, d, t)
 /// of every cone in the second-order cone (slack_form). With multipliers y of the equations and z
 /// of the cones: cost + equations' y + G' z = 0, u and z in their cones, u'z = 0 in the end.
@@ -60,9 +68,8 @@ class InteriorPoint {
     if (!factorise()) return false;
     const bool centres = !is_feasible();
     Direction way = centres ? direction(1.0, complementarity(1.0)) : predicted_and_corrected();
-    constexpr double damping = 0.98;
-    const Steps steps{std::min(1.0, damping * largest_step(slacks_, way.slacks)),
-                      std::min(1.0, damping * largest_step(z_, way.z))};
+    const Steps steps{damped(largest_step(slacks_, way.slacks), centres),
+                      damped(largest_step(z_, way.z), centres)};
     if (!(std::max(steps.primal, steps.dual) > 1e-6)) return false;
     const InteriorPoint::State before{x_, y_, z_};
     x_ += steps.primal * way.x;
