@@ -227,7 +227,8 @@ ConeSolution solve_by_interior_point(const ConeProgram& program, const SolverOpt
       constexpr double loosely = 100.0;
       const bool is_close = is_within(loosely * options.cone_gap);
       solution.status = is_close ? SolverStatus::acceptable : SolverStatus::failed;
-      solution.message = "no further step, for rounding";
+      solution.message =
+          is_close ? "acceptable, no further step for rounding" : "no further step for rounding";
     }
     break;
   }

@@ -67,4 +67,22 @@ INSTANTIATE_TEST_SUITE_P(
               0.01}),
     [](const auto& info) { return std::string(info.param.name); });
 
+// Beyond the default size, a box does not matter: the mechanism is inside, and the exact value of a
+// half-space stays in a bracket as tight.
+TEST(Boxes, DoNotMatterOnceTheMechanismFits) {
+  Strip strip;
+  strip.soil = {2.5e3, 20.0 * degree, 1850 * 9.81};
+  strip.half_width = 0.22;
+  for (const double factor : {1.0, 1.5, 3.0}) {
+    Box box = box_of(strip);
+    box.width *= factor;
+    box.depth *= factor;
+    const Case problem = strip_case(strip, box);
+    const Bracket found = bracket(problem, BracketOptions{}, {});
+    EXPECT_TRUE(found.reached) << factor;
+    EXPECT_LT(found.lower_bound() * problem.units.stress, 58437.0);
+    EXPECT_GT(found.upper_bound() * problem.units.stress, 58437.0);
+  }
+}
+
 }  // namespace
