@@ -78,7 +78,7 @@ po::options_description options() {
       ("max-seconds", po::value<double>()->value_name("S")->default_value(defaults.max_seconds),
        "processor time after which no refinement begins")  //
       ("solver", po::value<std::string>()->value_name("NAME")->default_value("interior-point"),
-       "who is asked first: interior-point, or ipopt (ten times slower); the other is the "
+       "who is asked first: interior-point, or ipopt (some seven times slower); the other is the "
        "fall-back")                                                                            //
       ("json", po::value<std::string>()->value_name("FILE"), "write the answer to FILE, too")  //
       ("fields", po::value<std::string>()->value_name("PREFIX"),
