@@ -30,6 +30,15 @@ std::vector<double> flow_indicators(const Problem& problem, const ConeProgram& p
   return indicators;
 }
 
+// In the order in which they are tried.
+std::vector<ConeForm> forms_of(bool is_lower, Engine engine) {
+  std::vector<ConeForm> forms =
+      is_lower ? std::vector{ConeForm::inequality, ConeForm::quadratic, ConeForm::barrier}
+               : std::vector{ConeForm::barrier};
+  forms.insert(engine == Engine::ipopt ? forms.end() : forms.begin(), ConeForm::cones);
+  return forms;
+}
+
 /// One side of the bracket: its mesh, and what refining it has brought.
 class Side {
  public:
@@ -41,7 +50,7 @@ class Side {
   [[nodiscard]] bool can_refine() const { return !indicators_.empty(); }
 
   void refine() {
-    constexpr double share = 0.5;
+    constexpr double share = 0.7;
     problem_.mesh = bisected(problem_.mesh, largest(indicators_, share));
   }
 
@@ -51,9 +60,7 @@ class Side {
     const double began = processor_seconds();
     const ConeProgram program =
         is_lower_ ? lower_bound_program(problem_) : upper_bound_program(problem_);
-    const std::vector<ConeForm> forms =
-        is_lower_ ? std::vector{ConeForm::inequality, ConeForm::quadratic, ConeForm::barrier}
-                  : std::vector{ConeForm::barrier};
+    const std::vector<ConeForm> forms = forms_of(is_lower_, options.engine);
     for (const ConeForm form : forms) {
       SolverOptions solver;
       solver.form = form;
@@ -72,7 +79,7 @@ class Side {
       attempt.seconds = processor_seconds() - start;
       bracket.attempts.push_back(attempt);
       if (watch) watch(attempt);
-      if (is_good(attempt, before) || solution.status == SolverStatus::stopped) break;
+      if (is_good(attempt, before) || solution.status == SolverStatus::timed_out) break;
     }
     const std::optional<double> after = best(bracket);
     const double seconds = std::max(1e-3, processor_seconds() - began);

@@ -5,26 +5,30 @@
 #include <string>
 #include <vector>
 
-#include "limit/ipopt_solver.hpp"
+#include "limit/cone_solver.hpp"
 #include "limit/lower_certificate.hpp"
 #include "limit/upper_certificate.hpp"
 
 namespace limit {
 
+/// Who is asked first; the other one is the fall-back.
+enum class Engine { interior_point, ipopt };
+
 struct BracketOptions {
   double gap = 0.02;           // wanted: (upper - lower) / their mean, > 0
-  int max_triangles = 3000;    // of one mesh
+  int max_triangles = 12000;   // of one mesh
   double max_seconds = 120.0;  // of processor time, for all attempts together
-  int max_iterations = 300;    // of Ipopt, per attempt
+  int max_iterations = 300;    // of the solver, per attempt
+  Engine engine = Engine::interior_point;
 };
 
 /// One attempt at one bound.
 struct Attempt {
   bool is_lower = true;
   int triangles = 0;
-  ConeForm form = ConeForm::inequality;
+  ConeForm form = ConeForm::cones;
   SolverStatus status = SolverStatus::failed;
-  std::string message;  // Ipopt's
+  std::string message;  // the solver's
   int iterations = 0;
   double seconds = 0.0;             // of processor time, certificate included
   std::optional<double> certified;  // the bound, if the certificate holds
@@ -54,8 +58,8 @@ struct Bracket {
 /// Brackets the multiplier: solves and certifies a bound on each side, then refines in turn, where
 /// the soil flows most, the side whose last refinement brought more for its time, until the gap is
 /// reached or the budget spent. The best certified bound of each side is kept, so that no
-/// refinement loosens the bracket. An attempt that Ipopt fails is repeated with another form of the
-/// cones.
+/// refinement loosens the bracket. An attempt that fails is repeated with another form of the
+/// cones, and so by another solver.
 /// @param lower, upper  the same problem in units of order one, on the meshes to begin with
 /// @param watch  told of every attempt as it ends
 [[nodiscard]] Bracket bracket(Problem lower, Problem upper, const BracketOptions& options,

@@ -76,7 +76,10 @@ po::options_description options() {
       ("max-triangles", po::value<int>()->value_name("N")->default_value(defaults.max_triangles),
        "largest mesh to refine")  //
       ("max-seconds", po::value<double>()->value_name("S")->default_value(defaults.max_seconds),
-       "processor time after which no refinement begins")                                      //
+       "processor time after which no refinement begins")  //
+      ("solver", po::value<std::string>()->value_name("NAME")->default_value("interior-point"),
+       "who is asked first: interior-point, or ipopt (some seven times slower); the other is the "
+       "fall-back")                                                                            //
       ("json", po::value<std::string>()->value_name("FILE"), "write the answer to FILE, too")  //
       ("fields", po::value<std::string>()->value_name("PREFIX"),
        "write PREFIX-lower.hdf (stresses) and PREFIX-upper.hdf (velocities) for ParaView, and "
@@ -138,6 +141,11 @@ BracketOptions bracket_options(const po::variables_map& values) {
   chosen.gap = gap_of(values["gap"].as<std::string>());
   chosen.max_triangles = values["max-triangles"].as<int>();
   chosen.max_seconds = values["max-seconds"].as<double>();
+  const std::string solver = values["solver"].as<std::string>();
+  if (solver != "interior-point" && solver != "ipopt") {
+    throw UsageError(fmt::format("--solver: found {}; allowed is interior-point or ipopt", solver));
+  }
+  chosen.engine = solver == "ipopt" ? Engine::ipopt : Engine::interior_point;
   if (chosen.max_triangles < 1) {
     throw UsageError(
         fmt::format("--max-triangles: found {}; allowed is 1 or more", chosen.max_triangles));

@@ -61,35 +61,18 @@ Derivatives row(ConeForm form, const YieldCone& cone, const Number* x) {
 }  // namespace
 
 ConeNlp::ConeNlp(const ConeProgram& program, ConeForm form)
-    : form_(form), cones_(program.cones), equations_(program.equations) {
-  column_scale_ = Eigen::VectorXd::Ones(program.objective.size());
-  for (std::size_t k = 0; k < cones_.size(); ++k) {
-    column_scale_.segment<3>(3 * static_cast<Eigen::Index>(k)).setConstant(cones_[k].scale);
-    cones_[k].strength /= cones_[k].scale;
-  }
-  equations_ = equations_ * column_scale_.asDiagonal();
-  equations_.makeCompressed();
-  row_scale_ = Eigen::VectorXd::Ones(equations_.rows());
-  for (Eigen::Index i = 0; i < equations_.rows(); ++i) {
-    double largest = 0.0;
-    for (decltype(equations_)::InnerIterator entry(equations_, i); entry; ++entry) {
-      largest = std::max(largest, std::abs(entry.value()));
-    }
-    if (largest > 0.0) row_scale_[i] = 1.0 / largest;
-  }
-  equations_ = row_scale_.asDiagonal() * equations_;
-  right_side_ = row_scale_.cwiseProduct(program.right_side);
-  cost_ = -column_scale_.cwiseProduct(program.objective);
-  point_ = program.start.cwiseQuotient(column_scale_);
-  dual_ = Eigen::VectorXd::Zero(equations_.rows());
-}
+    : form_(form),
+      program_(program),
+      point_(program_.start),
+      dual_(Eigen::VectorXd::Zero(program_.equations.rows())) {}
 
 bool ConeNlp::get_nlp_info(Index& n, Index& m, Index& jacobian_entries, Index& hessian_entries,
                            IndexStyleEnum& style) {
-  const auto cones = static_cast<Index>(cones_.size());
-  n = static_cast<Index>(cost_.size());
-  m = static_cast<Index>(equations_.rows()) + (has_rows() ? cones : 0);
-  jacobian_entries = static_cast<Index>(equations_.nonZeros()) + (has_rows() ? 3 * cones : 0);
+  const auto cones = static_cast<Index>(program_.cones.size());
+  n = static_cast<Index>(program_.cost.size());
+  m = static_cast<Index>(program_.equations.rows()) + (has_rows() ? cones : 0);
+  jacobian_entries =
+      static_cast<Index>(program_.equations.nonZeros()) + (has_rows() ? 3 * cones : 0);
   hessian_entries = 6 * cones;
   style = C_STYLE;
   return true;
@@ -99,13 +82,14 @@ bool ConeNlp::get_bounds_info(Index n, Number* lower, Number* upper, Index m,
                               Number* constraint_lower, Number* constraint_upper) {
   std::fill_n(lower, n, -unbounded);
   std::fill_n(upper, n, unbounded);
-  for (std::size_t k = 0; k < cones_.size(); ++k) {
-    if (has_rows() && cones_[k].slope > 0.0) upper[3 * k] = cones_[k].strength / cones_[k].slope;
+  for (std::size_t k = 0; k < program_.cones.size(); ++k) {
+    if (has_rows() && program_.cones[k].slope > 0.0)
+      upper[3 * k] = program_.cones[k].strength / program_.cones[k].slope;
   }
-  const auto equations = static_cast<Index>(equations_.rows());
+  const auto equations = static_cast<Index>(program_.equations.rows());
   for (Index i = 0; i < m; ++i) {
-    constraint_lower[i] = i < equations ? right_side_[i] : -unbounded;
-    constraint_upper[i] = i < equations ? right_side_[i] : 0.0;
+    constraint_lower[i] = i < equations ? program_.right_side[i] : -unbounded;
+    constraint_upper[i] = i < equations ? program_.right_side[i] : 0.0;
   }
   return true;
 }
@@ -121,19 +105,19 @@ bool ConeNlp::get_starting_point(Index n, bool, Number* x, bool, Number*, Number
 }
 
 bool ConeNlp::eval_f(Index n, const Number* x, bool, Number& value) {
-  value = cost_.dot(Eigen::Map<const Eigen::VectorXd>(x, n));
+  value = program_.cost.dot(Eigen::Map<const Eigen::VectorXd>(x, n));
   if (form_ != ConeForm::barrier) return true;
-  for (std::size_t k = 0; k < cones_.size(); ++k) {
-    value += barrier * log_barrier(cones_[k], x[3 * k], x[3 * k + 1], x[3 * k + 2]).value;
+  for (std::size_t k = 0; k < program_.cones.size(); ++k) {
+    value += barrier * log_barrier(program_.cones[k], x[3 * k], x[3 * k + 1], x[3 * k + 2]).value;
   }
   return std::isfinite(value);
 }
 
 bool ConeNlp::eval_grad_f(Index n, const Number* x, bool, Number* gradient) {
-  std::copy_n(cost_.data(), n, gradient);
+  std::copy_n(program_.cost.data(), n, gradient);
   if (form_ != ConeForm::barrier) return true;
-  for (std::size_t k = 0; k < cones_.size(); ++k) {
-    const Derivatives f = log_barrier(cones_[k], x[3 * k], x[3 * k + 1], x[3 * k + 2]);
+  for (std::size_t k = 0; k < program_.cones.size(); ++k) {
+    const Derivatives f = log_barrier(program_.cones[k], x[3 * k], x[3 * k + 1], x[3 * k + 2]);
     gradient[3 * k] += barrier * f.p;
     gradient[3 * k + 1] += barrier * f.d;
     gradient[3 * k + 2] += barrier * f.t;
@@ -142,12 +126,12 @@ bool ConeNlp::eval_grad_f(Index n, const Number* x, bool, Number* gradient) {
 }
 
 bool ConeNlp::eval_g(Index n, const Number* x, bool, Index, Number* values) {
-  const Eigen::Index equations = equations_.rows();
+  const Eigen::Index equations = program_.equations.rows();
   Eigen::Map<Eigen::VectorXd>(values, equations) =
-      equations_ * Eigen::Map<const Eigen::VectorXd>(x, n);
+      program_.equations * Eigen::Map<const Eigen::VectorXd>(x, n);
   if (!has_rows()) return true;
-  for (std::size_t k = 0; k < cones_.size(); ++k) {
-    const double value = row(form_, cones_[k], x + 3 * k).value;
+  for (std::size_t k = 0; k < program_.cones.size(); ++k) {
+    const double value = row(form_, program_.cones[k], x + 3 * k).value;
     if (!std::isfinite(value)) return false;
     values[static_cast<std::size_t>(equations) + k] = value;
   }
@@ -166,15 +150,16 @@ bool ConeNlp::eval_jac_g(Index, const Number* x, bool, Index, Index, Index* rows
     }
     ++at;
   };
-  for (Eigen::Index i = 0; i < equations_.rows(); ++i) {
-    for (decltype(equations_)::InnerIterator entry(equations_, i); entry; ++entry) {
+  for (Eigen::Index i = 0; i < program_.equations.rows(); ++i) {
+    for (decltype(program_.equations)::InnerIterator entry(program_.equations, i); entry; ++entry) {
       put(i, entry.col(), entry.value());
     }
   }
   if (!has_rows()) return true;
-  for (std::size_t k = 0; k < cones_.size(); ++k) {
-    const Derivatives f = values == nullptr ? Derivatives{} : row(form_, cones_[k], x + 3 * k);
-    const auto i = equations_.rows() + static_cast<Eigen::Index>(k);
+  for (std::size_t k = 0; k < program_.cones.size(); ++k) {
+    const Derivatives f =
+        values == nullptr ? Derivatives{} : row(form_, program_.cones[k], x + 3 * k);
+    const auto i = program_.equations.rows() + static_cast<Eigen::Index>(k);
     const auto j = 3 * static_cast<Eigen::Index>(k);
     put(i, j, f.p);
     put(i, j + 1, f.d);
@@ -187,14 +172,14 @@ bool ConeNlp::eval_h(Index, const Number* x, bool, Number objective_factor, Inde
                      const Number* lambda, bool, Index, Index* rows, Index* columns,
                      Number* values) {
   constexpr std::array<Index, 6> row_of{0, 1, 1, 2, 2, 2}, column_of{0, 0, 1, 0, 1, 2};
-  for (std::size_t k = 0; k < cones_.size(); ++k) {
+  for (std::size_t k = 0; k < program_.cones.size(); ++k) {
     Derivatives f;
     double weight = 0.0;
     if (values != nullptr && has_rows()) {
-      f = row(form_, cones_[k], x + 3 * k);
-      weight = lambda[static_cast<std::size_t>(equations_.rows()) + k];
+      f = row(form_, program_.cones[k], x + 3 * k);
+      weight = lambda[static_cast<std::size_t>(program_.equations.rows()) + k];
     } else if (values != nullptr) {
-      f = log_barrier(cones_[k], x[3 * k], x[3 * k + 1], x[3 * k + 2]);
+      f = log_barrier(program_.cones[k], x[3 * k], x[3 * k + 1], x[3 * k + 2]);
       weight = objective_factor * barrier;
     }
     for (std::size_t i = 0; i < 6; ++i) {
@@ -213,7 +198,7 @@ void ConeNlp::finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, c
                                 const Number*, Index, const Number*, const Number* lambda, Number,
                                 const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) {
   point_ = Eigen::Map<const Eigen::VectorXd>(x, n);
-  dual_ = Eigen::Map<const Eigen::VectorXd>(lambda, equations_.rows());
+  dual_ = Eigen::Map<const Eigen::VectorXd>(lambda, program_.equations.rows());
 }
 
 }  // namespace limit

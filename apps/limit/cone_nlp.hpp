@@ -1,10 +1,9 @@
 #pragma once
 
 #include <IpTNLP.hpp>
-#include <vector>
 
-#include "limit/cone_program.hpp"
-#include "limit/ipopt_solver.hpp"
+#include "limit/cone_solver.hpp"
+#include "limit/scaled_program.hpp"
 
 namespace limit {
 
@@ -17,9 +16,9 @@ class ConeNlp : public Ipopt::TNLP {
   double barrier = 0.0;
 
   /// In the units of the program.
-  [[nodiscard]] Eigen::VectorXd variables() const { return column_scale_.cwiseProduct(point_); }
-  [[nodiscard]] Eigen::VectorXd multipliers() const { return row_scale_.cwiseProduct(dual_); }
-  [[nodiscard]] double objective() const { return -cost_.dot(point_); }
+  [[nodiscard]] Eigen::VectorXd variables() const { return program_.variables(point_); }
+  [[nodiscard]] Eigen::VectorXd multipliers() const { return program_.multipliers(dual_); }
+  [[nodiscard]] double objective() const { return -program_.cost.dot(point_); }
 
   bool get_nlp_info(Ipopt::Index& n, Ipopt::Index& m, Ipopt::Index& jacobian_entries,
                     Ipopt::Index& hessian_entries, IndexStyleEnum& style) override;
@@ -49,9 +48,7 @@ class ConeNlp : public Ipopt::TNLP {
   [[nodiscard]] bool has_rows() const { return form_ != ConeForm::barrier; }
 
   ConeForm form_;
-  std::vector<YieldCone> cones_;  // of scale 1
-  Eigen::SparseMatrix<double, Eigen::RowMajor> equations_;
-  Eigen::VectorXd right_side_, cost_, column_scale_, row_scale_;
+  ScaledProgram program_;
   Eigen::VectorXd point_, dual_;  // scaled; the next start
 };
 

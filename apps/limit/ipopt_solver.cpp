@@ -57,9 +57,9 @@ Ending ending(Ipopt::ApplicationReturnStatus status) {
     case Ipopt::Search_Direction_Becomes_Too_Small:
       return {SolverStatus::acceptable, "search direction became too small"};
     case Ipopt::Maximum_Iterations_Exceeded:
-      return {SolverStatus::stopped, "iteration limit"};
+      return {SolverStatus::capped, "iteration limit"};
     case Ipopt::Maximum_CpuTime_Exceeded:
-      return {SolverStatus::stopped, "time limit"};
+      return {SolverStatus::timed_out, "time limit"};
     case Ipopt::Restoration_Failed:
       return {SolverStatus::failed, "restoration failed"};
     case Ipopt::Infeasible_Problem_Detected:
@@ -112,7 +112,7 @@ ConeSolution solve_by_barrier(const ConeProgram& program, const SolverOptions& o
     nlp->barrier = gap / cones;
     const int iterations = options.max_iterations - solution.iterations;
     if (iterations <= 0 || seconds <= 0.0) {
-      solution.status = SolverStatus::stopped;
+      solution.status = iterations <= 0 ? SolverStatus::capped : SolverStatus::timed_out;
       solution.message = iterations <= 0 ? "iteration limit" : "time limit";
       break;
     }
@@ -139,7 +139,7 @@ ConeSolution solve_by_barrier(const ConeProgram& program, const SolverOptions& o
 
 }  // namespace
 
-ConeSolution solve(const ConeProgram& program, const SolverOptions& options) {
+ConeSolution solve_by_ipopt(const ConeProgram& program, const SolverOptions& options) {
   return options.form == ConeForm::barrier ? solve_by_barrier(program, options)
                                            : solve_at_once(program, options);
 }

@@ -9,8 +9,9 @@ namespace limit {
 
 namespace {
 
-// So that a solver's answer to its tolerance lies inside the true cone.
-constexpr double reserve = 1e-9;
+// So that a solver's answer lies inside the true cone even after it was moved, by its tolerance,
+// into equilibrium: much more than that of the solver, much less than a bracket.
+constexpr double reserve = 1e-6;
 
 // A linear form in one corner's (p, d, t).
 using Form = Eigen::Vector3d;

@@ -17,6 +17,8 @@ using nlohmann::ordered_json;
 
 std::string_view word(ConeForm form) {
   switch (form) {
+    case ConeForm::cones:
+      return "cone";
     case ConeForm::inequality:
       return "inequality";
     case ConeForm::quadratic:
@@ -25,6 +27,10 @@ std::string_view word(ConeForm form) {
       break;
   }
   return "barrier";
+}
+
+std::string_view solver(ConeForm form) {
+  return form == ConeForm::cones ? "interior point" : "Ipopt";
 }
 
 std::string_view status_of(const Bracket& bracket) {
@@ -36,7 +42,8 @@ ordered_json as_json(const Attempt& attempt, double stress) {
   ordered_json json{{"bound", attempt.is_lower ? "lower" : "upper"},
                     {"triangles", attempt.triangles},
                     {"cones", word(attempt.form)},
-                    {"ipopt", attempt.message},
+                    {"solver", solver(attempt.form)},
+                    {"message", attempt.message},
                     {"iterations", attempt.iterations},
                     {"processor_seconds", attempt.seconds},
                     {"certified_Pa", nullptr}};
@@ -136,11 +143,11 @@ void say_solver(std::string& text, const Bracket& bracket) {
   const auto out = std::back_inserter(text);
   int iterations = 0;
   for (const Attempt& attempt : bracket.attempts) iterations += attempt.iterations;
-  fmt::format_to(out, "Ipopt: {} attempts, {} iterations; the bounds come from\n",
+  fmt::format_to(out, "Solver: {} attempts, {} iterations; the bounds come from\n",
                  bracket.attempts.size(), iterations);
   const auto say = [&](std::string_view name, const Attempt& attempt) {
-    fmt::format_to(out, "  {}: {} form, {}, {} iterations\n", name, word(attempt.form),
-                   attempt.message, attempt.iterations);
+    fmt::format_to(out, "  {}: {}, {} form, {}, {} iterations\n", name, solver(attempt.form),
+                   word(attempt.form), attempt.message, attempt.iterations);
   };
   if (bracket.lower) say("lower", bracket.lower->attempt);
   if (bracket.upper) say("upper", bracket.upper->attempt);

@@ -272,8 +272,9 @@ UpperCertificate certify_upper(const Problem& problem, const VelocityField& prop
     mixed = std::max(mixed, here / (here - there));
   }
   if (mixed > 0.0 && holds) {
-    constexpr double more = 1.0 + 1e-6;  // so that rounding does not undo it
-    mixed = std::min(1.0, mixed * more);
+    // So that rounding does not undo it, nor is all there is to be mended.
+    constexpr double more = 1.0 + 1e-6, least = 1e-9;
+    mixed = std::min(1.0, mixed * more + least);
     x = (1.0 - mixed) * x + mixed * inner;
     certificate.kept = 1.0 - mixed;
     for (const FlowPoint& point : flow.points()) {

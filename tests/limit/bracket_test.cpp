@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "limit/case.hpp"
@@ -101,6 +102,92 @@ TEST(Bracket, DoesNotDependOnTheUnits) {
   EXPECT_NEAR(b.upper_bound() * ratio / a.upper_bound(), 1.0, digits);
 }
 
+// Both forms' tolerances, relative: 1e-5 (the duality gap) and 1e-4 (the last barrier's).
+constexpr double both = 2e-4;
+
+TEST(Solvers, AgreeOnBothPrograms) {
+  for (const double phi : {0.0, 20.0}) {
+    const Strip strip = weightless(phi);
+    const Box box = box_of(strip);
+    const Problem problem =
+        in_units(strip_problem(strip, even_fan(box.width, box.depth, 8, 4, 1.5)), units_of(strip));
+    for (const bool is_lower : {true, false}) {
+      const ConeProgram program =
+          is_lower ? lower_bound_program(problem) : upper_bound_program(problem);
+      const ConeSolution own = solve(program, {});
+      EXPECT_EQ(own.status, SolverStatus::solved);
+      SolverOptions ipopt;
+      ipopt.form = is_lower ? ConeForm::inequality : ConeForm::barrier;
+      const ConeSolution other = solve(program, ipopt);
+      EXPECT_EQ(other.status, SolverStatus::solved);
+      const double value = program.objective.dot(other.variables);
+      EXPECT_NEAR(program.objective.dot(own.variables), value, both * value);
+    }
+  }
+}
+
+// Forced: no solver can do its work in so few iterations.
+TEST(Solvers, EndAtTheLimitOfIterationsAndSayWhere) {
+  const Strip strip = weightless(20);
+  const Problem problem =
+      in_units(strip_problem(strip, even_fan(4.0, 2.0, 8, 4, 1.5)), units_of(strip));
+  const ConeProgram program = lower_bound_program(problem);
+  for (const ConeForm form : {ConeForm::cones, ConeForm::inequality, ConeForm::barrier}) {
+    SolverOptions options;
+    options.form = form;
+    options.max_iterations = 3;
+    const ConeSolution cut_short = solve(program, options);
+    EXPECT_EQ(cut_short.status, SolverStatus::capped);
+    EXPECT_EQ(cut_short.message, "iteration limit");
+    EXPECT_LE(cut_short.iterations, 3);
+  }
+}
+
+TEST(Bracket, FallsBackToTheOtherSolverAndSaysWhatFailed) {
+  const Strip strip = weightless(20);
+  const Box box = box_of(strip);
+  const Problem problem =
+      in_units(strip_problem(strip, even_fan(box.width, box.depth, 8, 4, 2.0)), units_of(strip));
+  BracketOptions options;
+  options.max_triangles = 1;
+  options.engine = Engine::ipopt;
+  options.max_iterations = 25;  // enough for the cones, far from enough for the barrier's stages
+  const Bracket found = bracket(problem, problem, options);
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_EQ(found.upper->attempt.form, ConeForm::cones);
+  EXPECT_EQ(found.upper->attempt.status, SolverStatus::solved);
+  const auto failed =
+      std::find_if(found.attempts.begin(), found.attempts.end(), [](const Attempt& attempt) {
+        return !attempt.is_lower && attempt.form == ConeForm::barrier;
+      });
+  ASSERT_NE(failed, found.attempts.end());
+  EXPECT_EQ(failed->status, SolverStatus::capped);
+  EXPECT_EQ(failed->message, "iteration limit");
+}
+
+TEST(Bracket, WithoutAnySolutionHasNoBoundThatIsWrong) {
+  const Strip strip = weightless(20);
+  const Problem problem =
+      in_units(strip_problem(strip, even_fan(4.0, 2.0, 8, 4, 2.0)), units_of(strip));
+  for (const Engine engine : {Engine::interior_point, Engine::ipopt}) {
+    BracketOptions options;
+    options.max_triangles = 1;
+    options.max_iterations = 2;
+    options.engine = engine;
+    const Bracket found = bracket(problem, problem, options);
+    EXPECT_FALSE(found.reached);
+    EXPECT_EQ(found.attempts.size(), 6U);  // four forms of the lower bound, two of the upper
+    for (const Attempt& attempt : found.attempts) EXPECT_NE(attempt.status, SolverStatus::solved);
+    const double stress = units_of(strip).stress;
+    if (found.lower) {
+      EXPECT_LT(found.lower_bound() * stress, 14.834712);
+    }
+    if (found.upper) {
+      EXPECT_GT(found.upper_bound() * stress, 14.834712);
+    }
+  }
+}
+
 TEST(LowerCertificate, DrawsAFieldBeyondYieldInwards) {
   const Strip strip = weightless(20);
   const Box box = box_of(strip);
@@ -118,7 +205,9 @@ TEST(LowerCertificate, DrawsAFieldBeyondYieldInwards) {
   EXPECT_TRUE(greedy.holds);
   EXPECT_GT(greedy.yield_excess, 0.0);
   EXPECT_LT(greedy.kept, 1.0);
-  EXPECT_LE(greedy.multiplier, honest.multiplier * (1.0 + 1e-6));
+  // The field proposed was this close to the optimum: the solver's gap and the strength unused.
+  constexpr double close = 1e-5 + 2e-6;
+  EXPECT_LE(greedy.multiplier, honest.multiplier * (1.0 + close));
 }
 
 TEST(LowerCertificate, RestoresEquilibriumThatIsLost) {

@@ -40,6 +40,7 @@ TEST(FpmLimit, RefusesWhatItCannotBracketWithTheReason) {
            {{"--strip", "--c", "1", "--phi", "20", "--psi", "30"}, "--psi: found 30"},
            {{"--strip", "--c", "1", "--box-width", "1"}, "box: found 1"},
            {{"--strip", "--c", "1", "--surchage", "1"}, "did you mean \"--surcharge\""},
+           {{"--strip", "--c", "1", "--solver", "mosek"}, "--solver: found mosek"},
            {{"--strip", "--c", "1", "--max-triangles", "0"}, "--max-triangles: found 0"}}) {
     const Outcome refused = run(arguments);
     EXPECT_EQ(refused.code, ExitCode::input_refused) << reason;
@@ -55,7 +56,7 @@ TEST(FpmLimit, PrintsBoundsThatAreWiderThanAskedAndSaysSo) {
   EXPECT_EQ(wide.code, ExitCode::not_converged);
   EXPECT_THAT(wide.out, AllOf(HasSubstr("lower bound"), HasSubstr("upper bound"),
                               HasSubstr("wider than the gap asked for"), HasSubstr("Terzaghi"),
-                              HasSubstr("not rigorous"), HasSubstr("Ipopt")));
+                              HasSubstr("not rigorous"), HasSubstr("cone form, solved")));
   std::ifstream stream(file);
   const auto json = nlohmann::json::parse(stream);
   std::filesystem::remove(file);

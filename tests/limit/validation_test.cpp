@@ -54,14 +54,35 @@ TEST_P(Table, BracketsTheExactValueClosely) {
 // Weightless: Prandtl's c N_c, closed form. With weight: method of characteristics, to its digits.
 INSTANTIATE_TEST_SUITE_P(
     Strips, Table,
-    ::testing::Values(Known{"phi_0", 1.0, 0.0, 0.0, 1.0, false, 5.141593, 0.005, 0.01, 0.015},
-                      Known{"phi_10", 1.0, 10.0, 0.0, 1.0, false, 8.344926, 0.005, 0.01, 0.015},
-                      Known{"phi_20", 1.0, 20.0, 0.0, 1.0, false, 14.834712, 0.005, 0.01, 0.015},
-                      Known{"phi_30", 1.0, 30.0, 0.0, 1.0, false, 30.139628, 0.006, 0.011, 0.015},
-                      Known{"paper_rough", 2.5e3, 20.0, 1850 * 9.81, 0.22, true, 58437.0, 0.0125,
-                            0.0125, 0.02},
-                      Known{"paper_smooth", 2.5e3, 20.0, 1850 * 9.81, 0.22, false, 48752.0, 0.0125,
-                            0.0125, 0.02}),
+    ::testing::Values(
+        Known{"phi_0", 1.0, 0.0, 0.0, 1.0, false, 5.141593, 0.005, 0.01, 0.01},
+        Known{"phi_10", 1.0, 10.0, 0.0, 1.0, false, 8.344926, 0.005, 0.01, 0.01},
+        Known{"phi_20", 1.0, 20.0, 0.0, 1.0, false, 14.834712, 0.005, 0.01, 0.01},
+        Known{"phi_30", 1.0, 30.0, 0.0, 1.0, false, 30.139628, 0.005, 0.01, 0.009},
+        Known{"phi_40", 1.0, 40.0, 0.0, 1.0, false, 75.313114, 0.005, 0.017, 0.009},
+        Known{"paper_rough", 2.5e3, 20.0, 1850 * 9.81, 0.22, true, 58437.0, 0.0125, 0.0125, 0.02},
+        Known{"paper_smooth", 2.5e3, 20.0, 1850 * 9.81, 0.22, false, 48752.0, 0.0125, 0.0125, 0.02},
+        Known{"paper_rough_1", 2.5e3, 20.0, 1850 * 9.81, 0.22, true, 58437.0, 0.0075, 0.0075, 0.01},
+        Known{"paper_smooth_1", 2.5e3, 20.0, 1850 * 9.81, 0.22, false, 48752.0, 0.0075, 0.0075,
+              0.01}),
     [](const auto& info) { return std::string(info.param.name); });
+
+// Beyond the default size, a box does not matter: the mechanism is inside, and the exact value of a
+// half-space stays in a bracket as tight.
+TEST(Boxes, DoNotMatterOnceTheMechanismFits) {
+  Strip strip;
+  strip.soil = {2.5e3, 20.0 * degree, 1850 * 9.81};
+  strip.half_width = 0.22;
+  for (const double factor : {1.0, 1.5, 3.0}) {
+    Box box = box_of(strip);
+    box.width *= factor;
+    box.depth *= factor;
+    const Case problem = strip_case(strip, box);
+    const Bracket found = bracket(problem, BracketOptions{}, {});
+    EXPECT_TRUE(found.reached) << factor;
+    EXPECT_LT(found.lower_bound() * problem.units.stress, 58437.0);
+    EXPECT_GT(found.upper_bound() * problem.units.stress, 58437.0);
+  }
+}
 
 }  // namespace

@@ -1,0 +1,168 @@
+#include "limit/cone_system.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace limit {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using second_order_cone::Scaling;
+
+namespace {
+
+// Curvature given to free variables: small against the cones', which are of order one at first.
+constexpr double little = 1e-8;
+// Added to the diagonal of A H^-1 A', in all and as a share of each entry: makes up for equations
+// that depend on each other, as a lower bound's do, whose pivots are nothing but rounding.
+constexpr double least = 1e-10, least_share = 1e-13;
+
+}  // namespace
+
+ConeSystem::ConeSystem(const ScaledProgram& program) : program_(program) {
+  gather_blocks();
+  find_entries();
+  curvature_.resize(program.cones.size());
+  inverse_.resize(program.cones.size());
+}
+
+void ConeSystem::gather_blocks() {
+  const Eigen::SparseMatrix<double> by_column = program_.equations;
+  const auto cones = static_cast<Index>(program_.cones.size());
+  for (Index first = 0; first < by_column.cols();) {
+    const Index width = first < 3 * cones ? 3 : 1;
+    Block block;
+    block.first = first;
+    for (Index j = first; j < first + width; ++j) {
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(by_column, j); entry; ++entry) {
+        block.rows.push_back(entry.row());
+      }
+    }
+    std::sort(block.rows.begin(), block.rows.end());
+    block.rows.erase(std::unique(block.rows.begin(), block.rows.end()), block.rows.end());
+    block.coefficients.setZero(static_cast<Index>(block.rows.size()), width);
+    for (Index j = first; j < first + width; ++j) {
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(by_column, j); entry; ++entry) {
+        const auto at = std::lower_bound(block.rows.begin(), block.rows.end(), entry.row());
+        block.coefficients(at - block.rows.begin(), j - first) = entry.value();
+      }
+    }
+    blocks_.push_back(std::move(block));
+    first += width;
+  }
+}
+
+void ConeSystem::find_entries() {
+  const auto size = static_cast<int>(program_.equations.rows());
+  std::vector<std::pair<int, int>> pattern;
+  const auto for_pairs = [&](const Block& block, const auto& what) {
+    for (std::size_t i = 0; i < block.rows.size(); ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        what(std::pair(static_cast<int>(block.rows[i]), static_cast<int>(block.rows[j])));
+      }
+    }
+  };
+  for (int i = 0; i < size; ++i) pattern.emplace_back(i, i);
+  for (const Block& block : blocks_) {
+    for_pairs(block, [&](const auto& pair) { pattern.push_back(pair); });
+  }
+  std::sort(pattern.begin(), pattern.end());
+  pattern.erase(std::unique(pattern.begin(), pattern.end()), pattern.end());
+  const auto entry = [&](const std::pair<int, int>& pair) {
+    return static_cast<std::size_t>(std::lower_bound(pattern.begin(), pattern.end(), pair) -
+                                    pattern.begin());
+  };
+  for (int i = 0; i < size; ++i) diagonal_.push_back(entry({i, i}));
+  for (Block& block : blocks_) {
+    for_pairs(block, [&](const auto& pair) { block.entries.push_back(entry(pair)); });
+  }
+  std::vector<int> rows, columns;
+  for (const auto& [row, column] : pattern) {
+    rows.push_back(row);
+    columns.push_back(column);
+  }
+  values_.resize(pattern.size());
+  factors_ = std::make_unique<SparseCholesky>(size, rows, columns);
+}
+
+bool ConeSystem::factorise(const std::vector<Scaling>& scalings) {
+  for (std::size_t k = 0; k < scalings.size(); ++k) {
+    Matrix3d& inverse = inverse_[k];
+    const Vector3d form = slack_form(program_.cones[k]);
+    if (form[0] > 0.0) {
+      curvature_[k] = form.asDiagonal() * scalings[k].inverse_squared() * form.asDiagonal();
+      const Vector3d back = form.cwiseInverse();
+      inverse = back.asDiagonal() * scalings[k].squared() * back.asDiagonal();
+    } else {
+      curvature_[k].setZero();
+      curvature_[k].bottomRightCorner<2, 2>() =
+          scalings[k].inverse_squared().bottomRightCorner<2, 2>();
+      inverse.setZero();
+      inverse(0, 0) = 1.0 / little;
+      inverse.bottomRightCorner<2, 2>() = scalings[k].disc_inverse();
+    }
+  }
+  std::fill(values_.begin(), values_.end(), 0.0);
+  Eigen::MatrixXd softened;
+  for (std::size_t q = 0; q < blocks_.size(); ++q) {
+    const Block& block = blocks_[q];
+    if (q < inverse_.size()) {
+      softened.noalias() = block.coefficients * inverse_[q];
+    } else {
+      softened = block.coefficients / little;
+    }
+    auto entry = block.entries.begin();
+    for (Index i = 0; i < block.coefficients.rows(); ++i) {
+      for (Index j = 0; j <= i; ++j) {
+        values_[*entry++] += softened.row(i).dot(block.coefficients.row(j));
+      }
+    }
+  }
+  for (const std::size_t entry : diagonal_) values_[entry] += least + least_share * values_[entry];
+  return factors_->factorise(values_);
+}
+
+VectorXd ConeSystem::curve(const VectorXd& x) const {
+  VectorXd result = VectorXd::Zero(x.size());
+  for (std::size_t k = 0; k < curvature_.size(); ++k) {
+    const auto at = static_cast<Index>(3 * k);
+    result.segment<3>(at) = curvature_[k] * x.segment<3>(at);
+  }
+  return result;
+}
+
+VectorXd ConeSystem::uncurve(const VectorXd& x) const {
+  VectorXd result = x / little;
+  for (std::size_t k = 0; k < inverse_.size(); ++k) {
+    const auto at = static_cast<Index>(3 * k);
+    result.segment<3>(at) = inverse_[k] * x.segment<3>(at);
+  }
+  return result;
+}
+
+ConeSystem::Solution ConeSystem::solve(const VectorXd& first, const VectorXd& second) {
+  const auto& equations = program_.equations;
+  Solution sum{VectorXd::Zero(first.size()), VectorXd::Zero(second.size())};
+  VectorXd rest = first, other_rest = second;
+  double before = INFINITY;
+  constexpr int most_refinements = 8;
+  constexpr double enough = 1e-12;
+  for (int i = 0; i <= most_refinements; ++i) {
+    VectorXd y = equations * uncurve(rest) - other_rest;
+    factors_->solve(y);
+    const VectorXd x = uncurve(rest - equations.transpose() * y);
+    sum.x += x;
+    sum.y += y;
+    rest = first - curve(sum.x) - equations.transpose() * sum.y;
+    other_rest = second - equations * sum.x;
+    const double now =
+        std::max(rest.lpNorm<Eigen::Infinity>(), other_rest.lpNorm<Eigen::Infinity>());
+    if (!(now < 0.5 * before) || now < enough) break;
+    before = now;
+  }
+  return sum;
+}
+
+}  // namespace limit

@@ -1,0 +1,151 @@
+// Strips at the edges of what is allowed: the bracket must hold, or say why there is none.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "limit/case.hpp"
+
+namespace {
+
+using namespace limit;
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double pi = std::numbers::pi;
+
+// Prandtl & Reissner: N_q, and N_c = (N_q - 1) cot(phi).
+double bearing_q(double phi) {
+  return std::exp(pi * std::tan(phi)) * std::pow(std::tan(pi / 4 + phi / 2), 2);
+}
+double bearing_c(double phi) {
+  return (bearing_q(phi) - 1.0) / std::tan(phi);
+}
+
+struct Found {
+  double lower, upper;  // in the strip's unit of stress
+};
+
+// On coarse meshes, without refinement.
+Found bounds(const Strip& strip, const std::optional<Box>& wanted = std::nullopt, int rays = 16,
+             int rings = 6) {
+  const Box box = wanted.value_or(box_of(strip));
+  BracketOptions options;
+  options.max_triangles = 1;
+  const Problem lower = strip_problem(strip, even_fan(box.width, box.depth, rays, rings, 1.5));
+  const Problem upper = strip_problem(strip, even_fan(box.width, box.depth, rays, rings, 2.0));
+  const Units units = units_of(strip);
+  const Bracket found = bracket(in_units(lower, units), in_units(upper, units), options);
+  if (!found.lower || !found.upper) {
+    ADD_FAILURE() << "a bound is missing";
+    return {0.0, 0.0};
+  }
+  return {found.lower_bound() * units.stress, found.upper_bound() * units.stress};
+}
+
+Strip strip_of(double cohesion, double phi, double weight, double surcharge = 0.0) {
+  Strip strip;
+  strip.soil = {cohesion, phi * degree, weight};
+  strip.surcharge = surcharge;
+  strip.rough = false;
+  return strip;
+}
+
+TEST(Extremes, HardlyAnyFriction) {
+  const Found found = bounds(strip_of(1.0, 0.1, 0.0));
+  const double exact = bearing_c(0.1 * degree);
+  EXPECT_LT(found.lower, exact);
+  EXPECT_GT(found.upper, exact);
+  // As wide as without any friction on this mesh: nothing is lost to the almost flat cones.
+  const Found clay = bounds(strip_of(1.0, 0.0, 0.0));
+  EXPECT_NEAR((found.upper - found.lower) / (clay.upper - clay.lower), 1.0, 0.1);
+}
+
+// The lower bound is there. On meshes this coarse no upper one need be, but none that is wrong.
+TEST(Extremes, FiftyDegrees) {
+  const Strip strip = strip_of(1.0, 50.0, 0.0);
+  const Units units = units_of(strip);
+  const Box box = box_of(strip);
+  const Problem problem =
+      in_units(strip_problem(strip, even_fan(box.width, box.depth, 48, 6, 1.5)), units);
+  BracketOptions options;
+  options.max_triangles = 1;
+  options.max_iterations = 60;
+  const Bracket found = bracket(problem, problem, options);
+  const double exact = bearing_c(50.0 * degree);
+  ASSERT_TRUE(found.lower);
+  EXPECT_LT(found.lower_bound() * units.stress, exact);
+  EXPECT_GT(found.lower_bound() * units.stress, 0.8 * exact);
+  if (found.upper) {
+    EXPECT_GT(found.upper_bound() * units.stress, exact);
+  }
+}
+
+// Without cohesion the pressure is a little less: both bounds of a thousandth of gamma b approach
+// those of a tenth of it as c N_c falls away (the rest is gamma b N_gamma and does not).
+TEST(Extremes, HardlyAnyCohesionUnderWeight) {
+  const double weight = 18e3;
+  const Found little = bounds(strip_of(1e-3 * weight, 30.0, weight));
+  const Found more = bounds(strip_of(1e-1 * weight, 30.0, weight));
+  EXPECT_LT(little.lower, little.upper);
+  EXPECT_LT(little.lower, more.lower);
+  EXPECT_LT(little.upper, more.upper);
+  // N_gamma, smooth, by the method of characteristics: 7.653, times gamma b, b the half width.
+  EXPECT_GT(little.upper, 7.653 * weight);
+}
+
+TEST(Extremes, ASurchargeInsteadOfCohesion) {
+  const Found found = bounds(strip_of(0.0, 30.0, 0.0, 50.0));
+  const double exact = 50.0 * bearing_q(30.0 * degree);
+  EXPECT_LT(found.lower, exact);
+  EXPECT_GT(found.upper, exact);
+}
+
+TEST(Extremes, NeitherCohesionNorSurchargeIsRefusedWithTheReason) {
+  for (const double phi : {0.0, 30.0}) {
+    try {
+      (void)strip_case(strip_of(0.0, phi, 18e3), std::nullopt);
+      ADD_FAILURE() << "not refused";
+    } catch (const std::invalid_argument& refusal) {
+      EXPECT_THAT(refusal.what(), ::testing::HasSubstr(phi > 0.0 ? "no strength" : "friction"));
+    }
+  }
+}
+
+TEST(Extremes, UnitsDoNotMatter) {
+  const Strip si = [] {
+    Strip strip = strip_of(2.5e3, 20.0, 1850.0 * 9.81);
+    strip.half_width = 0.22;
+    return strip;
+  }();
+  const Found pascal = bounds(si);
+  struct Unit {
+    double stress, length;  // of one of them in Pa and m
+  };
+  for (const auto& [stress, length] : {Unit{1e3, 1.0}, {1e6, 1.0}, {1e6, 1e-3}, {1.0, 1e3}}) {
+    Strip strip = si;
+    strip.soil.cohesion /= stress;
+    strip.soil.unit_weight *= length / stress;
+    strip.half_width /= length;
+    const Found other = bounds(strip);
+    // The same numbers but for the rounding of the input, times what the solver makes of it: its
+    // gap, 1e-5, is met at the same iteration.
+    constexpr double digits = 1e-7;
+    EXPECT_NEAR(other.lower * stress / pascal.lower, 1.0, digits);
+    EXPECT_NEAR(other.upper * stress / pascal.upper, 1.0, digits);
+  }
+}
+
+TEST(Extremes, VeryWideAndVeryShallowBoxes) {
+  const Strip strip = strip_of(1.0, 20.0, 0.0);
+  const Box box = box_of(strip);
+  // Far beyond the mechanism the rings are coarse, but a bound is a bound.
+  const Found wide = bounds(strip, Box{30.0 * box.width, box.depth});
+  EXPECT_LT(wide.lower, bearing_c(20.0 * degree));
+  EXPECT_GT(wide.upper, bearing_c(20.0 * degree));
+  // Squeezed between the base and a rigid floor the soil bears more.
+  const Found shallow = bounds(strip, Box{box.width, 0.4});
+  EXPECT_LT(shallow.lower, shallow.upper);
+  EXPECT_GT(shallow.lower, bearing_c(20.0 * degree));
+}
+
+}  // namespace
