@@ -9,11 +9,14 @@
 #include <stdexcept>
 
 #include "limit/fields.hpp"
+#include "limit/ground_case.hpp"
 #include "limit/report.hpp"
 #include "limit/scene_case.hpp"
+#include "limit/solution.hpp"
 #include "wiring/durable_file.hpp"
 #include "wiring/nearest_name.hpp"
 #include "wiring/scene_reader.hpp"
+#include "wiring/table_reader.hpp"
 #include "wiring/version.hpp"
 
 namespace limit {
@@ -31,7 +34,8 @@ constexpr std::string_view usage =
     "\n"
     "Brackets the collapse load of a strip footing by finite-element limit analysis: a lower and\n"
     "an upper bound, both certified, refined until they are as close as asked for. The footing is\n"
-    "that of a scene of fpm-run, or described by options.\n";
+    "that of a scene of fpm-run, or described by options. A scene of fpm-limit's own, of polygons\n"
+    "(share/scenes/limit), has other loads, too: pressures, gravity, the strength itself.\n";
 
 constexpr std::string_view examples =
     "Examples:\n"
@@ -39,6 +43,7 @@ constexpr std::string_view examples =
     "  fpm-limit share/scenes/footing.toml --set material.soil.cohesion=3e3\n"
     "  fpm-limit --strip --c 2.5e3 --phi 20 --gamma 18150 --half-width 0.22 --rough\n"
     "  fpm-limit --strip --c 1e4 --smooth --gap 1% --json limit.json\n"
+    "  fpm-limit share/scenes/limit/slope.toml --set material.clay.cohesion=8e3\n"
     "\n"
     "Any consistent units do: with kPa, m and kN/m3 the answer is in kPa.\n"
     "\n"
@@ -196,6 +201,22 @@ SceneCase case_of_strip(const po::variables_map& values) {
   return result;
 }
 
+void say_errors(const std::vector<wiring::Problem>& errors, std::ostream& err) {
+  for (const wiring::Problem& one : errors) err << "error: " << one.text() << '\n';
+}
+
+std::optional<SceneCase> case_of_ground(const std::string& file, const std::string& text,
+                                        std::span<const std::string> settings, std::ostream& err) {
+  wiring::Diagnosis diagnosis(file);
+  std::optional<wiring::Problem> unreadable;
+  const auto scene = read_ground_scene(text, settings, diagnosis, unreadable);
+  if (unreadable) say_errors({*unreadable}, err);
+  std::optional<SceneCase> result;
+  if (scene) result = ground_case(*scene, diagnosis);
+  say_errors(diagnosis.errors(), err);
+  return result;
+}
+
 /// Nothing, with every problem said, if the scene is refused by its reader.
 std::optional<SceneCase> case_of(const po::variables_map& values, std::ostream& err) {
   if (values.count("scene") == 0) {
@@ -211,9 +232,18 @@ std::optional<SceneCase> case_of(const po::variables_map& values, std::ostream& 
   }
   const auto settings = values.count("set") != 0 ? values["set"].as<std::vector<std::string>>()
                                                  : std::vector<std::string>{};
-  const wiring::SceneReading reading = wiring::read_scene(scenes.front(), settings);
+  const auto text = wiring::text_of(scenes.front());
+  if (const auto* problem = std::get_if<wiring::Problem>(&text)) {
+    say_errors({*problem}, err);
+    return std::nullopt;
+  }
+  if (is_ground_scene(std::get<std::string>(text))) {
+    return case_of_ground(scenes.front(), std::get<std::string>(text), settings, err);
+  }
+  const wiring::SceneReading reading =
+      wiring::parse_scene(std::get<std::string>(text), scenes.front(), settings);
   for (const wiring::Problem& one : reading.warnings) err << "warning: " << one.text() << '\n';
-  for (const wiring::Problem& one : reading.errors) err << "error: " << one.text() << '\n';
+  say_errors(reading.errors, err);
   if (!reading.scene) return std::nullopt;
   return scene_case(*reading.scene);
 }
@@ -222,6 +252,7 @@ ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ost
   const po::variables_map values = parse(arguments);
   if (values["help"].as<bool>()) {
     out << usage << '\n' << options() << '\n' << examples;
+    out << "\nKeys of a scene of polygons:\n" << ground_scene_keys();
     return ExitCode::done;
   }
   if (values["version"].as<bool>()) {
@@ -233,20 +264,18 @@ ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ost
   if (!problem) return ExitCode::input_refused;
   std::vector<wiring::CurveRow> curve;
   if (values.count("curve") != 0) {
-    if (!problem->scene) throw UsageError("--curve belongs to a SCENE");
+    if (!problem->scene) throw UsageError("--curve belongs to a SCENE of fpm-run");
     // Read first: a bracket is not computed in vain for a file that cannot be read.
     curve = wiring::read_curve(values["curve"].as<std::string>());
   }
-  const double stress = problem->associated.units.stress;
   const auto watch = [&](const Attempt& attempt) {
-    if (values["verbose"].as<bool>()) err << attempt_line(attempt, stress) << '\n';
+    if (values["verbose"].as<bool>()) err << attempt_line(problem->associated, attempt) << '\n';
   };
-  Answer answer{bracket(problem->associated, chosen, watch), std::nullopt, std::nullopt};
-  if (problem->davis) answer.davis = bracket(*problem->davis, chosen, watch);
-  if (values.count("curve") != 0 && answer.bracket.lower && answer.bracket.upper) {
+  Answer answer{solution_of(problem->associated, chosen, watch), std::nullopt, std::nullopt};
+  if (problem->davis) answer.davis = solution_of(*problem->davis, chosen, watch);
+  if (values.count("curve") != 0 && answer.found.lower && answer.found.upper) {
     answer.run =
-        wiring::check_plateau(curve, *problem->scene, answer.bracket.lower_bound() * stress,
-                              answer.bracket.upper_bound() * stress);
+        wiring::check_plateau(curve, *problem->scene, *answer.found.lower, *answer.found.upper);
   }
   out << text_report(problem->associated, answer, chosen);
   if (values.count("json") != 0) {
@@ -255,14 +284,14 @@ ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ost
   }
   if (values.count("fields") != 0) {
     const std::string prefix = values["fields"].as<std::string>();
-    const Bracket& found = answer.bracket;
+    const Bracket& found = answer.found.bracket;
     if (found.lower) write_fields(prefix + "-lower.hdf", problem->associated, *found.lower);
     if (found.upper) {
       write_fields(prefix + "-upper.hdf", problem->associated, *found.upper);
       write_mechanism(prefix + "-mechanism.svg", problem->associated, *found.upper);
     }
   }
-  return answer.bracket.reached ? ExitCode::done : ExitCode::not_converged;
+  return answer.found.bracket.reached ? ExitCode::done : ExitCode::not_converged;
 }
 
 }  // namespace

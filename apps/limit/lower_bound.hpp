@@ -16,7 +16,7 @@ using StressField = std::vector<Eigen::Matrix3d>;
 /// (Lyamin & Sloan 2002): maximise the multiplier over stress fields in equilibrium inside the
 /// triangles, across their sides, at the boundaries and with the footing, nowhere beyond yield.
 /// The variables are 9 per triangle, the last one is the multiplier.
-/// The strength is less by one part in 1e9, so that the answer of a solver lies inside.
+/// The strength is less by one or two parts in 1e6, so that the answer of a solver lies inside.
 [[nodiscard]] ConeProgram lower_bound_program(const Problem& problem);
 
 /// The stress field in the variables of such a program.

@@ -18,7 +18,8 @@ double Overburden::at(const Soil& soil, const Point& place) const {
 }
 
 YieldCone yield_cone(const Soil& soil, double overburden, double reserve) {
-  const double strength = soil.cohesion * std::cos(soil.friction_angle) * (1.0 - reserve);
+  // Twice the share of the cohesion, so that even the apex of the true cone is out of reach.
+  const double strength = soil.cohesion * std::cos(soil.friction_angle) * (1.0 - 2.0 * reserve);
   const double slope = std::sin(soil.friction_angle) * (1.0 - reserve);
   // A place without strength must not have a scale of zero.
   constexpr double least = 1e-6;

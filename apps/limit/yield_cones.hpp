@@ -17,8 +17,9 @@ class Overburden {
   double load_ = 0.0;
 };
 
-/// The soil's cone, scaled by its strength under the compressive stress `overburden`; its strength
-/// is less by `reserve` (a fraction).
+/// The soil's cone, scaled by its strength under the compressive stress `overburden`; it lies
+/// inside the true one by at least the fraction `reserve` of the local strength, or of the
+/// cohesion's.
 [[nodiscard]] YieldCone yield_cone(const Soil& soil, double overburden, double reserve);
 
 /// (p, d, t) of an isotropic stress strictly inside the cone.

@@ -49,7 +49,7 @@ TEST(EffectiveScene, NamesEveryKeyOfTheScene) {
 
 TEST(SceneFields, HaveUniqueNamesAndADescription) {
   for (const TableInfo& table : scene_tables()) {
-    EXPECT_EQ(find_table(table.name), &table);
+    EXPECT_EQ(find_table(scene_tables(), table.name), &table);
     EXPECT_FALSE(table.doc.empty());
     for (const Field& field : table.fields) {
       EXPECT_EQ(table.find(field.key), &field) << table.name << "." << field.key;
