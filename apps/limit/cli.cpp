@@ -13,6 +13,7 @@
 #include "limit/report.hpp"
 #include "limit/scene_case.hpp"
 #include "limit/solution.hpp"
+#include "limit/strength_reduction.hpp"
 #include "wiring/durable_file.hpp"
 #include "wiring/nearest_name.hpp"
 #include "wiring/scene_reader.hpp"
@@ -248,6 +249,19 @@ std::optional<SceneCase> case_of(const po::variables_map& values, std::ostream& 
   return scene_case(*reading.scene);
 }
 
+void write_all_fields(const std::string& prefix, Case problem, const Solution& found) {
+  if (problem.seeks_strength && found.lower) {
+    // The stresses are those of the soil with the strength that just carries the loads.
+    for (Soil& soil : problem.lower.soils) soil = weakened(soil, *found.lower);
+  }
+  const Bracket& bracket = found.bracket;
+  if (bracket.lower) write_fields(prefix + "-lower.hdf", problem, *bracket.lower);
+  if (bracket.upper) {
+    write_fields(prefix + "-upper.hdf", problem, *bracket.upper);
+    write_mechanism(prefix + "-mechanism.svg", problem, *bracket.upper);
+  }
+}
+
 ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ostream& err) {
   const po::variables_map values = parse(arguments);
   if (values["help"].as<bool>()) {
@@ -283,13 +297,7 @@ ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ost
                                json_report(problem->associated, answer, chosen));
   }
   if (values.count("fields") != 0) {
-    const std::string prefix = values["fields"].as<std::string>();
-    const Bracket& found = answer.found.bracket;
-    if (found.lower) write_fields(prefix + "-lower.hdf", problem->associated, *found.lower);
-    if (found.upper) {
-      write_fields(prefix + "-upper.hdf", problem->associated, *found.upper);
-      write_mechanism(prefix + "-mechanism.svg", problem->associated, *found.upper);
-    }
+    write_all_fields(values["fields"].as<std::string>(), problem->associated, answer.found);
   }
   return answer.found.bracket.reached ? ExitCode::done : ExitCode::not_converged;
 }

@@ -238,15 +238,19 @@ Units units_of(const Problem& problem, double length) {
   return units;
 }
 
-GroundFineness fineness_of(const GroundScene& scene, bool is_lower) {
+GroundFineness fineness_of(const GroundScene& scene, const GroundOutline& outline, double length,
+                           bool is_lower) {
   double steepest = 0.0;
   for (const GroundMaterial& material : scene.materials) {
     steepest = std::max(steepest, std::tan(material.soil.friction_angle));
   }
   // As the fans of a strip: the lower bound wants more rays, both the more, the more friction.
   constexpr double pi = std::numbers::pi;
-  if (is_lower) return {(24.0 + 30.0 * steepest) / pi, 4, 1.5};
-  return {(12.0 + 15.0 * steepest) / pi, 4, 2.0};
+  // Between the fans half a unit of length, but neither very few triangles nor very many.
+  const double longest =
+      std::clamp(length / 2.0, std::sqrt(outline.area / 150.0), std::sqrt(outline.area / 50.0));
+  if (is_lower) return {(24.0 + 30.0 * steepest) / pi, 4, 1.5, longest};
+  return {(12.0 + 15.0 * steepest) / pi, 4, 2.0, longest};
 }
 
 std::vector<std::string> assumptions_of(const GroundScene& scene, const Problem& problem,
@@ -323,10 +327,11 @@ Case case_of(const GroundScene& scene, const GroundOutline& outline,
   if (diagnosis.errors().empty()) require_live_load(scene, base, result.lower, diagnosis);
   if (!diagnosis.errors().empty()) return result;
   result.assumptions = assumptions_of(scene, result.lower, base);
-  result.units = units_of(result.lower, length_of(scene, outline, base));
+  const double length = length_of(scene, outline, base);
+  result.units = units_of(result.lower, length);
   result.upper = result.lower;
-  result.lower.mesh = ground_mesh(scene, outline, fineness_of(scene, true));
-  result.upper.mesh = ground_mesh(scene, outline, fineness_of(scene, false));
+  result.lower.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, true));
+  result.upper.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, false));
   return result;
 }
 

@@ -79,6 +79,45 @@ double reach_of(const GroundOutline& outline, const std::vector<int>& centres, i
   return reach;
 }
 
+// A segment that meets in a corner, and the region that follows it counterclockwise.
+struct Limit {
+  double angle = 0.0;  // from the outline that leaves the corner
+  Point direction;
+  int region = 0;
+};
+
+// All of them, counterclockwise.
+std::vector<Limit> limits_at(const GroundOutline& outline, const Corner& corner) {
+  const int centre = corner.after->first;
+  const Point& here = outline.at(centre);
+  const Point begin = (outline.at(corner.after->second) - here).normalized();
+  std::vector<Limit> limits;
+  for (const GroundSegment& segment : outline.segments) {
+    if (segment.first != centre && segment.second != centre) continue;
+    const bool leaves = segment.first == centre;
+    const Point to = (outline.at(leaves ? segment.second : segment.first) - here).normalized();
+    const double angle = &segment == corner.after ? 0.0 : angle_from(begin, to);
+    limits.push_back({angle, to, leaves ? segment.left : segment.right});
+  }
+  std::sort(limits.begin(), limits.end(),
+            [](const Limit& a, const Limit& b) { return a.angle < b.angle; });
+  return limits;
+}
+
+// The rays from one of them until just before the next.
+void add_sector(GroundFan& fan, const Limit& limit, double end, double rays_per_radian) {
+  const double opening = end - limit.angle;
+  const int rays = std::max(1, static_cast<int>(std::lround(rays_per_radian * opening)));
+  const Point& u = limit.direction;
+  fan.directions.push_back(u);
+  fan.regions.push_back(limit.region);
+  for (int k = 1; k < rays; ++k) {
+    const double cosine = std::cos(opening * k / rays), sine = std::sin(opening * k / rays);
+    fan.directions.emplace_back(cosine * u.x() - sine * u.y(), sine * u.x() + cosine * u.y());
+    fan.regions.push_back(limit.region);
+  }
+}
+
 }  // namespace
 
 std::vector<int> singular_points(const GroundScene& scene, const GroundOutline& outline) {
@@ -105,37 +144,9 @@ std::vector<GroundFan> ground_fans(const GroundScene& scene, const GroundOutline
       fan.radii.push_back(reach *
                           std::pow(static_cast<double>(k) / fineness.rings, fineness.grading));
     }
-    // The segments that meet here, counterclockwise, with the region that follows each.
-    const Point& here = outline.at(centre);
-    const Point begin = (outline.at(corner.after->second) - here).normalized();
-    struct Limit {
-      double angle;
-      Point direction;
-      int region;
-    };
-    std::vector<Limit> limits;
-    for (const GroundSegment& segment : outline.segments) {
-      if (segment.first != centre && segment.second != centre) continue;
-      const bool leaves = segment.first == centre;
-      const Point to = (outline.at(leaves ? segment.second : segment.first) - here).normalized();
-      const double angle = &segment == corner.after ? 0.0 : angle_from(begin, to);
-      limits.push_back({angle, to, leaves ? segment.left : segment.right});
-    }
-    std::sort(limits.begin(), limits.end(),
-              [](const Limit& a, const Limit& b) { return a.angle < b.angle; });
+    const std::vector<Limit> limits = limits_at(outline, corner);
     for (std::size_t i = 0; i + 1 < limits.size(); ++i) {
-      const double opening = limits[i + 1].angle - limits[i].angle;
-      const int rays =
-          std::max(1, static_cast<int>(std::lround(fineness.rays_per_radian * opening)));
-      fan.directions.push_back(limits[i].direction);
-      fan.regions.push_back(limits[i].region);
-      for (int k = 1; k < rays; ++k) {
-        const double angle = opening * k / rays;
-        const Point& u = limits[i].direction;
-        fan.directions.emplace_back(std::cos(angle) * u.x() - std::sin(angle) * u.y(),
-                                    std::sin(angle) * u.x() + std::cos(angle) * u.y());
-        fan.regions.push_back(limits[i].region);
-      }
+      add_sector(fan, limits[i], limits[i + 1].angle, fineness.rays_per_radian);
     }
     fan.directions.push_back(limits.back().direction);
     fans.push_back(std::move(fan));

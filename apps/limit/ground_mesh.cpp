@@ -37,7 +37,10 @@ Point place_of(const Kernel::Point_2& exact) {
 class Mesher {
  public:
   Mesher(const GroundScene& scene, const GroundOutline& outline, const GroundFineness& fineness)
-      : scene_(scene), outline_(outline), fans_(ground_fans(scene, outline, fineness)) {
+      : scene_(scene),
+        outline_(outline),
+        longest_(fineness.longest),
+        fans_(ground_fans(scene, outline, fineness)) {
     for (const std::vector<int>& ring : outline.regions) {
       std::vector<Point>& polygon = polygons_.emplace_back();
       for (const int point : ring) polygon.push_back(outline.at(point));
@@ -117,11 +120,10 @@ class Mesher {
       const Point centre = centre_of(face);
       if (region_at(centre) < 0) outside.push_back(exact(centre));
     }
-    // Sine squared of the least angle, 20.7 degrees: what is known to end. Sides of a fifth of the
-    // whole are short enough to begin with.
-    constexpr double sharpest = 0.125, longest = 0.2;
-    CGAL::Delaunay_mesher_2<Triangulation, Criteria> mesher(
-        triangulation_, Criteria(sharpest, longest * outline_.size));
+    // Sine squared of the least angle, 20.7 degrees: what is known to end.
+    constexpr double sharpest = 0.125;
+    CGAL::Delaunay_mesher_2<Triangulation, Criteria> mesher(triangulation_,
+                                                            Criteria(sharpest, longest_));
     mesher.set_seeds(outside.begin(), outside.end(), false);
     mesher.refine_mesh();
   }
@@ -211,6 +213,7 @@ class Mesher {
 
   const GroundScene& scene_;
   const GroundOutline& outline_;
+  double longest_;
   std::vector<GroundFan> fans_;
   std::vector<std::vector<Point>> polygons_;
   Triangulation triangulation_;

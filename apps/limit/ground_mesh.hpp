@@ -11,6 +11,7 @@ struct GroundFineness {
   double rays_per_radian = 8.0;
   int rings = 4;
   double grading = 1.5;  // radii of the rings: (k / rings)^grading
+  double longest = 1.0;  // [m] sides between the fans
 };
 
 /// Corners of the outline where stress and velocity take every direction at once: re-entrant ones,

@@ -55,6 +55,7 @@ class Arranger {
     if (is_good()) join();
     if (is_good()) check_connection();
     if (is_good()) name_sides();
+    for (std::size_t r = 0; r < result_.regions.size(); ++r) result_.area += area_of(polygon(r));
     return std::move(result_);
   }
 

@@ -20,6 +20,7 @@ struct GroundOutline {
   std::vector<GroundSegment> segments;
   std::vector<std::vector<int>> regions;  // points, counterclockwise
   double size = 0.0;                      // diagonal of the bounding box
+  double area = 0.0;
 
   /// Places closer than this are one.
   [[nodiscard]] double tolerance() const { return 1e-9 * size; }

@@ -6,14 +6,16 @@
 namespace limit {
 
 /// A rough guess of the compressive vertical stress, for scales and starts: the weight up to the
-/// highest node, and the largest compressive stress prescribed on the outline.
+/// highest node, and the largest compressive stress prescribed on the outline. A live weight is
+/// taken to grow until a vertical cut as high as the body would fail, gamma H = 4 c tan(45 +
+/// phi/2).
 class Overburden {
  public:
   explicit Overburden(const Problem& problem);
   [[nodiscard]] double at(const Soil& soil, const Point& place) const;
 
  private:
-  double top_ = 0.0;
+  double top_ = 0.0, bottom_ = 0.0;
   double load_ = 0.0;
 };
 

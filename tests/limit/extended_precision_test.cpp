@@ -388,18 +388,19 @@ Problem inclined_strip() {
   problem.footing.live_load = {horizontal, vertical, (at - 0.25) * vertical + 0.5 * horizontal};
   return problem;
 }
-// A bank of frictional soil whose weight grows; the surcharge on its crest does not.
+// A bank of frictional soil whose weight grows, and a shear on a part of its crest; the surcharge
+// does not.
 Problem growing_weight() {
   Problem problem = half_strip({1.0, std::numbers::pi / 9, 0.2}, 0.0, false);
   problem.soils[0].live_unit_weight = 1.0;
-  for (Boundary& boundary : problem.boundaries) boundary = {boundary.name};
+  // The axis becomes the free face.
+  for (const FanBoundary free : {FanBoundary::base, FanBoundary::surface, FanBoundary::axis}) {
+    Boundary& boundary = problem.boundaries[static_cast<std::size_t>(free)];
+    boundary = {boundary.name};
+  }
   problem.boundaries[0].normal_stress = -0.1;
-  problem.boundaries[0].shear_stress = 0.02;
   problem.boundaries[1].normal_stress = -0.1;
   problem.boundaries[1].live_shear_stress = 0.1;
-  // The axis becomes the free face.
-  problem.boundaries[2] = {"wall", Known::support, Known::traction};
-  problem.boundaries[3] = {"floor", Known::support, Known::support};
   problem.footing = {};
   return problem;
 }
