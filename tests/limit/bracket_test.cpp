@@ -118,7 +118,10 @@ TEST(LowerCertificate, DrawsAFieldBeyondYieldInwards) {
   EXPECT_TRUE(greedy.holds);
   EXPECT_GT(greedy.yield_excess, 0.0);
   EXPECT_LT(greedy.kept, 1.0);
-  EXPECT_LE(greedy.multiplier, honest.multiplier * (1.0 + 1e-6));
+  // The programme leaves one or two parts in 1e6 of the strength unused, what is drawn inwards does
+  // not; N_c changes by less than twice the change of sin(phi), in proportion.
+  constexpr double unused = 5e-6;
+  EXPECT_LE(greedy.multiplier, honest.multiplier * (1.0 + unused));
 }
 
 TEST(LowerCertificate, RestoresEquilibriumThatIsLost) {
