@@ -95,8 +95,7 @@ class Reduction {
 
   [[nodiscard]] BracketOptions once() const {
     BracketOptions options = options_;
-    options.max_triangles = 1;  // no refinement
-    options.max_seconds = std::max(1.0, remaining());
+    options.max_triangles = 1;  // no refinement, and so no end before it is solved
     return options;
   }
 
