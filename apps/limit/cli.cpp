@@ -44,7 +44,7 @@ constexpr std::string_view examples =
     "  fpm-limit share/scenes/footing.toml --set material.soil.cohesion=3e3\n"
     "  fpm-limit --strip --c 2.5e3 --phi 20 --gamma 18150 --half-width 0.22 --rough\n"
     "  fpm-limit --strip --c 1e4 --smooth --gap 1% --json limit.json\n"
-    "  fpm-limit share/scenes/limit/slope.toml --set material.clay.cohesion=8e3\n"
+    "  fpm-limit share/scenes/limit/slope_safety.toml --set material.soil.cohesion=12e3\n"
     "\n"
     "Any consistent units do: with kPa, m and kN/m3 the answer is in kPa.\n"
     "\n"
