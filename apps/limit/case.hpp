@@ -9,26 +9,20 @@
 #include "limit/hand_formulas.hpp"
 #include "limit/problem.hpp"
 #include "limit/strip.hpp"
-#include "wiring/plateau_check.hpp"
 
 namespace limit {
 
 /// A collapse problem with all that a report says about it.
 struct Case {
   std::string title;
+  std::string quantity = "mean pressure at collapse";  // what is bracketed
+  std::string unit = "Pa";                             // of it; "" for a number
+  bool seeks_strength = false;  // the factor that divides the strength, with the live loads at 1
   std::vector<std::pair<std::string, std::string>> data;  // what, value with unit
   std::vector<std::string> assumptions;
   std::vector<HandFormula> hand;
   Units units;
   Problem lower, upper;  // in SI units, on the meshes to begin with
-};
-
-/// The bracket of a case, that of its Davis-reduced twin if the flow is not associated, and how a
-/// run compares if one was named.
-struct Answer {
-  Bracket bracket;
-  std::optional<Bracket> davis;
-  std::optional<wiring::PlateauCheck> run;
 };
 
 /// A strip footing as a case; `box` absent: box_of(strip).
@@ -40,7 +34,7 @@ struct Answer {
 /// An estimate, no bound. Angles in radians.
 [[nodiscard]] Soil davis_reduced(const Soil& soil, double dilation_angle);
 
-/// Brackets the case in its units. A bracket's multiplier times `units.stress` is the answer.
+/// Brackets the case in its units. A bracket's multiplier times `units.multiplier()` is the answer.
 [[nodiscard]] Bracket bracket(const Case& problem, const BracketOptions& options,
                               const std::function<void(const Attempt&)>& watch);
 

@@ -9,11 +9,15 @@
 #include <stdexcept>
 
 #include "limit/fields.hpp"
+#include "limit/ground_case.hpp"
 #include "limit/report.hpp"
 #include "limit/scene_case.hpp"
+#include "limit/solution.hpp"
+#include "limit/strength_reduction.hpp"
 #include "wiring/durable_file.hpp"
 #include "wiring/nearest_name.hpp"
 #include "wiring/scene_reader.hpp"
+#include "wiring/table_reader.hpp"
 #include "wiring/version.hpp"
 
 namespace limit {
@@ -31,7 +35,8 @@ constexpr std::string_view usage =
     "\n"
     "Brackets the collapse load of a strip footing by finite-element limit analysis: a lower and\n"
     "an upper bound, both certified, refined until they are as close as asked for. The footing is\n"
-    "that of a scene of fpm-run, or described by options.\n";
+    "that of a scene of fpm-run, or described by options. A scene of fpm-limit's own, of polygons\n"
+    "(share/scenes/limit), has other loads, too: pressures, gravity, the strength itself.\n";
 
 constexpr std::string_view examples =
     "Examples:\n"
@@ -39,6 +44,7 @@ constexpr std::string_view examples =
     "  fpm-limit share/scenes/footing.toml --set material.soil.cohesion=3e3\n"
     "  fpm-limit --strip --c 2.5e3 --phi 20 --gamma 18150 --half-width 0.22 --rough\n"
     "  fpm-limit --strip --c 1e4 --smooth --gap 1% --json limit.json\n"
+    "  fpm-limit share/scenes/limit/slope_safety.toml --set material.soil.cohesion=12e3\n"
     "\n"
     "Any consistent units do: with kPa, m and kN/m3 the answer is in kPa.\n"
     "\n"
@@ -204,6 +210,22 @@ SceneCase case_of_strip(const po::variables_map& values) {
   return result;
 }
 
+void say_errors(const std::vector<wiring::Problem>& errors, std::ostream& err) {
+  for (const wiring::Problem& one : errors) err << "error: " << one.text() << '\n';
+}
+
+std::optional<SceneCase> case_of_ground(const std::string& file, const std::string& text,
+                                        std::span<const std::string> settings, std::ostream& err) {
+  wiring::Diagnosis diagnosis(file);
+  std::optional<wiring::Problem> unreadable;
+  const auto scene = read_ground_scene(text, settings, diagnosis, unreadable);
+  if (unreadable) say_errors({*unreadable}, err);
+  std::optional<SceneCase> result;
+  if (scene) result = ground_case(*scene, diagnosis);
+  say_errors(diagnosis.errors(), err);
+  return result;
+}
+
 /// Nothing, with every problem said, if the scene is refused by its reader.
 std::optional<SceneCase> case_of(const po::variables_map& values, std::ostream& err) {
   if (values.count("scene") == 0) {
@@ -219,17 +241,40 @@ std::optional<SceneCase> case_of(const po::variables_map& values, std::ostream& 
   }
   const auto settings = values.count("set") != 0 ? values["set"].as<std::vector<std::string>>()
                                                  : std::vector<std::string>{};
-  const wiring::SceneReading reading = wiring::read_scene(scenes.front(), settings);
+  const auto text = wiring::text_of(scenes.front());
+  if (const auto* problem = std::get_if<wiring::Problem>(&text)) {
+    say_errors({*problem}, err);
+    return std::nullopt;
+  }
+  if (is_ground_scene(std::get<std::string>(text))) {
+    return case_of_ground(scenes.front(), std::get<std::string>(text), settings, err);
+  }
+  const wiring::SceneReading reading =
+      wiring::parse_scene(std::get<std::string>(text), scenes.front(), settings);
   for (const wiring::Problem& one : reading.warnings) err << "warning: " << one.text() << '\n';
-  for (const wiring::Problem& one : reading.errors) err << "error: " << one.text() << '\n';
+  say_errors(reading.errors, err);
   if (!reading.scene) return std::nullopt;
   return scene_case(*reading.scene);
+}
+
+void write_all_fields(const std::string& prefix, Case problem, const Solution& found) {
+  if (problem.seeks_strength && found.lower) {
+    // The stresses are those of the soil with the strength that just carries the loads.
+    for (Soil& soil : problem.lower.soils) soil = weakened(soil, *found.lower);
+  }
+  const Bracket& bracket = found.bracket;
+  if (bracket.lower) write_fields(prefix + "-lower.hdf", problem, *bracket.lower);
+  if (bracket.upper) {
+    write_fields(prefix + "-upper.hdf", problem, *bracket.upper);
+    write_mechanism(prefix + "-mechanism.svg", problem, *bracket.upper);
+  }
 }
 
 ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ostream& err) {
   const po::variables_map values = parse(arguments);
   if (values["help"].as<bool>()) {
     out << usage << '\n' << options() << '\n' << examples;
+    out << "\nKeys of a scene of polygons:\n" << ground_scene_keys();
     return ExitCode::done;
   }
   if (values["version"].as<bool>()) {
@@ -241,20 +286,18 @@ ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ost
   if (!problem) return ExitCode::input_refused;
   std::vector<wiring::CurveRow> curve;
   if (values.count("curve") != 0) {
-    if (!problem->scene) throw UsageError("--curve belongs to a SCENE");
+    if (!problem->scene) throw UsageError("--curve belongs to a SCENE of fpm-run");
     // Read first: a bracket is not computed in vain for a file that cannot be read.
     curve = wiring::read_curve(values["curve"].as<std::string>());
   }
-  const double stress = problem->associated.units.stress;
   const auto watch = [&](const Attempt& attempt) {
-    if (values["verbose"].as<bool>()) err << attempt_line(attempt, stress) << '\n';
+    if (values["verbose"].as<bool>()) err << attempt_line(problem->associated, attempt) << '\n';
   };
-  Answer answer{bracket(problem->associated, chosen, watch), std::nullopt, std::nullopt};
-  if (problem->davis) answer.davis = bracket(*problem->davis, chosen, watch);
-  if (values.count("curve") != 0 && answer.bracket.lower && answer.bracket.upper) {
+  Answer answer{solution_of(problem->associated, chosen, watch), std::nullopt, std::nullopt};
+  if (problem->davis) answer.davis = solution_of(*problem->davis, chosen, watch);
+  if (values.count("curve") != 0 && answer.found.lower && answer.found.upper) {
     answer.run =
-        wiring::check_plateau(curve, *problem->scene, answer.bracket.lower_bound() * stress,
-                              answer.bracket.upper_bound() * stress);
+        wiring::check_plateau(curve, *problem->scene, *answer.found.lower, *answer.found.upper);
   }
   out << text_report(problem->associated, answer, chosen);
   if (values.count("json") != 0) {
@@ -262,15 +305,9 @@ ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ost
                                json_report(problem->associated, answer, chosen));
   }
   if (values.count("fields") != 0) {
-    const std::string prefix = values["fields"].as<std::string>();
-    const Bracket& found = answer.bracket;
-    if (found.lower) write_fields(prefix + "-lower.hdf", problem->associated, *found.lower);
-    if (found.upper) {
-      write_fields(prefix + "-upper.hdf", problem->associated, *found.upper);
-      write_mechanism(prefix + "-mechanism.svg", problem->associated, *found.upper);
-    }
+    write_all_fields(values["fields"].as<std::string>(), problem->associated, answer.found);
   }
-  return answer.bracket.reached ? ExitCode::done : ExitCode::not_converged;
+  return answer.found.bracket.reached ? ExitCode::done : ExitCode::not_converged;
 }
 
 }  // namespace

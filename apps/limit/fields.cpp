@@ -145,13 +145,13 @@ void write_fields(const std::filesystem::path& file, const Case& problem,
       put(velocity, {v.x(), v.y(), 0.0});
     }
     const double area = twice_area(mesh, triangle) / 2 * problem.units.length;
-    dissipation.push_back(bound.certificate.of_triangle[t] * problem.units.stress / area);
+    dissipation.push_back(bound.certificate.of_triangle[t] * problem.units.multiplier() / area);
   }
   constexpr std::uint8_t quadratic_triangle_cell = 22;
   wiring::write_durably(file, [&](const std::filesystem::path& temporary) {
     Grid grid(temporary, quadratic_triangle_cell, 6, points);
     grid.add("velocity", velocity, 3, "");
-    grid.add("dissipation", dissipation, 1, "Pa/m");
+    grid.add("dissipation", dissipation, 1, problem.unit.empty() ? "1/m" : problem.unit + "/m");
     grid.close();
   });
 }
@@ -179,11 +179,12 @@ void write_mechanism(const std::filesystem::path& file, const Case& problem,
   fmt::format_to(
       out,
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.1f} {:.1f} {:.1f} {:.1f}\">"
-      "\n<title>{}: mechanism of the upper bound {:.6g} Pa</title>\n"
+      "\n<title>{}: mechanism of the upper bound {:.6g}{}</title>\n"
       "<g stroke=\"#555\" stroke-width=\"0.5\">\n",
       pixels * (low.x() - step), -pixels * (high.y() + step),
       pixels * (high.x() - low.x() + 2 * step), pixels * (high.y() - low.y() + 2 * step),
-      escaped(problem.title), bound.certificate.multiplier * problem.units.stress);
+      escaped(problem.title), bound.certificate.multiplier * problem.units.multiplier(),
+      problem.unit.empty() ? "" : " " + problem.unit);
   for (std::size_t t = 0; t < field.size(); ++t) {
     const double density =
         bound.certificate.of_triangle[t] / std::sqrt(twice_area(mesh, mesh.triangles[t]));

@@ -93,15 +93,17 @@ class Builder {
     for (Eigen::Index i = 0; i < 3; ++i) equations_.add(variables + i, factor * form[i]);
   }
 
-  // div sigma + (0, -gamma) = 0, with the constant gradients of the corners' shape functions.
+  // div sigma + (0, -gamma) = 0, gamma dead and live, with the constant gradients of the corners'
+  // shape functions.
   void equilibrium_of_triangles() {
     const Mesh& mesh = problem_.mesh;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const Triangle& triangle = mesh.triangles[t];
       const double area2 = twice_area(mesh, triangle);
-      const double weight = problem_.soils[static_cast<std::size_t>(triangle.region)].unit_weight;
+      const Soil& soil = problem_.soils[static_cast<std::size_t>(triangle.region)];
       for (int row = 0; row < 2; ++row) {
-        equations_.begin(row == 0 ? 0.0 : weight);
+        equations_.begin(row == 0 ? 0.0 : soil.unit_weight);
+        if (row == 1) equations_.add(multiplier(), -soil.live_unit_weight);
         for (int i = 0; i < 3; ++i) {
           const auto at = [&](int k) -> const Point& {
             return mesh.nodes[static_cast<std::size_t>(
@@ -133,10 +135,12 @@ class Builder {
         const Boundary& boundary = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
         if (boundary.normal == Known::traction) {
           equations_.begin(boundary.normal_stress);
+          equations_.add(multiplier(), -boundary.live_normal_stress);
           add(left, traction(side.normal, side.normal));
         }
         if (boundary.tangential == Known::traction) {
           equations_.begin(boundary.shear_stress);
+          equations_.add(multiplier(), -boundary.live_shear_stress);
           add(left, traction(side.normal, side.tangent));
         }
       }
@@ -161,7 +165,8 @@ class Builder {
     if (boundary.normal != Known::footing && boundary.tangential != Known::footing) return;
     const SideFrame side(problem_.mesh, edge);
     const auto velocity = [&](const Point& at) {
-      return motion == 0 ? Point(1, 0) : motion == 1 ? Point(0, 1) : Point(-at.y(), at.x());
+      const Point arm = at - problem_.footing.centre;
+      return motion == 0 ? Point(1, 0) : motion == 1 ? Point(0, 1) : Point(-arm.y(), arm.x());
     };
     const Point first = velocity(side.first), second = velocity(side.second);
     add(corner_at(edge.left, edge.first),

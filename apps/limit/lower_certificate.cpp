@@ -22,7 +22,8 @@ Eigen::Index corner_index(const Mesh& mesh, int triangle, int node) {
 /// All the equations of equilibrium in the corners' (xx, yy, xy); the multiplier is given.
 class Equilibrium {
  public:
-  Equilibrium(const Problem& problem, double multiplier) : problem_(problem) {
+  Equilibrium(const Problem& problem, double multiplier)
+      : problem_(problem), multiplier_(multiplier) {
     const Mesh& mesh = problem.mesh;
     const std::vector<Edge> edges = edges_of(mesh);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) balance(static_cast<int>(t));
@@ -60,8 +61,9 @@ class Equilibrium {
     for (std::size_t i = 0; i < 3; ++i) {
       perimeter += (node_at(mesh, nodes.nodes[i]) - node_at(mesh, nodes.nodes[(i + 1) % 3])).norm();
     }
-    const double weight = problem_.soils[static_cast<std::size_t>(nodes.region)].unit_weight *
-                          twice_area(mesh, nodes) / 2.0;
+    const Soil& soil = problem_.soils[static_cast<std::size_t>(nodes.region)];
+    const double weight =
+        (soil.unit_weight + multiplier_ * soil.live_unit_weight) * twice_area(mesh, nodes) / 2.0;
     for (const Point& direction : {Point(1, 0), Point(0, 1)}) {
       equations_.begin(direction.y() * weight / perimeter);
       for (std::size_t i = 0; i < 3; ++i) {
@@ -91,11 +93,11 @@ class Equilibrium {
     }
     const Boundary& boundary = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
     if (boundary.normal == Known::traction) {
-      equations_.begin(boundary.normal_stress);
+      equations_.begin(boundary.normal_stress + multiplier_ * boundary.live_normal_stress);
       add(left, normal, normal, 1.0);
     }
     if (boundary.tangential == Known::traction) {
-      equations_.begin(boundary.shear_stress);
+      equations_.begin(boundary.shear_stress + multiplier_ * boundary.live_shear_stress);
       add(left, normal, tangent, 1.0);
     }
   }
@@ -108,7 +110,8 @@ class Equilibrium {
     const Point &a = node_at(mesh, edge.first), &b = node_at(mesh, edge.second);
     const Point outward((b - a).y(), -(b - a).x());
     const auto motion_at = [&](const Point& at) {
-      return motion == 0 ? Point(1, 0) : motion == 1 ? Point(0, 1) : Point(-at.y(), at.x());
+      if (motion < 2) return Point(motion == 0 ? 1 : 0, motion == 0 ? 0 : 1);
+      return Point(problem_.footing.centre.y() - at.y(), at.x() - problem_.footing.centre.x());
     };
     const Eigen::Index first = corner_index(mesh, edge.left, edge.first);
     const Eigen::Index second = corner_index(mesh, edge.left, edge.second);
@@ -118,6 +121,7 @@ class Equilibrium {
   }
 
   const Problem& problem_;
+  double multiplier_;
   EquationBuilder equations_;
 };
 
@@ -146,14 +150,9 @@ StressField as_field(const Eigen::VectorXd& x) {
   return field;
 }
 
-/// A state that needs little or no strength, and its multiplier: nothing at all where nothing loads
-/// the body, else every column of soil under its own weight, equal in all directions.
-struct Rest {
-  StressField field;
-  double multiplier = 0.0;
-};
-
-Rest resting_ground(const Problem& problem) {
+/// Every column of soil under its own dead weight and the largest surcharge, equal in all
+/// directions.
+StressField geostatic(const Problem& problem) {
   const Mesh& mesh = problem.mesh;
   double top = mesh.nodes.front().y();
   for (const Point& node : mesh.nodes) top = std::max(top, node.y());
@@ -161,16 +160,41 @@ Rest resting_ground(const Problem& problem) {
   for (const Boundary& boundary : problem.boundaries) {
     surcharge = std::max(surcharge, -boundary.normal_stress);
   }
-  Rest rest{StressField(mesh.triangles.size()), surcharge};
+  StressField field(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& triangle = mesh.triangles[t];
     const double weight = problem.soils[static_cast<std::size_t>(triangle.region)].unit_weight;
     for (std::size_t i = 0; i < 3; ++i) {
       const double stress = -surcharge - weight * (top - node_at(mesh, triangle.nodes[i]).y());
-      rest.field[t].col(static_cast<Eigen::Index>(i)) << stress, stress, 0.0;
+      field[t].col(static_cast<Eigen::Index>(i)) << stress, stress, 0.0;
     }
   }
-  return rest;
+  return field;
+}
+
+/// A state in equilibrium that needs little or no strength, and its multiplier.
+struct Rest {
+  Eigen::VectorXd stress;
+  double multiplier = 0.0;
+};
+
+/// Level ground under its weight and surcharge, or nothing at all where no dead load is; none if
+/// neither is in equilibrium at any multiplier, as under a slope.
+std::optional<Rest> rest_of(const Problem& problem) {
+  const Equilibrium equilibrium(problem, 0.0);
+  const auto equations = equilibrium.matrix();
+  const Eigen::VectorXd live = Equilibrium(problem, 1.0).right_side() - equilibrium.right_side();
+  const StressField nothing(problem.mesh.triangles.size(), Eigen::Matrix3d::Zero());
+  for (const StressField& field : {geostatic(problem), nothing}) {
+    const Eigen::VectorXd x = as_vector(field);
+    const Eigen::VectorXd carried = equations * x - equilibrium.right_side();
+    const double multiplier = carried.dot(live) / live.squaredNorm();
+    constexpr double balanced = 1e-9;
+    if ((carried - multiplier * live).lpNorm<Eigen::Infinity>() < balanced) {
+      return Rest{x, multiplier};
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -186,13 +210,7 @@ LowerCertificate certify_lower(const Problem& problem, const StressField& propos
   certificate.residual = satisfy(equations, equilibrium.right_side(), x);
   certificate.field = as_field(x);
 
-  Rest rest = resting_ground(problem);
-  const Equilibrium at_rest(problem, rest.multiplier);
-  Eigen::VectorXd rest_stress = as_vector(rest.field);
-  const double balanced = 1e-9;
-  const bool can_rest =
-      (at_rest.matrix() * rest_stress - at_rest.right_side()).lpNorm<Eigen::Infinity>() < balanced;
-
+  const std::optional<Rest> rest = rest_of(problem);
   certificate.yield_excess = -INFINITY;
   double drawn = 0.0;
   bool inside = true;
@@ -203,8 +221,10 @@ LowerCertificate certify_lower(const Problem& problem, const StressField& propos
       certificate.yield_excess = std::max(certificate.yield_excess, here);
       if (here <= 0.0) continue;
       // Convex: at the share t of rest the excess is at most (1 - t) here + t resting.
-      const double resting = excess(soil, rest.field[t].col(i));
-      inside = inside && can_rest && resting < 0.0;
+      const double resting =
+          rest ? excess(soil, rest->stress.segment<3>(static_cast<Eigen::Index>(9 * t) + 3 * i))
+               : 0.0;
+      inside = inside && resting < 0.0;
       drawn = std::max(drawn, here / (here - resting));
     }
   }
@@ -212,8 +232,8 @@ LowerCertificate certify_lower(const Problem& problem, const StressField& propos
     constexpr double more = 1.0 + 1e-6;  // so that rounding does not undo it
     drawn = std::min(1.0, drawn * more);
     certificate.kept = 1.0 - drawn;
-    x = certificate.kept * x + drawn * rest_stress;
-    certificate.multiplier = certificate.kept * multiplier + drawn * rest.multiplier;
+    x = certificate.kept * x + drawn * rest->stress;
+    certificate.multiplier = certificate.kept * multiplier + drawn * rest->multiplier;
     const Equilibrium after(problem, certificate.multiplier);
     certificate.residual = (after.matrix() * x - after.right_side()).lpNorm<Eigen::Infinity>();
     certificate.field = as_field(x);

@@ -21,9 +21,10 @@ struct LowerCertificate {
 };
 
 /// The stress field nearest to the proposed one that is in equilibrium with all loads (by least
-/// squares, to rounding), drawn towards a resting state of the ground until no corner is beyond
-/// yield. As the stress is linear between the corners and the yield condition convex, the corners
-/// decide; as the load is linear in the field, so is the bound in the share that is kept.
+/// squares, to rounding), drawn towards a resting state of the ground, if it has one, until no
+/// corner is beyond yield. As the stress is linear between the corners and the yield condition
+/// convex, the corners decide; as the load is linear in the field, so is the bound in the share
+/// that is kept.
 [[nodiscard]] LowerCertificate certify_lower(const Problem& problem, const StressField& proposed,
                                              double multiplier);
 

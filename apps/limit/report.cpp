@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -33,53 +34,62 @@ std::string_view solver(ConeForm form) {
   return form == ConeForm::cones ? "interior point" : "Ipopt";
 }
 
-std::string_view status_of(const Bracket& bracket) {
-  if (!bracket.lower || !bracket.upper) return "not certified";
-  return bracket.reached ? "reached" : "wider than asked";
+std::string_view status_of(const Solution& solution) {
+  if (!solution.lower || !solution.upper) return "not certified";
+  return solution.bracket.reached ? "reached" : "wider than asked";
 }
 
-ordered_json as_json(const Attempt& attempt, double stress) {
+// A key for what has the case's unit.
+std::string with_unit(const std::string& key, const Case& problem) {
+  return problem.unit.empty() ? key : key + "_" + problem.unit;
+}
+
+ordered_json as_json(const Case& problem, const Attempt& attempt) {
   ordered_json json{{"bound", attempt.is_lower ? "lower" : "upper"},
                     {"triangles", attempt.triangles},
                     {"cones", word(attempt.form)},
                     {"solver", solver(attempt.form)},
                     {"message", attempt.message},
                     {"iterations", attempt.iterations},
-                    {"processor_seconds", attempt.seconds},
-                    {"certified_Pa", nullptr}};
-  if (attempt.certified) json["certified_Pa"] = *attempt.certified * stress;
+                    {"processor_seconds", attempt.seconds}};
+  ordered_json& certified = json[with_unit("certified", problem)] = nullptr;
+  if (attempt.certified) certified = *attempt.certified * problem.units.multiplier();
   return json;
 }
 
-// Of a bracket alone; both the answer and the Davis-reduced one have it.
-ordered_json as_json(const Bracket& bracket, double stress) {
+// Of a solution alone; both the answer and the Davis-reduced one have it.
+ordered_json as_json(const Case& problem, const Solution& solution) {
+  const Bracket& bracket = solution.bracket;
+  const double stress = problem.units.stress, multiplier = problem.units.multiplier();
   ordered_json json{{"lower_bound", nullptr},
                     {"upper_bound", nullptr},
-                    {"certified", bracket.lower.has_value() && bracket.upper.has_value()},
-                    {"status", status_of(bracket)},
+                    {"certified", solution.lower.has_value() && solution.upper.has_value()},
+                    {"status", status_of(solution)},
                     {"gap", nullptr}};
-  if (bracket.lower) json["lower_bound"] = bracket.lower_bound() * stress;
-  if (bracket.upper) json["upper_bound"] = bracket.upper_bound() * stress;
-  if (bracket.lower && bracket.upper) {
-    json["mean"] = (bracket.lower_bound() + bracket.upper_bound()) / 2.0 * stress;
-    json["half_gap"] = (bracket.upper_bound() - bracket.lower_bound()) / 2.0 * stress;
-    json["gap"] = bracket.gap();
+  if (solution.lower) json["lower_bound"] = *solution.lower;
+  if (solution.upper) json["upper_bound"] = *solution.upper;
+  if (solution.lower && solution.upper) {
+    json["mean"] = (*solution.lower + *solution.upper) / 2.0;
+    json["half_gap"] = (*solution.upper - *solution.lower) / 2.0;
+    json["gap"] = solution.gap();
   }
   if (bracket.lower) {
     const LowerCertificate& found = bracket.lower->certificate;
-    json["lower_certificate"] = {{"equilibrium_residual_Pa", found.residual * stress},
-                                 {"yield_excess_Pa", found.yield_excess * stress},
-                                 {"shrink_factor", found.kept},
-                                 {"before_shrinking_Pa", found.proposed * stress}};
-    json["lower_solver"] = as_json(bracket.lower->attempt, stress);
+    json["lower_certificate"] = {
+        {"equilibrium_residual_Pa", found.residual * stress},
+        {"yield_excess_Pa", found.yield_excess * stress},
+        {"shrink_factor", found.kept},
+        {with_unit("before_shrinking", problem), found.proposed * multiplier}};
+    json["lower_solver"] = as_json(problem, bracket.lower->attempt);
   }
   if (bracket.upper) {
     const UpperCertificate& found = bracket.upper->certificate;
-    json["upper_certificate"] = {{"dissipation_Pa", found.dissipation * stress},
-                                 {"flow_rule_violation", found.violation},
-                                 {"dilation_left", found.residual},
-                                 {"share_kept", found.kept}};
-    json["upper_solver"] = as_json(bracket.upper->attempt, stress);
+    json["upper_certificate"] = {
+        {with_unit("dissipation", problem), found.dissipation * multiplier},
+        {"flow_rule_violation", found.violation},
+        {"dilation_left", found.residual},
+        {"share_kept", found.kept}};
+    json["upper_solver"] = as_json(problem, bracket.upper->attempt);
   }
   return json;
 }
@@ -98,27 +108,33 @@ ordered_json as_json(const wiring::PlateauCheck& run) {
           {"perhaps", run.reasons}};
 }
 
-void say_bracket(std::string& text, const Bracket& bracket, double stress) {
+std::string unit_text(const Case& problem) {
+  return problem.unit.empty() ? "" : " " + problem.unit;
+}
+
+void say_bounds(std::string& text, const Solution& solution, const std::string& unit) {
   const auto out = std::back_inserter(text);
-  if (bracket.lower) {
-    fmt::format_to(out, "  lower bound {:>14.7g} Pa\n", bracket.lower_bound() * stress);
+  if (solution.lower) {
+    fmt::format_to(out, "  lower bound {:>14.7g}{}\n", *solution.lower, unit);
   } else {
-    fmt::format_to(out, "  lower bound           none Pa, no stress field could be certified\n");
+    fmt::format_to(out, "  lower bound           none{}, no stress field could be certified\n",
+                   unit);
   }
-  if (bracket.upper) {
-    fmt::format_to(out, "  upper bound {:>14.7g} Pa\n", bracket.upper_bound() * stress);
+  if (solution.upper) {
+    fmt::format_to(out, "  upper bound {:>14.7g}{}\n", *solution.upper, unit);
   } else {
-    fmt::format_to(out, "  upper bound           none Pa, no velocity field could be certified\n");
+    fmt::format_to(out, "  upper bound           none{}, no velocity field could be certified\n",
+                   unit);
   }
-  if (bracket.lower && bracket.upper) {
-    fmt::format_to(out, "  collapse    {:>14.7g} Pa +- {:.3g} Pa (gap {:.2f} %)\n",
-                   (bracket.lower_bound() + bracket.upper_bound()) / 2.0 * stress,
-                   (bracket.upper_bound() - bracket.lower_bound()) / 2.0 * stress,
-                   100.0 * bracket.gap());
+  if (solution.lower && solution.upper) {
+    fmt::format_to(out, "  collapse    {:>14.7g}{} +- {:.3g}{} (gap {:.2f} %)\n",
+                   (*solution.lower + *solution.upper) / 2.0, unit,
+                   (*solution.upper - *solution.lower) / 2.0, unit, 100.0 * solution.gap());
   }
 }
 
-void say_certificates(std::string& text, const Bracket& bracket, double stress) {
+void say_certificates(std::string& text, const Case& problem, const Bracket& bracket) {
+  const double stress = problem.units.stress;
   const auto out = std::back_inserter(text);
   text += "Certificates, found without the optimiser:\n";
   if (bracket.lower) {
@@ -132,9 +148,10 @@ void say_certificates(std::string& text, const Bracket& bracket, double stress) 
   if (bracket.upper) {
     const UpperCertificate& found = bracket.upper->certificate;
     fmt::format_to(out,
-                   "  velocity field {} triangles; dissipation {:.7g} Pa per unit velocity, "
-                   "violation of the flow rule as proposed {:.1e}, repaired by {:.1e}\n",
-                   bracket.upper->mesh.triangles.size(), found.dissipation * stress,
+                   "  velocity field {} triangles; dissipation {:.7g}{} per unit power of the live "
+                   "loads, violation of the flow rule as proposed {:.1e}, repaired by {:.1e}\n",
+                   bracket.upper->mesh.triangles.size(),
+                   found.dissipation * problem.units.multiplier(), unit_text(problem),
                    found.violation, 1.0 - found.kept);
   }
 }
@@ -155,23 +172,28 @@ void say_solver(std::string& text, const Bracket& bracket) {
 
 }  // namespace
 
-std::string attempt_line(const Attempt& attempt, double stress_unit) {
+std::string attempt_line(const Case& problem, const Attempt& attempt) {
   const std::string bound =
-      attempt.certified ? fmt::format("{:.7g} Pa", *attempt.certified * stress_unit) : "no bound";
+      attempt.certified ? fmt::format("{:.7g}{}", *attempt.certified * problem.units.multiplier(),
+                                      unit_text(problem))
+                        : "no bound";
   return fmt::format("{} {:5d} triangles: {}, {} ({} iterations, {:.1f} s)",
                      attempt.is_lower ? "lower" : "upper", attempt.triangles, bound,
                      attempt.message, attempt.iterations, attempt.seconds);
 }
 
 std::string text_report(const Case& problem, const Answer& answer, const BracketOptions& options) {
-  const double stress = problem.units.stress;
+  const Bracket& bracket = answer.found.bracket;
+  const std::string unit = unit_text(problem);
   std::string text;
   const auto out = std::back_inserter(text);
   text += problem.title + '\n';
   for (const auto& [what, value] : problem.data) fmt::format_to(out, "  {:<15} {}\n", what, value);
-  text += '\n' + std::string("Mean pressure at collapse:\n");
-  say_bracket(text, answer.bracket, stress);
-  if (answer.bracket.lower && answer.bracket.upper && !answer.bracket.reached) {
+  std::string heading = problem.quantity;
+  heading.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(heading.front())));
+  text += '\n' + heading + ":\n";
+  say_bounds(text, answer.found, unit);
+  if (answer.found.lower && answer.found.upper && !bracket.reached) {
     fmt::format_to(out,
                    "  wider than the gap asked for, {:g} %: allow more by --max-triangles ({}) or "
                    "--max-seconds ({:g})\n",
@@ -179,12 +201,12 @@ std::string text_report(const Case& problem, const Answer& answer, const Bracket
   }
   if (answer.davis) {
     text += "With Davis' reduced strength for this dilation (an estimate, not rigorous):\n";
-    say_bracket(text, *answer.davis, stress);
+    say_bounds(text, *answer.davis, unit);
   }
   if (answer.run) text += text_of(*answer.run);
   text += '\n';
-  say_certificates(text, answer.bracket, stress);
-  say_solver(text, answer.bracket);
+  say_certificates(text, problem, bracket);
+  say_solver(text, bracket);
   text += "Assumptions:\n";
   for (const std::string& assumption : problem.assumptions) {
     fmt::format_to(out, "  {}\n", assumption);
@@ -197,13 +219,12 @@ std::string text_report(const Case& problem, const Answer& answer, const Bracket
 }
 
 std::string json_report(const Case& problem, const Answer& answer, const BracketOptions& options) {
-  const double stress = problem.units.stress;
-  ordered_json json = as_json(answer.bracket, stress);
-  json["quantity"] = "mean pressure at collapse";
-  json["unit"] = "Pa";
+  ordered_json json = as_json(problem, answer.found);
+  json["quantity"] = problem.quantity;
+  json["unit"] = problem.unit;
   json["gap_wanted"] = options.gap;
   if (answer.davis) {
-    json["davis_reduced"] = as_json(*answer.davis, stress);
+    json["davis_reduced"] = as_json(problem, *answer.davis);
     json["davis_reduced"]["rigorous"] = false;
   }
   if (answer.run) json["run"] = as_json(*answer.run);
@@ -214,8 +235,8 @@ std::string json_report(const Case& problem, const Answer& answer, const Bracket
     json["hand_formulas_Pa"][formula.name] = formula.pressure;
   }
   json["attempts"] = ordered_json::array();
-  for (const Attempt& attempt : answer.bracket.attempts) {
-    json["attempts"].push_back(as_json(attempt, stress));
+  for (const Attempt& attempt : answer.found.bracket.attempts) {
+    json["attempts"].push_back(as_json(problem, attempt));
   }
   json["program"] = std::string("fpm-limit ") + std::string(wiring::version);
   return json.dump(2) + '\n';

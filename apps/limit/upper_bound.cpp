@@ -14,33 +14,84 @@ const Point& node_at(const Mesh& mesh, int node) {
   return mesh.nodes[static_cast<std::size_t>(node)];
 }
 
+// Equation of each motion of the footing, -1 for those it cannot have, and of how many in all.
+struct Rows {
+  explicit Rows(const Problem& problem)
+      : count(static_cast<int>(12 * problem.mesh.triangles.size())) {
+    for (std::size_t motion = 0; motion < 3; ++motion) {
+      footing[motion] = problem.footing.may_move[motion] ? count++ : -1;
+    }
+  }
+  int count;
+  std::array<int, 3> footing{};
+};
+
+// Power of the loads on each velocity.
+struct Loads {
+  Loads(const Problem& problem, const std::vector<Edge>& edges)
+      : dead(Eigen::VectorXd::Zero(Rows(problem).count)), live(dead) {
+    const Mesh& mesh = problem.mesh;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) add_weight(problem, t);
+    for (const Edge& edge : edges) {
+      if (edge.boundary < 0) continue;
+      const Boundary& on = problem.boundaries[static_cast<std::size_t>(edge.boundary)];
+      const bool pushed = on.normal == Known::traction, sheared = on.tangential == Known::traction;
+      add_tractions(mesh, edge, pushed ? on.normal_stress : 0.0, sheared ? on.shear_stress : 0.0,
+                    dead);
+      add_tractions(mesh, edge, pushed ? on.live_normal_stress : 0.0,
+                    sheared ? on.live_shear_stress : 0.0, live);
+    }
+    const Rows rows(problem);
+    for (std::size_t motion = 0; motion < 3; ++motion) {
+      if (rows.footing[motion] < 0) continue;
+      dead[rows.footing[motion]] += problem.footing.dead_load[motion];
+      live[rows.footing[motion]] += problem.footing.live_load[motion];
+    }
+  }
+
+  Eigen::VectorXd dead, live;
+
+ private:
+  // The integral of a quadratic is that of its middles alone, a third of the area each.
+  void add_weight(const Problem& problem, std::size_t t) {
+    const Triangle& triangle = problem.mesh.triangles[t];
+    const Soil& soil = problem.soils[static_cast<std::size_t>(triangle.region)];
+    const double third = twice_area(problem.mesh, triangle) / 6.0;
+    for (std::size_t middle = 3; middle < 6; ++middle) {
+      const auto row = static_cast<Eigen::Index>(2 * (6 * t + middle) + 1);
+      dead[row] -= soil.unit_weight * third;
+      live[row] -= soil.live_unit_weight * third;
+    }
+  }
+
+  // Simpson's rule, exact for a constant traction on a quadratic velocity.
+  static void add_tractions(const Mesh& mesh, const Edge& edge, double normal, double shear,
+                            Eigen::VectorXd& loads) {
+    const Point along = node_at(mesh, edge.second) - node_at(mesh, edge.first);
+    const Point outward(along.y(), -along.x());  // times the length, as `along` is
+    const Point force = normal * outward + shear * along;
+    const auto [first, middle, second] = places_along(mesh, edge.left, edge);
+    loads.segment<2>(2 * first) += force / 6.0;
+    loads.segment<2>(2 * middle) += force * (4.0 / 6.0);
+    loads.segment<2>(2 * second) += force / 6.0;
+  }
+};
+
 class Builder {
  public:
   explicit Builder(const Problem& problem)
-      : problem_(problem), edges_(edges_of(problem.mesh)), overburden_(problem) {
-    equations_ = static_cast<int>(12 * problem.mesh.triangles.size());
-    for (std::size_t motion = 0; motion < 3; ++motion) {
-      footing_[motion] = problem.footing.may_move[motion] ? equations_++ : -1;
-    }
-    right_side_ = Eigen::VectorXd::Zero(equations_);
-  }
+      : problem_(problem), edges_(edges_of(problem.mesh)), overburden_(problem), rows_(problem) {}
 
   ConeProgram program() {
     for (std::size_t t = 0; t < problem_.mesh.triangles.size(); ++t) add_triangle(t);
-    for (const Edge& edge : edges_) {
-      add_side(edge);
-      if (edge.boundary >= 0) add_tractions(edge);
-    }
+    for (const Edge& edge : edges_) add_side(edge);
     const auto multiplier = static_cast<int>(3 * cones_.size());
-    for (std::size_t motion = 0; motion < 3; ++motion) {
-      if (footing_[motion] < 0) continue;
-      right_side_[footing_[motion]] += problem_.footing.dead_load[motion];
-      entries_.emplace_back(footing_[motion], multiplier, -problem_.footing.live_load[motion]);
-    }
+    const Loads loads(problem_, edges_);
+    for (int row = 0; row < rows_.count; ++row) add(row, multiplier, -loads.live[row]);
     ConeProgram program;
-    program.equations.resize(equations_, multiplier + 1);
+    program.equations.resize(rows_.count, multiplier + 1);
     program.equations.setFromTriplets(entries_.begin(), entries_.end());
-    program.right_side = right_side_;
+    program.right_side = loads.dead;
     program.objective = Eigen::VectorXd::Unit(multiplier + 1, multiplier);
     program.start = Eigen::VectorXd::Zero(multiplier + 1);
     for (std::size_t k = 0; k < cones_.size(); ++k) {
@@ -65,14 +116,12 @@ class Builder {
   }
 
   // Power of the corners' stresses, a third of the area each, p (exx + eyy) + d (exx - eyy) +
-  // t gxy, and of the weight; the integral of a quadratic is that of its middles alone.
+  // t gxy.
   void add_triangle(std::size_t t) {
     const Mesh& mesh = problem_.mesh;
     const Triangle& triangle = mesh.triangles[t];
     const VelocityTriangle shapes = velocity_triangle(mesh, triangle);
     const double weight = shapes.area / 3.0;
-    const double unit_weight =
-        problem_.soils[static_cast<std::size_t>(triangle.region)].unit_weight;
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const int column = add_cone(triangle.region, node_at(mesh, triangle.nodes[corner]));
       for (std::size_t i = 0; i < 6; ++i) {
@@ -85,7 +134,6 @@ class Builder {
         add(row + 1, column + 1, -slope.y());
         add(row + 1, column + 2, slope.x());
       }
-      right_side_[static_cast<Eigen::Index>(2 * (6 * t + 3 + corner) + 1)] -= unit_weight * weight;
     }
   }
 
@@ -141,38 +189,21 @@ class Builder {
                          const Point& shear) {
     const Boundary& conditions = problem_.boundaries[static_cast<std::size_t>(boundary)];
     for (int motion = 0; motion < 3; ++motion) {
-      const int row = footing_[static_cast<std::size_t>(motion)];
+      const int row = rows_.footing[static_cast<std::size_t>(motion)];
       if (row < 0) continue;
-      const Point velocity = rigid_velocity(at, motion);
+      const Point velocity = rigid_velocity(at - problem_.footing.centre, motion);
       if (conditions.normal == Known::footing) add(row, column, normal.dot(velocity));
       if (conditions.tangential == Known::footing) add(row, column + 2, shear.dot(velocity));
     }
   }
 
-  // Simpson's rule, exact for a constant traction on a quadratic velocity.
-  void add_tractions(const Edge& edge) {
-    const Mesh& mesh = problem_.mesh;
-    const Boundary& boundary = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
-    const Point along = node_at(mesh, edge.second) - node_at(mesh, edge.first);
-    const Point outward(along.y(), -along.x());  // times the length, as `along` is
-    Point force(0, 0);
-    if (boundary.normal == Known::traction) force += boundary.normal_stress * outward;
-    if (boundary.tangential == Known::traction) force += boundary.shear_stress * along;
-    const auto [first, middle, second] = places_along(mesh, edge.left, edge);
-    right_side_.segment<2>(2 * first) += force / 6.0;
-    right_side_.segment<2>(2 * middle) += force * (4.0 / 6.0);
-    right_side_.segment<2>(2 * second) += force / 6.0;
-  }
-
   const Problem& problem_;
   std::vector<Edge> edges_;
   Overburden overburden_;
-  std::array<int, 3> footing_{};  // equation of each motion, or -1
-  int equations_ = 0;
+  Rows rows_;
   std::vector<YieldCone> cones_;
   std::vector<Eigen::Vector3d> starts_;
   std::vector<Eigen::Triplet<double>> entries_;
-  Eigen::VectorXd right_side_;
 };
 
 }  // namespace
@@ -185,13 +216,12 @@ VelocityField velocity_field(const Problem& problem, const Eigen::VectorXd& mult
   VelocityField field;
   const std::size_t triangles = problem.mesh.triangles.size();
   field.footing.setZero();
-  auto at = static_cast<Eigen::Index>(12 * triangles);
-  double power = 0.0;
+  const Rows rows(problem);
   for (std::size_t motion = 0; motion < 3; ++motion) {
-    if (!problem.footing.may_move[motion]) continue;
-    field.footing[static_cast<Eigen::Index>(motion)] = multipliers[at++];
-    power += problem.footing.live_load[motion] * field.footing[static_cast<Eigen::Index>(motion)];
+    if (rows.footing[motion] < 0) continue;
+    field.footing[static_cast<Eigen::Index>(motion)] = multipliers[rows.footing[motion]];
   }
+  const double power = Loads(problem, edges_of(problem.mesh)).live.dot(multipliers);
   const double scale = power != 0.0 ? 1.0 / power : 1.0;
   field.footing *= scale;
   for (std::size_t t = 0; t < triangles; ++t) {

@@ -108,6 +108,7 @@ class Flow {
       }
       points_.push_back(corner);
       dead_.emplace_back(velocity(t, 3 + i) + 1, -soil_of(t).unit_weight * area / 3.0);
+      live_.emplace_back(velocity(t, 3 + i) + 1, -soil_of(t).live_unit_weight * area / 3.0);
     }
   }
 
@@ -156,7 +157,8 @@ class Flow {
       } else {
         const Boundary& boundary = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
         const Point at = weights[0] * a + weights[1] * (a + b) / 2.0 + weights[2] * b;
-        const Point turned(-at.y(), at.x());
+        const Point arm = at - problem_.footing.centre;
+        const Point turned(-arm.y(), arm.x());
         for (Eigen::Index motion = 0; motion < 3; ++motion) {
           const Point moved = motion == 0 ? Point(1, 0) : motion == 1 ? Point(0, 1) : turned;
           if (boundary.normal == Known::footing) {
@@ -174,16 +176,23 @@ class Flow {
   void tractions(const Edge& edge) {
     const Boundary& boundary = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
     const Point way = node_at(problem_.mesh, edge.second) - node_at(problem_.mesh, edge.first);
-    Point force(0, 0);
+    const Point outward(way.y(), -way.x());
+    Point dead(0, 0), live(0, 0);
     if (boundary.normal == Known::traction) {
-      force += boundary.normal_stress * Point(way.y(), -way.x());
+      dead += boundary.normal_stress * outward;
+      live += boundary.live_normal_stress * outward;
     }
-    if (boundary.tangential == Known::traction) force += boundary.shear_stress * way;
+    if (boundary.tangential == Known::traction) {
+      dead += boundary.shear_stress * way;
+      live += boundary.live_shear_stress * way;
+    }
     const auto places = along(edge.left, edge);
     const std::array<double, 3> simpson{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
     for (std::size_t i = 0; i < 3; ++i) {
-      dead_.emplace_back(places[i], simpson[i] * force.x());
-      dead_.emplace_back(places[i] + 1, simpson[i] * force.y());
+      for (Eigen::Index xy = 0; xy < 2; ++xy) {
+        dead_.emplace_back(places[i] + xy, simpson[i] * dead[xy]);
+        live_.emplace_back(places[i] + xy, simpson[i] * live[xy]);
+      }
     }
   }
 

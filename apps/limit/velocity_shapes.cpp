@@ -32,8 +32,8 @@ std::array<int, 3> places_along(const Mesh& mesh, int triangle, const Edge& edge
   return {6 * triangle + first, 6 * triangle + middle, 6 * triangle + second};
 }
 
-Point rigid_velocity(const Point& at, int motion) {
-  return motion == 0 ? Point(1, 0) : motion == 1 ? Point(0, 1) : Point(-at.y(), at.x());
+Point rigid_velocity(const Point& arm, int motion) {
+  return motion == 0 ? Point(1, 0) : motion == 1 ? Point(0, 1) : Point(-arm.y(), arm.x());
 }
 
 }  // namespace limit

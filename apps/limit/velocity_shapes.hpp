@@ -21,7 +21,8 @@ struct VelocityTriangle {
 /// which triangle t has 6 t to 6 t + 5.
 [[nodiscard]] std::array<int, 3> places_along(const Mesh& mesh, int triangle, const Edge& edge);
 
-/// Where a rigid motion (0, 1 along x, y; 2 about the origin) takes a point, per unit of it.
-[[nodiscard]] Point rigid_velocity(const Point& at, int motion);
+/// Where a rigid motion (0, 1 along x, y; 2 about its centre) takes a point, per unit of it;
+/// `arm`: the point less the centre.
+[[nodiscard]] Point rigid_velocity(const Point& arm, int motion);
 
 }  // namespace limit

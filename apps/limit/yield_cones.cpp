@@ -2,23 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace limit {
 
 Overburden::Overburden(const Problem& problem) {
-  top_ = problem.mesh.nodes.front().y();
-  for (const Point& node : problem.mesh.nodes) top_ = std::max(top_, node.y());
+  top_ = bottom_ = problem.mesh.nodes.front().y();
+  for (const Point& node : problem.mesh.nodes) {
+    top_ = std::max(top_, node.y());
+    bottom_ = std::min(bottom_, node.y());
+  }
   for (const Boundary& boundary : problem.boundaries) {
     load_ = std::max(load_, -boundary.normal_stress);
   }
 }
 
 double Overburden::at(const Soil& soil, const Point& place) const {
-  return load_ + soil.unit_weight * (top_ - place.y());
+  const double depth = top_ - place.y();
+  double stress = load_ + soil.unit_weight * depth;
+  if (soil.live_unit_weight > 0.0) {
+    const double at_failure =
+        4.0 * soil.cohesion * std::tan(std::numbers::pi / 4 + soil.friction_angle / 2);
+    stress += at_failure * depth / (top_ - bottom_);
+  }
+  return stress;
 }
 
 YieldCone yield_cone(const Soil& soil, double overburden, double reserve) {
-  const double strength = soil.cohesion * std::cos(soil.friction_angle) * (1.0 - reserve);
+  // Twice the share of the cohesion, so that even the apex of the true cone is out of reach.
+  const double strength = soil.cohesion * std::cos(soil.friction_angle) * (1.0 - 2.0 * reserve);
   const double slope = std::sin(soil.friction_angle) * (1.0 - reserve);
   // A place without strength must not have a scale of zero.
   constexpr double least = 1e-6;

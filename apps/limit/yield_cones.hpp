@@ -6,19 +6,22 @@
 namespace limit {
 
 /// A rough guess of the compressive vertical stress, for scales and starts: the weight up to the
-/// highest node, and the largest compressive stress prescribed on the outline.
+/// highest node, and the largest compressive stress prescribed on the outline. A live weight is
+/// taken to grow until a vertical cut as high as the body would fail, gamma H = 4 c tan(45 +
+/// phi/2).
 class Overburden {
  public:
   explicit Overburden(const Problem& problem);
   [[nodiscard]] double at(const Soil& soil, const Point& place) const;
 
  private:
-  double top_ = 0.0;
+  double top_ = 0.0, bottom_ = 0.0;
   double load_ = 0.0;
 };
 
-/// The soil's cone, scaled by its strength under the compressive stress `overburden`; its strength
-/// is less by `reserve` (a fraction).
+/// The soil's cone, scaled by its strength under the compressive stress `overburden`; it lies
+/// inside the true one by at least the fraction `reserve` of the local strength, or of the
+/// cohesion's.
 [[nodiscard]] YieldCone yield_cone(const Soil& soil, double overburden, double reserve);
 
 /// (p, d, t) of an isotropic stress strictly inside the cone.

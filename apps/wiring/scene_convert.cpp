@@ -54,6 +54,23 @@ struct Reader {
     return std::nullopt;
   }
 
+  /// A list of pairs of numbers.
+  std::optional<Value> points(const toml::node& node) const {
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->empty()) return refuse(node);
+    std::vector<double> coordinates;
+    for (const toml::node& entry : *array) {
+      const toml::array* pair = entry.as_array();
+      if (pair == nullptr || pair->size() != 2) return refuse(entry);
+      for (const toml::node& coordinate : *pair) {
+        const auto value = number(coordinate);
+        if (!value) return std::nullopt;
+        coordinates.push_back(*value);
+      }
+    }
+    return Value(std::move(coordinates));
+  }
+
   /// A list, or one item in its stead.
   template <class Item, class Read>
   std::optional<Value> list(const toml::node& node, Read read) const {
@@ -122,6 +139,8 @@ std::optional<Value> convert(const toml::node& node, const Field& field, const s
     case ValueKind::texts:
     case ValueKind::choices:
       return reader.list<std::string>(node, [&](const toml::node& n) { return reader.name(n); });
+    case ValueKind::points:
+      return reader.points(node);
   }
   return std::nullopt;
 }

@@ -47,6 +47,9 @@ std::string Field::allowed_text() const {
       return "a list of texts in quotes";
     case ValueKind::choices:
       return "a list of " + joined(choices);
+    case ValueKind::points:
+      text = "a list of points [x, y]";
+      break;
   }
   if (const std::string range = notes.range.text(); !range.empty()) text += " " + range;
   if (!notes.unit.empty()) text += fmt::format(" [{}]", notes.unit);
@@ -82,8 +85,8 @@ const std::vector<TableInfo>& scene_tables() {
   return tables;
 }
 
-const TableInfo* find_table(std::string_view name) {
-  for (const TableInfo& table : scene_tables()) {
+const TableInfo* find_table(const std::vector<TableInfo>& tables, std::string_view name) {
+  for (const TableInfo& table : tables) {
     if (table.name == name) return &table;
   }
   return nullptr;

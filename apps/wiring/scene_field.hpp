@@ -14,11 +14,11 @@
 
 namespace wiring {
 
-/// A value as it stands in TOML: numbers are double, choices their names.
+/// A value as it stands in TOML: numbers are double, choices their names, points x0 y0 x1 y1 ...
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>,
                            std::vector<std::string>>;
 
-enum class ValueKind { boolean, integer, number, text, choice, numbers, texts, choices };
+enum class ValueKind { boolean, integer, number, text, choice, numbers, texts, choices, points };
 
 /// Allowed interval of a number; an open end excludes its bound.
 struct Range {
@@ -94,7 +94,8 @@ struct TableInfo {
 [[nodiscard]] const std::vector<TableInfo>& scene_tables();
 
 /// The table of that name, or nullptr.
-[[nodiscard]] const TableInfo* find_table(std::string_view name);
+[[nodiscard]] const TableInfo* find_table(const std::vector<TableInfo>& tables,
+                                          std::string_view name);
 
 /// A number in its shortest form that reads back to the same double; always a TOML float.
 [[nodiscard]] std::string number_text(double value);

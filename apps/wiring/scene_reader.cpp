@@ -1,177 +1,24 @@
 #include "wiring/scene_reader.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
-
-#include "wiring/nearest_name.hpp"
 #include "wiring/scene_check.hpp"
-#include "wiring/scene_tree.hpp"
+#include "wiring/table_reader.hpp"
 
 namespace wiring {
-
-namespace {
-
-std::string place_of(const toml::source_region& region, const std::string& source) {
-  return fmt::format("{}:{}:{}", source, region.begin.line, region.begin.column);
-}
-
-/// Walks the tree along the field table and fills the scene.
-class Filler {
- public:
-  Filler(const toml::table& tree, Diagnosis& diagnosis) : tree_(tree), diagnosis_(diagnosis) {}
-
-  Scene fill() {
-    Scene scene;
-    refuse_unknown_names();
-    for (const TableInfo& info : scene_tables()) {
-      if (info.name.empty()) {
-        fill_entry(scene, info, 0, tree_);
-      } else if (const toml::node* node = tree_.get(info.name)) {
-        place(std::string(info.name), *node);
-        info.repeated ? fill_repeated(scene, info, *node) : fill_single(scene, info, *node);
-      } else if (info.required) {
-        diagnosis_.error(std::string(info.name), "table is missing",
-                         "a scene needs " + info.title());
-      }
-    }
-    return scene;
-  }
-
- private:
-  /// A node, or the key of an unknown name, was written here.
-  template <class NodeOrKey>
-  void place(const std::string& key, const NodeOrKey& written) {
-    if (diagnosis_.given(key)) return;  // by a setting
-    diagnosis_.place(key, place_of(written.source(), diagnosis_.source()));
-  }
-
-  void refuse_unknown_names() {
-    std::vector<std::string_view> all;
-    for (const TableInfo& info : scene_tables()) {
-      all.push_back(info.name.empty() ? "title" : info.name);
-    }
-    for (const auto& [key, node] : tree_) {
-      const std::string name(key.str());
-      if (name == "title" || (!name.empty() && find_table(name) != nullptr)) continue;
-      place(name, key);
-      diagnosis_.error(
-          name, node.is_table() || node.is_array_of_tables() ? "no such table" : "no such key",
-          "allowed at the top level are " + joined(all), nearest_name(name, all));
-    }
-  }
-
-  void fill_single(Scene& scene, const TableInfo& info, const toml::node& node) {
-    if (const toml::table* table = node.as_table()) {
-      fill_entry(scene, info, 0, *table);
-      return;
-    }
-    diagnosis_.error(std::string(info.name), "found " + describe(node),
-                     fmt::format("this is one table, written {}", info.title()));
-  }
-
-  void fill_repeated(Scene& scene, const TableInfo& info, const toml::node& node) {
-    const toml::array* entries = node.as_array();
-    const bool empty = entries != nullptr && entries->empty();
-    if (entries == nullptr || !(empty || entries->is_array_of_tables())) {
-      diagnosis_.error(std::string(info.name), "found " + describe(node),
-                       fmt::format("each entry is written {}", info.title()));
-      return;
-    }
-    if (empty && info.required) {
-      diagnosis_.error(std::string(info.name), "list is empty", "a scene needs " + info.title());
-    }
-    info.resize(scene, entries->size());
-    for (std::size_t i = 0; i < entries->size(); ++i) {
-      place(info.path(i, ""), (*entries)[i]);
-      fill_entry(scene, info, i, *(*entries)[i].as_table());
-    }
-  }
-
-  void fill_entry(Scene& scene, const TableInfo& info, std::size_t index,
-                  const toml::table& table) {
-    for (const Field& field : info.fields) {
-      const std::string path = info.path(index, field.key);
-      const toml::node* node = table.get(field.key);
-      if (node != nullptr) {
-        place(path, *node);
-        if (const auto value = convert(*node, field, path, diagnosis_)) {
-          field.write(scene, index, *value);
-        }
-      } else if (field.notes.need == Need::required && diagnosis_.good({path})) {
-        diagnosis_.error(path, "is missing", "needed is " + field.allowed_text());
-      }
-    }
-    if (!info.name.empty()) refuse_unknown_keys(info, index, table);
-  }
-
-  void refuse_unknown_keys(const TableInfo& info, std::size_t index, const toml::table& table) {
-    std::vector<std::string_view> all;
-    for (const Field& field : info.fields) all.push_back(field.key);
-    for (const auto& entry : table) {
-      const toml::key& key = entry.first;
-      const std::string name(key.str());
-      if (info.find(name) != nullptr) continue;
-      const std::string path = info.path(index, name);
-      place(path, key);
-      std::string nearest = nearest_name(name, all);
-      if (nearest.empty()) nearest = in_another_table(name);
-      diagnosis_.error(path, "no such key",
-                       fmt::format("keys of {} are {}", info.title(), joined(all)), nearest);
-    }
-  }
-
-  /// `geometry.spacing` if the key exists in some other table.
-  static std::string in_another_table(const std::string& key) {
-    for (const TableInfo& info : scene_tables()) {
-      if (!info.name.empty() && info.find(key) != nullptr) {
-        return fmt::format("{}.{}", info.name, key);
-      }
-    }
-    return "";
-  }
-
-  const toml::table& tree_;
-  Diagnosis& diagnosis_;
-};
-
-SceneReading unreadable(const std::filesystem::path& file, const std::string& why) {
-  SceneReading reading;
-  Problem problem{file.string(), "", "cannot be read: " + why, "allowed is a TOML file", ""};
-  std::vector<std::string> siblings;
-  std::error_code ignored;
-  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() == ".toml") siblings.push_back(entry.path().filename().string());
-  }
-  std::sort(siblings.begin(), siblings.end());
-  const std::vector<std::string_view> names(siblings.begin(), siblings.end());
-  const std::string nearest = nearest_name(file.filename().string(), names);
-  if (!nearest.empty()) problem.nearest = (file.parent_path() / nearest).string();
-  reading.errors.push_back(std::move(problem));
-  return reading;
-}
-
-}  // namespace
 
 SceneReading parse_scene(std::string_view text, const std::string& source,
                          std::span<const std::string> settings) {
   SceneReading reading;
-  toml::table tree;
-  try {
-    tree = toml::parse(text, source);
-  } catch (const toml::parse_error& failure) {
-    reading.errors.push_back({place_of(failure.source(), source), "",
-                              "not TOML: " + std::string(failure.description()), "", ""});
+  Scene scene;
+  const TableSink sink{
+      [&](const TableInfo& table, std::size_t count) { table.resize(scene, count); },
+      [&](const TableInfo&, std::size_t index, const Field& field, const Value& value) {
+        field.write(scene, index, value);
+      }};
+  Diagnosis diagnosis(source);
+  if (const auto problem = read_tables(text, settings, scene_tables(), sink, diagnosis)) {
+    reading.errors.push_back(*problem);
     return reading;
   }
-  Diagnosis diagnosis(source);
-  apply_settings(tree, settings, diagnosis);
-  Scene scene = Filler(tree, diagnosis).fill();
   check_scene(scene, diagnosis);
   reading.errors = diagnosis.errors();
   reading.warnings = diagnosis.warnings();
@@ -180,14 +27,13 @@ SceneReading parse_scene(std::string_view text, const std::string& source,
 }
 
 SceneReading read_scene(const std::filesystem::path& file, std::span<const std::string> settings) {
-  std::error_code failure;
-  if (std::filesystem::is_directory(file, failure)) return unreadable(file, "it is a folder");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return unreadable(file, std::strerror(errno));
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (stream.bad()) return unreadable(file, std::strerror(errno));
-  return parse_scene(text.str(), file.string(), settings);
+  const auto text = text_of(file);
+  if (const auto* problem = std::get_if<Problem>(&text)) {
+    SceneReading reading;
+    reading.errors.push_back(*problem);
+    return reading;
+  }
+  return parse_scene(std::get<std::string>(text), file.string(), settings);
 }
 
 }  // namespace wiring

@@ -37,14 +37,15 @@ struct Setting {
 
 class Setter {
  public:
-  Setter(toml::table& tree, const Setting& setting, Diagnosis& diagnosis)
-      : tree_(tree), setting_(setting), diagnosis_(diagnosis) {
+  Setter(toml::table& tree, const Setting& setting, const std::vector<TableInfo>& tables,
+         Diagnosis& diagnosis)
+      : tree_(tree), setting_(setting), tables_(tables), diagnosis_(diagnosis) {
     diagnosis_.place(setting_.path, "--set " + setting_.text);
   }
 
   void run() {
     const auto segments = segments_of(setting_.path);
-    const TableInfo* info = find_table(segments.size() == 1 ? "" : segments.front());
+    const TableInfo* info = find_table(tables_, segments.size() == 1 ? "" : segments.front());
     if (info == nullptr) return unknown_table(segments.front());
     const std::size_t wanted = info->name.empty() ? 1 : info->repeated ? 3 : 2;
     if (segments.size() != wanted) return wrong_depth(*info);
@@ -66,7 +67,7 @@ class Setter {
  private:
   void unknown_table(const std::string& name) {
     std::vector<std::string_view> all;
-    for (const TableInfo& table : scene_tables()) {
+    for (const TableInfo& table : tables_) {
       if (!table.name.empty()) all.push_back(table.name);
     }
     diagnosis_.error(setting_.path, "no such table", "tables are " + joined(all),
@@ -82,7 +83,9 @@ class Setter {
   }
 
   void unknown_key(const TableInfo& info, const std::string& key) {
-    if (info.name.empty() && find_table(key) != nullptr) return wrong_depth(*find_table(key));
+    if (info.name.empty() && find_table(tables_, key) != nullptr) {
+      return wrong_depth(*find_table(tables_, key));
+    }
     std::vector<std::string_view> all;
     for (const Field& field : info.fields) all.push_back(field.key);
     diagnosis_.error(setting_.path, "no such key",
@@ -151,13 +154,14 @@ class Setter {
 
   toml::table& tree_;
   const Setting& setting_;
+  const std::vector<TableInfo>& tables_;
   Diagnosis& diagnosis_;
 };
 
 }  // namespace
 
 void apply_settings(toml::table& tree, std::span<const std::string> settings,
-                    Diagnosis& diagnosis) {
+                    const std::vector<TableInfo>& tables, Diagnosis& diagnosis) {
   for (const std::string& text : settings) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || trimmed(text.substr(0, equals)).empty()) {
@@ -167,7 +171,7 @@ void apply_settings(toml::table& tree, std::span<const std::string> settings,
     }
     const Setting setting{text, std::string(trimmed(std::string_view(text).substr(0, equals))),
                           std::string(trimmed(std::string_view(text).substr(equals + 1)))};
-    Setter(tree, setting, diagnosis).run();
+    Setter(tree, setting, tables, diagnosis).run();
   }
 }
 

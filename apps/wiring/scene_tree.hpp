@@ -20,6 +20,7 @@ namespace wiring {
 [[nodiscard]] std::string describe(const toml::node& node);
 
 /// Puts `key=value` settings into the tree; places and problems name `--set key=value`.
-void apply_settings(toml::table& tree, std::span<const std::string> settings, Diagnosis& diagnosis);
+void apply_settings(toml::table& tree, std::span<const std::string> settings,
+                    const std::vector<TableInfo>& tables, Diagnosis& diagnosis);
 
 }  // namespace wiring

@@ -82,6 +82,8 @@ plant(apps/limit/main.cpp "#include <spdlog/spdlog.h>"
       "only apps/wiring may include spdlog/spdlog.h")
 plant(apps/wiring/checkpoint.cpp "#include <coin/IpTNLP.hpp>"
       "only apps/limit may include coin/IpTNLP.hpp")
+plant(apps/run/main.cpp "#include <CGAL/Delaunay_mesher_2.h>"
+      "only apps/limit may include CGAL/Delaunay_mesher_2.h")
 plant(apps/wiring/checkpoint.cpp "#include <flann/flann.hpp>"
       "only libfpm may include flann/flann.hpp")
 plant(apps/limit/main.cpp "#include \"run/run_scene.hpp\""

@@ -21,7 +21,7 @@ set(never_called_in_a_library
 
 # Each third-party package that only some of apps/ may see.
 set(only_in_wiring "H5|hdf5|toml\\+\\+|toml\\.hpp|spdlog/")
-set(only_in_limit "Ip[A-Z]|coin/|coin-or/")
+set(only_in_limit "Ip[A-Z]|coin/|coin-or/|CGAL/")
 
 # The text of a source file without its comments.
 function(fpm_code out file)

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "limit/ground_outline.hpp"
+
+namespace limit {
+
+/// How fine a mesh begins. The fans decide; what lies between them is graded and refined later.
+struct GroundFineness {
+  double rays_per_radian = 8.0;
+  int rings = 4;
+  double grading = 1.5;  // radii of the rings: (k / rings)^grading
+  double longest = 1.0;  // [m] sides between the fans
+};
+
+/// Corners of the outline where stress and velocity take every direction at once: re-entrant ones,
+/// ends of footings and of pressures, unless the next side is a mirror.
+[[nodiscard]] std::vector<int> singular_points(const GroundScene& scene,
+                                               const GroundOutline& outline);
+
+/// A structured fan around every singular point and a graded mesh (constrained Delaunay, refined to
+/// angles of 20 degrees) between them, conforming to regions and sides. Triangle::region is the
+/// material of the scene, BoundaryEdge::boundary its side.
+[[nodiscard]] Mesh ground_mesh(const GroundScene& scene, const GroundOutline& outline,
+                               const GroundFineness& fineness);
+
+}  // namespace limit
