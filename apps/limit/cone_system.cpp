@@ -23,6 +23,7 @@ constexpr double least = 1e-10, least_share = 1e-13;
 
 ConeSystem::ConeSystem(const ScaledProgram& program) : program_(program) {
   gather_blocks();
+  set_border_apart();
   find_entries();
   curvature_.resize(program.cones.size());
   inverse_.resize(program.cones.size());
@@ -52,6 +53,24 @@ void ConeSystem::gather_blocks() {
     blocks_.push_back(std::move(block));
     first += width;
   }
+}
+
+void ConeSystem::set_border_apart() {
+  constexpr double few = 100.0, small_share = 0.02;  // of the equations
+  const double most = std::max(few, small_share * static_cast<double>(program_.equations.rows()));
+  const auto free = blocks_.begin() + static_cast<std::ptrdiff_t>(program_.cones.size());
+  const auto border = std::stable_partition(free, blocks_.end(), [&](const Block& block) {
+    return static_cast<double>(block.rows.size()) <= most;
+  });
+  border_columns_.setZero(program_.equations.rows(), blocks_.end() - border);
+  for (auto block = border; block != blocks_.end(); ++block) {
+    for (std::size_t i = 0; i < block->rows.size(); ++i) {
+      border_columns_(block->rows[i], block - border) =
+          block->coefficients(static_cast<Index>(i), 0);
+    }
+    border_.push_back(block->first);
+  }
+  blocks_.erase(border, blocks_.end());
 }
 
 void ConeSystem::find_entries() {
@@ -121,7 +140,15 @@ bool ConeSystem::factorise(const std::vector<Scaling>& scalings) {
     }
   }
   for (const std::size_t entry : diagonal_) values_[entry] += least + least_share * values_[entry];
-  return factors_->factorise(values_);
+  if (!factors_->factorise(values_)) return false;
+  border_solved_ = border_columns_;
+  for (Index j = 0; j < border_solved_.cols(); ++j) {
+    VectorXd column = border_columns_.col(j);
+    factors_->solve(column);
+    border_solved_.col(j) = column;
+  }
+  if (!border_.empty()) border_part_.compute(border_columns_.transpose() * border_solved_);
+  return true;
 }
 
 VectorXd ConeSystem::curve(const VectorXd& x) const {
@@ -139,7 +166,23 @@ VectorXd ConeSystem::uncurve(const VectorXd& x) const {
     const auto at = static_cast<Index>(3 * k);
     result.segment<3>(at) = inverse_[k] * x.segment<3>(at);
   }
+  for (const Index variable : border_) result[variable] = 0.0;
   return result;
+}
+
+ConeSystem::Solution ConeSystem::solve_once(const VectorXd& first, const VectorXd& second) const {
+  const auto& equations = program_.equations;
+  VectorXd y = equations * uncurve(first) - second;
+  factors_->solve(y);
+  VectorXd border(static_cast<Index>(border_.size()));
+  for (Index j = 0; j < border.size(); ++j) border[j] = first[border_[static_cast<std::size_t>(j)]];
+  if (border.size() > 0) {
+    border = border_part_.solve(border - border_columns_.transpose() * y);
+    y += border_solved_ * border;
+  }
+  VectorXd x = uncurve(first - equations.transpose() * y);
+  for (Index j = 0; j < border.size(); ++j) x[border_[static_cast<std::size_t>(j)]] = border[j];
+  return {std::move(x), std::move(y)};
 }
 
 ConeSystem::Solution ConeSystem::solve(const VectorXd& first, const VectorXd& second) {
@@ -150,11 +193,9 @@ ConeSystem::Solution ConeSystem::solve(const VectorXd& first, const VectorXd& se
   constexpr int most_refinements = 8;
   constexpr double enough = 1e-12;
   for (int i = 0; i <= most_refinements; ++i) {
-    VectorXd y = equations * uncurve(rest) - other_rest;
-    factors_->solve(y);
-    const VectorXd x = uncurve(rest - equations.transpose() * y);
-    sum.x += x;
-    sum.y += y;
+    const Solution change = solve_once(rest, other_rest);
+    sum.x += change.x;
+    sum.y += change.y;
     rest = first - curve(sum.x) - equations.transpose() * sum.y;
     other_rest = second - equations * sum.x;
     const double now =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/LU>
 #include <memory>
 #include <vector>
 
@@ -20,6 +21,8 @@ namespace limit {
 /// variables, nor in the mean stress of frictionless soil). H is eliminated, and A H^-1 A', sparse
 /// and positive definite, factorised: a fraction of the size of what Ipopt factorises, without
 /// pivoting. The free variables get a little curvature, which iterative refinement takes out again.
+/// A free variable in very many equations, such as the multiplier of a weight, would fill that
+/// matrix: it stays outside, as a border.
 class ConeSystem {
  public:
   explicit ConeSystem(const ScaledProgram& program);
@@ -42,12 +45,20 @@ class ConeSystem {
   };
 
   void gather_blocks();
+  void set_border_apart();
   void find_entries();
-  [[nodiscard]] Eigen::VectorXd curve(const Eigen::VectorXd& x) const;    // H x
-  [[nodiscard]] Eigen::VectorXd uncurve(const Eigen::VectorXd& x) const;  // (H + little)^-1 x
+  [[nodiscard]] Solution solve_once(const Eigen::VectorXd& first,
+                                    const Eigen::VectorXd& second) const;
+  [[nodiscard]] Eigen::VectorXd curve(const Eigen::VectorXd& x) const;  // H x
+  // (H + little)^-1 x, 0 in the border.
+  [[nodiscard]] Eigen::VectorXd uncurve(const Eigen::VectorXd& x) const;
 
   const ScaledProgram& program_;
   std::vector<Block> blocks_;
+  // The border: its variables, their columns D, M^-1 D with the matrix M within, and D' M^-1 D.
+  std::vector<Eigen::Index> border_;
+  Eigen::MatrixXd border_columns_, border_solved_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> border_part_;
   std::vector<Eigen::Matrix3d> curvature_, inverse_;
   std::vector<std::size_t> diagonal_;
   std::vector<double> values_;
