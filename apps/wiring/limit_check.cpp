@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+#include <system_error>
 #include <utility>
 
 #include "wiring/durable_file.hpp"

@@ -7,8 +7,9 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
-#include <span>
+#include <exception>
 #include <string>
 #include <utility>
 

@@ -20,17 +20,20 @@ Strip weightless(double phi) {
   return strip;
 }
 
+/// A strip in units of order one, on a fan in the default box.
+Problem on_fan(const Strip& strip, int rays, int rings, double grading) {
+  const Box box = box_of(strip);
+  return in_units(strip_problem(strip, even_fan(box.width, box.depth, rays, rings, grading)),
+                  units_of(strip));
+}
+
 // Small meshes: what is asserted is that the exact value lies inside, and how far a bound of this
 // size may be off by the study in share/doc/limit-analysis.md.
 Bracket small_bracket(const Strip& strip, int attempts = 1) {
-  const Box box = box_of(strip);
   BracketOptions options;
   options.gap = 1e-6;
   options.max_triangles = attempts > 1 ? 170 : 1;
-  return bracket(
-      in_units(strip_problem(strip, even_fan(box.width, box.depth, 12, 5, 1.5)), units_of(strip)),
-      in_units(strip_problem(strip, even_fan(box.width, box.depth, 10, 6, 2.0)), units_of(strip)),
-      options);
+  return bracket(on_fan(strip, 12, 5, 1.5), on_fan(strip, 10, 6, 2.0), options);
 }
 
 void expect_inside(const Strip& strip, double exact, double below, double above) {
@@ -107,10 +110,7 @@ constexpr double both = 2e-4;
 
 TEST(Solvers, AgreeOnBothPrograms) {
   for (const double phi : {0.0, 20.0}) {
-    const Strip strip = weightless(phi);
-    const Box box = box_of(strip);
-    const Problem problem =
-        in_units(strip_problem(strip, even_fan(box.width, box.depth, 8, 4, 1.5)), units_of(strip));
+    const Problem problem = on_fan(weightless(phi), 8, 4, 1.5);
     for (const bool is_lower : {true, false}) {
       const ConeProgram program =
           is_lower ? lower_bound_program(problem) : upper_bound_program(problem);
@@ -144,10 +144,7 @@ TEST(Solvers, EndAtTheLimitOfIterationsAndSayWhere) {
 }
 
 TEST(Bracket, FallsBackToTheOtherSolverAndSaysWhatFailed) {
-  const Strip strip = weightless(20);
-  const Box box = box_of(strip);
-  const Problem problem =
-      in_units(strip_problem(strip, even_fan(box.width, box.depth, 8, 4, 2.0)), units_of(strip));
+  const Problem problem = on_fan(weightless(20), 8, 4, 2.0);
   BracketOptions options;
   options.max_triangles = 1;
   options.engine = Engine::ipopt;
@@ -189,10 +186,7 @@ TEST(Bracket, WithoutAnySolutionHasNoBoundThatIsWrong) {
 }
 
 TEST(LowerCertificate, DrawsAFieldBeyondYieldInwards) {
-  const Strip strip = weightless(20);
-  const Box box = box_of(strip);
-  const Problem problem =
-      in_units(strip_problem(strip, even_fan(box.width, box.depth, 8, 3, 1.5)), units_of(strip));
+  const Problem problem = on_fan(weightless(20), 8, 3, 1.5);
   const ConeProgram program = lower_bound_program(problem);
   const ConeSolution solution = solve(program, {});
   StressField field = stress_field(problem, solution.variables);
@@ -224,9 +218,7 @@ TEST(LowerCertificate, RestoresEquilibriumThatIsLost) {
 
 TEST(UpperCertificate, RepairsAFieldThatContracts) {
   const Strip strip = weightless(20);
-  const Box box = box_of(strip);
-  const Problem problem =
-      in_units(strip_problem(strip, even_fan(box.width, box.depth, 8, 4, 2.0)), units_of(strip));
+  const Problem problem = on_fan(strip, 8, 4, 2.0);
   SolverOptions options;
   options.form = ConeForm::barrier;
   const ConeSolution solution = solve(upper_bound_program(problem), options);
