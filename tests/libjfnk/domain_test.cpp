@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "jfnk/jfnk.hpp"
+#include "problems.hpp"
 
 namespace {
 
@@ -14,9 +15,9 @@ using jfnk::Report;
 using jfnk::solve;
 using jfnk::Status;
 using jfnk::Vector;
+using jfnk_test::all_methods;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr Method all_methods[] = {Method::newton_krylov, Method::multisecant, Method::hybrid};
 
 TEST(Domain, NewtonHalvesAStepThatLeavesIt) {
   // From 5 the Newton step of log u goes to 5 - 5 log 5 = -3.05; half of it to 0.98.

@@ -15,8 +15,7 @@ using jfnk::Report;
 using jfnk::solve;
 using jfnk::Status;
 using jfnk::Vector;
-
-constexpr Method all_methods[] = {Method::newton_krylov, Method::multisecant, Method::hybrid};
+using jfnk_test::all_methods;
 
 TEST(Scales, PowersOfTwoChangeNoBitOfTheCourse) {
   const jfnk_test::Bratu bratu(8, 5.0);

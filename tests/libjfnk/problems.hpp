@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
+#include "jfnk/options.hpp"
 #include "jfnk/residual.hpp"
 
 namespace jfnk_test {
@@ -11,6 +12,9 @@ namespace jfnk_test {
 using jfnk::Evaluation;
 using jfnk::Vector;
 using Sparse = Eigen::SparseMatrix<double>;
+
+inline constexpr jfnk::Method all_methods[] = {jfnk::Method::newton_krylov,
+                                               jfnk::Method::multisecant, jfnk::Method::hybrid};
 
 /// A sparse Cholesky factorisation made once, as a preconditioner.
 class CholeskyPreconditioner {

@@ -20,8 +20,7 @@ using jfnk::solve;
 using jfnk::Solver;
 using jfnk::Status;
 using jfnk::Vector;
-
-constexpr Method all_methods[] = {Method::newton_krylov, Method::multisecant, Method::hybrid};
+using jfnk_test::all_methods;
 
 bool same_bits(const Vector& a, const Vector& b) {
   return (a.array() == b.array()).all();

@@ -16,8 +16,7 @@ using jfnk::Report;
 using jfnk::solve;
 using jfnk::Status;
 using jfnk::Vector;
-
-constexpr Method all_methods[] = {Method::newton_krylov, Method::multisecant, Method::hybrid};
+using jfnk_test::all_methods;
 
 bool was_in(const Report& report, Phase phase) {
   for (const auto& line : report.history) {
