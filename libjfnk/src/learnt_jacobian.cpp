@@ -5,6 +5,20 @@
 #include "jfnk/coloured_jacobian.hpp"
 
 namespace jfnk::detail {
+namespace {
+
+/// Whether a row or a column is empty. Eigen's SparseLU (3.4) does not return if all but all are.
+bool has_gap(const Eigen::SparseMatrix<double>& matrix) {
+  std::vector<bool> occupied(static_cast<std::size_t>(matrix.rows()), false);
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    Eigen::SparseMatrix<double>::InnerIterator it(matrix, column);
+    if (!it) return true;
+    for (; it; ++it) occupied[static_cast<std::size_t>(it.row())] = true;
+  }
+  return std::find(occupied.begin(), occupied.end(), false) != occupied.end();
+}
+
+}  // namespace
 
 void LearntJacobian::reset(Eigen::Index n) {
   n_ = n;
@@ -66,7 +80,9 @@ bool LearntJacobian::factorise(double shift) {
   Eigen::SparseMatrix<double> shifted = matrix_;
   for (int i = 0; i < n_; ++i) shifted.coeffRef(i, i) += shift;
   // Diagonals that are occupied here and there only would fill the factors.
-  factors_.compute(shifted.pruned());
+  const Eigen::SparseMatrix<double> occupied = shifted.pruned();
+  if (has_gap(occupied)) return false;
+  factors_.compute(occupied);
   return factors_.info() == Eigen::Success;
 }
 

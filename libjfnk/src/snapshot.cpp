@@ -199,7 +199,7 @@ void Solver::load(const Snapshot& snapshot) {
   read(lines);
   const auto held = static_cast<std::int64_t>(snapshot.reals.size());
   const bool plausible = n >= 0 && 5 * n <= held && (setup_size == 0 || setup_size == n) &&
-                         lines >= 0 && lines <= held && capacity >= 0;
+                         lines >= 0 && lines <= held && capacity >= 0 && (n > 0 || !learnt);
   if (!plausible) detail::Reader::fail();
   if (method != m.options.method || capacity > m.options.multisecant.memory) {
     throw std::invalid_argument("jfnk::Solver::load: saved under other options");
