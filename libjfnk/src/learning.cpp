@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "noise_level.hpp"
 #include "strategy.hpp"
@@ -127,17 +128,29 @@ Finding test_entries(Solve& solve, bool& anything_new) {
   return anything_new || error <= bearable ? Finding::ok : Finding::nothing;
 }
 
+/// Evaluations still to come if the rate of so far goes on.
+double evaluations_left(const Solve& solve) {
+  const Iterate& best = solve.work.best;
+  const double gained = std::log(solve.work.first.norm / best.norm);
+  const double left = std::log(best.norm / solve.evaluator.tolerance(best));
+  return gained > 0.0 ? solve.evaluations() * left / gained
+                      : std::numeric_limits<double>::infinity();
+}
+
 Finding learn_jacobian(Solve& solve) {
   constexpr int attempts = 3;
+  constexpr double worthwhile = 0.5;    // products, of the evaluations they may spare
   constexpr int columns_per_group = 3;  // at least; with fewer, n products would do as well
   LearntJacobian& jacobian = solve.work.evaluator.learnt;
   const Eigen::Index n = solve.work.base.u.size();
+  double budget = worthwhile * evaluations_left(solve);
   jacobian.reset(n);
   if (const Finding finding = find_diagonals(solve); finding != Finding::ok) return finding;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (jacobian.most_entries() > solve.options.learning.most_entries) return Finding::nothing;
     jacobian.group_columns();
-    if (columns_per_group * jacobian.groups() > n) return Finding::nothing;
+    budget -= jacobian.groups();
+    if (budget < 0.0 || columns_per_group * jacobian.groups() > n) return Finding::nothing;
     if (const Finding finding = find_entries(solve, solve.work.best, 0.0); finding != Finding::ok) {
       return finding;
     }
@@ -163,11 +176,7 @@ bool wants_to_learn(const Solve& solve) {
   const bool plain = solve.evaluator.preconditioner().is_identity();
   const int earliest = plain ? rule.after : rule.after_preconditioned;
   if (spent < earliest && (plain || course.round == 0)) return false;
-  // At the rate of so far, what is left would take so many evaluations.
-  const Iterate& best = solve.work.best;
-  const double gained = std::log(solve.work.first.norm / best.norm);
-  const double left = std::log(best.norm / solve.evaluator.tolerance(best));
-  return left * spent > rule.worth * gained;
+  return evaluations_left(solve) > rule.worth;
 }
 
 Ending learn(Solve& solve) {

@@ -207,7 +207,10 @@ void Solver::load(const Snapshot& snapshot) {
   detail::resize(m.work, n, std::max<std::int64_t>(n, capacity), m.options, setup_size > 0);
   m.work.secants.resize(n, static_cast<int>(capacity));
   m.work.setup_point.resize(setup_size);
-  if (learnt) detail::use_learnt_jacobian(m.work, m.options);
+  if (learnt) {
+    m.work.evaluator.learnt.reset(n);
+    detail::use_learnt_jacobian(m.work, m.options);
+  }
   m.report.history.resize(static_cast<std::size_t>(lines));
   detail::walk_state(read, m.work, m.course, m.report);
   if (read.integer != snapshot.integers.size() || read.real != snapshot.reals.size()) {

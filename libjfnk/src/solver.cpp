@@ -53,7 +53,6 @@ void resize(Workspace& work, Eigen::Index n, Eigen::Index global, const Options&
   work.evaluator.physical.resize(u_scaled ? n : 0);
   work.evaluator.image.resize(options.f_scale.size() > 0 && preconditioned ? n : 0);
   work.setup_point.resize(preconditioned ? n : 0);
-  work.evaluator.learnt.reset(n);
   if (options.method != Method::multisecant) {
     GmresOptions linear;
     linear.global_size = global;
