@@ -137,6 +137,16 @@ double evaluations_left(const Solve& solve) {
                       : std::numeric_limits<double>::infinity();
 }
 
+/// Whether factors fit into memory and cost less than the evaluations they may spare.
+bool factors_pay(const Solve& solve) {
+  const Learning& rule = solve.options.learning;
+  const LearntJacobian& jacobian = solve.work.evaluator.learnt;
+  const auto n = static_cast<double>(solve.work.base.u.size());
+  const FactorCost cost = jacobian.cost(rule.most_entries);
+  return cost.entries <= rule.most_entries &&
+         cost.operations <= rule.operations * n * evaluations_left(solve);
+}
+
 Finding learn_jacobian(Solve& solve) {
   constexpr int attempts = 3;
   constexpr double worthwhile = 0.5;    // products, of the evaluations they may spare
@@ -147,10 +157,10 @@ Finding learn_jacobian(Solve& solve) {
   jacobian.reset(n);
   if (const Finding finding = find_diagonals(solve); finding != Finding::ok) return finding;
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    if (jacobian.most_entries() > solve.options.learning.most_entries) return Finding::nothing;
     jacobian.group_columns();
     budget -= jacobian.groups();
     if (budget < 0.0 || columns_per_group * jacobian.groups() > n) return Finding::nothing;
+    if (!factors_pay(solve)) return Finding::nothing;
     if (const Finding finding = find_entries(solve, solve.work.best, 0.0); finding != Finding::ok) {
       return finding;
     }

@@ -41,10 +41,6 @@ bool LearntJacobian::learn_column(Eigen::Index j, const Vector& column) {
   return diagonals_.size() > known;
 }
 
-double LearntJacobian::most_entries() const {
-  return static_cast<double>(n_) * static_cast<double>(2 * diagonals_.back() + 1);
-}
-
 void LearntJacobian::group_columns() {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(n_) * diagonals_.size());

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "factor_cost.hpp"
 #include "jfnk/residual.hpp"
 
 namespace jfnk::detail {
@@ -24,9 +25,6 @@ class LearntJacobian {
   /// @return whether any was new
   bool learn_column(Eigen::Index j, const Vector& column);
 
-  /// Upper bound on the entries of the factors without pivoting.
-  [[nodiscard]] double most_entries() const;
-
   /// Groups the columns; after the last `learn_column`.
   void group_columns();
   /// Groups of columns, each of which costs a product.
@@ -36,6 +34,10 @@ class LearntJacobian {
   /// The entries of a group's columns from the product of J with `write_group`.
   void read_group(int group, const Vector& product);
 
+  /// What its factors would cost; after `group_columns`. Counting ends beyond so many entries.
+  [[nodiscard]] FactorCost cost(double most_entries) const {
+    return factor_cost(matrix_, most_entries);
+  }
   /// Factorises J + shift I. @return false if that is singular
   bool factorise(double shift);
   /// J v.

@@ -140,6 +140,8 @@ std::vector<std::string> validate(const Options& options) {
   check.at_least(options.learning.most_rows, 1, "learning.most_rows");
   check.require(options.learning.most_entries >= 1.0, "learning.most_entries", "at least 1",
                 options.learning.most_entries);
+  check.require(options.learning.operations > 0.0, "learning.operations", "above 0",
+                options.learning.operations);
   check.not_negative(options.setup_cost, "setup_cost");
   check_scale(options.u_scale, "u_scale", check);
   check_scale(options.f_scale, "f_scale", check);

@@ -85,6 +85,23 @@ TEST(LearntJacobian, KnowsFieldsNumberedNodeByNodeOrOneAfterTheOther) {
   }
 }
 
+TEST(LearntJacobian, ForetellsItsFactors) {
+  // A band of half width one: L has one entry under each pivot, whatever the ordering.
+  const auto line = jfnk::banded_sparsity(100, 1, 1);
+  const auto cost = jfnk::detail::factor_cost(line, 1e9);
+  EXPECT_EQ(cost.entries, 2.0 * 99 + 100);
+  EXPECT_EQ(cost.operations, 2.0 * 99);
+  // A full matrix: n - 1 under the first pivot, n - 2 under the next, ...
+  const auto full = jfnk::banded_sparsity(20, 19, 19);
+  EXPECT_EQ(jfnk::detail::factor_cost(full, 1e9).entries, 400.0);
+  // Counting ends soon after the limit.
+  EXPECT_LT(jfnk::detail::factor_cost(full, 50.0).entries, 400.0);
+  // Nested dissection of m x m nodes needs at least of the order of m^3 operations (George 1973).
+  const auto lattice = jfnk::detail::factor_cost(jfnk_test::laplacian(40), 1e9);
+  EXPECT_GT(lattice.operations, 40.0 * 40 * 40);
+  EXPECT_LT(lattice.operations, 2.0 * 40 * 40 * 40 * 40);  // that of the band
+}
+
 TEST(LearntJacobian, FindsASingularMatrixUnusable) {
   Sparse matrix = jfnk_test::laplacian(6);
   for (Sparse::InnerIterator it(matrix, 7); it; ++it) it.valueRef() = 0.0;
@@ -223,6 +240,9 @@ TEST(Learning, IsNotTriedWhereItIsNotAskedFor) {
   EXPECT_EQ(learning(options), 0);
   options = {};
   options.learning.most_entries = 1e3;  // known when the diagonals are
+  EXPECT_EQ(learning(options), 4);
+  options = {};
+  options.learning.operations = 0.1;
   EXPECT_EQ(learning(options), 4);
   EXPECT_GT(learning(Options{}), 4);
 }

@@ -210,8 +210,12 @@ struct Learning {
   int least_unknowns = 32;
   /// Given up when one unknown changes more components of F than this. Range [1, inf).
   int most_rows = 40;
-  /// Given up when the factors might have more entries than this, at 12 bytes each. Range [1, inf).
+  /// Given up when the factors would have more entries than this, at 12 bytes each. Range [1, inf).
   double most_entries = 5e7;
+  /// Given up when the factors would cost more operations than the evaluations they may spare, an
+  /// evaluation being taken to cost this many per unknown, those of the solver's own vectors
+  /// included. To be raised where F is dear; inf asks for evaluations only. Range (0, inf].
+  double operations = 200.0;
 };
 
 /// When `setup(u)` of a preconditioner is called, if it has one.
