@@ -1,8 +1,8 @@
 // usage: jfnk-peers-roots [NAME]
 //
-// Whether the problems of the second and the third set have a root to be found at all: each with
-// NAME in its name by Newton steps with a dense Jacobian, damped and full, which share nothing with
-// the solvers compared. Prints ||F|| over the goal; exit code 1 if one is above it.
+// Whether the problems of all sets but the first have a root to be found at all: each with NAME in
+// its name by Newton steps with a dense Jacobian, damped and full, which share nothing with the
+// solvers compared. Prints ||F|| over the goal; exit code 1 if one is above it.
 #include <Eigen/LU>
 #include <cstdio>
 #include <limits>
