@@ -164,6 +164,10 @@ void Evaluator::precondition(const Vector& r, Vector& z) {
     return;
   }
   ++counts_.preconditioner;
+  if (preconditioned_by_learning()) {
+    vectors_.learnt.apply(r, z);
+    return;
+  }
   if (f_scaled()) {
     vectors_.image = r.cwiseProduct(options_.f_scale);
     preconditioner_.apply(vectors_.image, z);

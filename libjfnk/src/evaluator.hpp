@@ -4,6 +4,7 @@
 #include "jfnk/preconditioner.hpp"
 #include "jfnk/report.hpp"
 #include "jfnk/residual.hpp"
+#include "learnt_jacobian.hpp"
 
 namespace jfnk::detail {
 
@@ -33,6 +34,7 @@ struct EvaluatorVectors {
   Vector probe;     // u + eps v
   Vector physical;  // u in the caller's units, if there are scales
   Vector image;     // a vector handed to or from the caller, likewise
+  LearntJacobian learnt;
 };
 
 /// The part of the evaluator that a resumed solve needs.
@@ -40,6 +42,7 @@ struct EvaluatorState {
   double start_norm = 0.0;
   double noise = 0.0;  ///< b of the difference step in force
   bool without_preconditioner = false;
+  bool learnt = false;  ///< the learnt Jacobian stands in for the preconditioner
 };
 
 /// The only door to the residual and the preconditioner: changes units, counts, checks for NaN and
@@ -54,7 +57,8 @@ class Evaluator {
         options_(options),
         counts_(counts),
         vectors_(vectors),
-        state_(state) {}
+        state_(state),
+        learnt_(vectors.learnt) {}
 
   /// F at `point.u` into `point`, counted under `purpose`.
   Outcome evaluate(Iterate& point, int Counts::*purpose);
@@ -89,9 +93,14 @@ class Evaluator {
   void to_solver_units(Vector& u) const;
 
   [[nodiscard]] const ResidualRef& residual() const { return residual_; }
-  /// The preconditioner in use; the identity if it was dropped.
+  /// The preconditioner in use, the caller's or the learnt one; the identity if it was dropped.
   [[nodiscard]] const PreconditionerRef& preconditioner() const {
-    return state_.without_preconditioner ? identity_ : preconditioner_;
+    if (state_.without_preconditioner) return identity_;
+    return state_.learnt ? learnt_ : preconditioner_;
+  }
+  /// Whether it is the learnt one.
+  [[nodiscard]] bool preconditioned_by_learning() const {
+    return state_.learnt && !state_.without_preconditioner;
   }
   /// Goes on without the preconditioner.
   void drop_preconditioner() { state_.without_preconditioner = true; }
@@ -129,6 +138,7 @@ class Evaluator {
   Counts& counts_;
   EvaluatorVectors& vectors_;
   EvaluatorState& state_;
+  const PreconditionerRef learnt_;
   const Iterate* base_ = nullptr;
   double base_u_norm_ = 0.0;
 };

@@ -1,9 +1,19 @@
+#include <algorithm>
 #include <cmath>
 
 #include "strategy.hpp"
 
 namespace jfnk::detail {
 namespace {
+
+// With factors that could be new for few products, longer solves do not pay.
+constexpr int least_iterations = 10;
+
+int most_iterations(const Solve& solve) {
+  const int chosen = solve.options.krylov.max_iterations;
+  if (!solve.evaluator.preconditioned_by_learning()) return chosen;
+  return std::min(chosen, std::max(least_iterations, solve.work.evaluator.learnt.groups()));
+}
 
 Evaluation answer(Outcome outcome) {
   switch (outcome) {
@@ -35,7 +45,7 @@ LinearSolution find_direction(Solve& solve, double eta, double shift, Iteration&
   const PreconditionerRef P = counted.ref();
   GmresOptions linear;
   linear.restart = solve.options.krylov.restart;
-  linear.max_iterations = solve.options.krylov.max_iterations;
+  linear.max_iterations = most_iterations(solve);
   linear.flexible = solve.options.krylov.flexible;
   linear.relative_tolerance = eta;
   linear.global_size = evaluator.residual().global_size(work.base.u.size());
@@ -52,6 +62,7 @@ LinearSolution find_direction(Solve& solve, double eta, double shift, Iteration&
   line.linear_residual = result.relative_residual;
   line.krylov_iterations = result.iterations;
   solve.report.krylov_iterations += result.iterations;
+  solve.course.stale += std::max(result.iterations - 1, 0);
   if (last == Outcome::stopped) return {Ending::stopped};
   if (last == Outcome::limit) return {Ending::limit};
   const double length = evaluator.product().norm(work.direction);

@@ -25,6 +25,14 @@ int patience(const Solve& solve) {
   return cost > 0 ? std::clamp(cost, least, most) : most;
 }
 
+/// Points in a row far above the best that are suffered. With factors that can be had anew, fewer.
+int wild_patience(const Solve& solve) {
+  constexpr int with_learnt_factors = 2;
+  const int chosen = solve.options.multisecant.wild_patience;
+  return solve.evaluator.preconditioned_by_learning() ? std::min(chosen, with_learnt_factors)
+                                                      : chosen;
+}
+
 /// Whether Broyden's updates of the preconditioner are kept besides the least squares.
 bool has_broyden(const Solve& solve) {
   return solve.options.multisecant.broyden && !solve.evaluator.preconditioner().is_identity();
@@ -223,7 +231,7 @@ Ending multisecant_step(Solve& solve) {
   }
   if (solve.evaluations() - course.last_fall >= patience(solve)) return Ending::patience_lost;
   course.wild = work.base.norm > rule.wild * work.best.norm ? course.wild + 1 : 0;
-  if (course.wild >= rule.wild_patience) return Ending::patience_lost;
+  if (course.wild >= wild_patience(solve)) return Ending::patience_lost;
   if (work.base.norm > rule.rejection * work.best.norm) {
     solve.return_to_best();
     course.inverted = false;

@@ -133,6 +133,15 @@ std::vector<std::string> validate(const Options& options) {
   check.up_to_one(options.stagnation.left, "stagnation.left");
   check.at_least(options.pseudo_transient.max_steps, 1, "pseudo_transient.max_steps");
   check.fraction(options.pseudo_transient.gain, "pseudo_transient.gain");
+  check.at_least(options.learning.after, 1, "learning.after");
+  check.at_least(options.learning.after_preconditioned, 1, "learning.after_preconditioned");
+  check.not_negative(options.learning.worth, "learning.worth");
+  check.at_least(options.learning.least_unknowns, 1, "learning.least_unknowns");
+  check.at_least(options.learning.most_rows, 1, "learning.most_rows");
+  check.require(options.learning.most_entries >= 1.0, "learning.most_entries", "at least 1",
+                options.learning.most_entries);
+  check.require(options.learning.operations > 0.0, "learning.operations", "above 0",
+                options.learning.operations);
   check.not_negative(options.setup_cost, "setup_cost");
   check_scale(options.u_scale, "u_scale", check);
   check_scale(options.f_scale, "f_scale", check);
@@ -168,6 +177,7 @@ Options appendix_a(double residual_tolerance, double step_tolerance, int m_max) 
   options.stagnation.left = 1.0;
   options.stagnation.restart = false;
   options.pseudo_transient.enabled = false;
+  options.learning.enabled = false;
   options.preconditioner_setup = PreconditionerSetup::at_start;
   return options;
 }
@@ -206,6 +216,7 @@ Options plasticity() {
   options.hybrid.back_off = 1.0;
   options.hybrid.final_newton_steps = 12;
   options.pseudo_transient.enabled = false;
+  options.learning.enabled = false;
   options.preconditioner_setup = PreconditionerSetup::at_start;
   return options;
 }

@@ -17,6 +17,20 @@ constexpr double greatest_growth = 10.0;
 constexpr int max_cuts = 12;
 constexpr double linear_tolerance = 0.1;
 
+/// With the learnt Jacobian: factors of J + shift I, J as new as that pays.
+Ending renew_shifted_factors(Solve& solve, double shift) {
+  LearntJacobian& jacobian = solve.work.evaluator.learnt;
+  bool usable = true;
+  Ending ending = Ending::go_on;
+  if (solve.course.stage_iterations == 0 || 2 * solve.course.stale >= jacobian.groups()) {
+    ending = renew_learnt_jacobian(solve, shift, usable);
+  } else if (shift != jacobian.shift()) {
+    usable = jacobian.factorise(shift);
+  }
+  if (!usable) solve.evaluator.drop_preconditioner();
+  return ending;
+}
+
 }  // namespace
 
 void begin_pseudo_transient(Solve& solve) {
@@ -50,10 +64,14 @@ Ending pseudo_transient_step(Solve& solve) {
     }
   }
   for (int cut = 0; cut <= max_cuts; ++cut) {
+    const double shift = course.shift_sign / course.time_step;
+    if (solve.evaluator.preconditioned_by_learning()) {
+      const Ending ending = renew_shifted_factors(solve, shift);
+      if (ending != Ending::go_on) return ending;
+    }
     Iteration line;
     line.phase = Phase::pseudo_transient;
-    const LinearSolution solution =
-        find_direction(solve, linear_tolerance, course.shift_sign / course.time_step, line);
+    const LinearSolution solution = find_direction(solve, linear_tolerance, shift, line);
     if (is_final(solution.ending)) return solution.ending;
     if (solution.ending == Ending::go_on) {
       solve.evaluator.filter(work.base.u, work.direction);

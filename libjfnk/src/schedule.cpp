@@ -31,7 +31,8 @@ bool doubts_preconditioner(const Solve& solve) {
   const bool gained =
       solve.work.best.norm <= options.multisecant.progress * course.stage_start_norm;
   return options.stagnation.restart && course.round == 0 && !course.doubted && !gained &&
-         !solve.evaluator.preconditioner().is_identity();
+         !solve.evaluator.preconditioner().is_identity() &&
+         !solve.evaluator.preconditioned_by_learning();
 }
 
 /// A round of multisecant without the preconditioner, from the best point.
@@ -74,42 +75,61 @@ void begin_final_newton(Solve& solve) {
 
 /// From the first point again, remembering nothing.
 void begin_again(Solve& solve) {
-  Course& course = solve.course;
-  solve.work.secants.clear();
-  course.mixing_known = false;
-  course.round = 0;
-  course.round_cost = 0;
   if (alone(solve)) {
     begin_newton(solve, final_newton_steps(solve.options));
   } else {
-    begin_multisecant(solve);
+    begin_rounds(solve);
   }
   solve.work.base = solve.work.first;
-  course.mark = solve.work.first.norm;
+  solve.course.mark = solve.work.first.norm;
   solve.evaluator.accept(solve.work.base.u);
+}
+
+/// The same without preconditioner.
+void begin_again_plainly(Solve& solve) {
+  solve.evaluator.drop_preconditioner();
+  begin_again(solve);
+}
+
+bool try_transient(Solve& solve) {
+  Course& course = solve.course;
+  course.by_lines = false;
+  if (!solve.options.pseudo_transient.enabled || course.transient_tried) return false;
+  begin_pseudo_transient(solve);
+  return true;
+}
+
+bool try_first_point_by_lines(Solve& solve) {
+  Course& course = solve.course;
+  if (!solve.options.stagnation.restart || course.restarted) return false;
+  course.restarted = true;
+  course.round = solve.options.hybrid.rounds;
+  begin_newton_afresh(solve, final_newton_steps(solve.options));
+  return true;
+}
+
+/// With factors of the Jacobian itself another path is the better hope, and cheap; then the plain
+/// method, as if nothing had been learnt.
+void rescue_with_learnt_factors(Solve& solve) {
+  if (try_transient(solve) || try_first_point_by_lines(solve)) return;
+  solve.course.restarted = false;
+  solve.course.transient_tried = false;
+  begin_again_plainly(solve);
 }
 
 /// What is left when Newton has failed where it stands: another start, then another path.
 Ending rescue(Solve& solve, Ending failure) {
   Course& course = solve.course;
   if (course.newton_failure == Ending::go_on) course.newton_failure = failure;
-  const bool preconditioned = !solve.evaluator.preconditioner().is_identity();
-  if (solve.options.stagnation.restart && preconditioned) {
-    solve.evaluator.drop_preconditioner();
-    begin_again(solve);
+  if (solve.evaluator.preconditioned_by_learning()) {
+    rescue_with_learnt_factors(solve);
     return Ending::go_on;
   }
-  if (solve.options.stagnation.restart && !course.restarted) {
-    course.restarted = true;
-    course.round = solve.options.hybrid.rounds;
-    begin_newton_afresh(solve, final_newton_steps(solve.options));
+  if (solve.options.stagnation.restart && !solve.evaluator.preconditioner().is_identity()) {
+    begin_again_plainly(solve);
     return Ending::go_on;
   }
-  course.by_lines = false;
-  if (solve.options.pseudo_transient.enabled && !course.transient_tried) {
-    begin_pseudo_transient(solve);
-    return Ending::go_on;
-  }
+  if (try_first_point_by_lines(solve) || try_transient(solve)) return Ending::go_on;
   return course.newton_failure;
 }
 
@@ -141,37 +161,62 @@ Ending after_newton(Solve& solve, Ending ending) {
 
 Ending after_pseudo_transient(Solve& solve) {
   const bool gained = solve.work.best.norm < solve.course.stage_start_norm;
-  if (!gained) return solve.course.newton_failure;
+  const bool learnt = solve.evaluator.preconditioned_by_learning();
+  if (!gained)
+    return learnt ? rescue(solve, solve.course.newton_failure) : solve.course.newton_failure;
+  if (learnt) solve.course.stale = solve.work.evaluator.learnt.groups();  // and shifted
   begin_final_newton(solve);
   return Ending::go_on;
 }
 
-/// Rebuilds the preconditioner where the options say so. The gain per evaluation since the last
-/// setup, its cost included, first rises and then falls; a renewal pays once it has fallen.
-void renew_preconditioner(Solve& solve) {
+/// Whether a preconditioner is due that costs so many evaluations. The gain per evaluation since
+/// the last setup, its cost included, first rises and then falls; a renewal pays once it has
+/// fallen.
+bool setup_pays(Solve& solve, double cost) {
   constexpr double fallen = 0.8;
   constexpr double patience = 3.0;  // in setups, where nothing was gained at all
   Course& course = solve.course;
-  const bool newton = course.stage == Stage::newton;
-  if (!solve.evaluator.preconditioner().has_setup()) return;
-  bool due = false;
-  if (solve.options.preconditioner_setup == PreconditionerSetup::every_newton_step) {
-    due = newton && solve.report.newton_iterations > 0;
-  } else if (solve.options.preconditioner_setup == PreconditionerSetup::when_it_pays) {
-    const double cost = solve.options.setup_cost;
-    const double spent = cost + solve.evaluations() - course.setup_evaluations;
-    const double gain = std::log(course.setup_norm / solve.work.best.norm);
-    if (gain > 0.0) {
-      const double rate = gain / spent;
-      course.setup_best_rate = std::max(course.setup_best_rate, rate);
-      due = rate < fallen * course.setup_best_rate;
-    } else {
-      due = course.stage_iterations > 0 && spent > patience * (cost + 1.0);
-    }
+  const double spent = cost + solve.evaluations() - course.setup_evaluations;
+  const double gain = std::log(course.setup_norm / solve.work.best.norm);
+  if (gain <= 0.0) return course.stage_iterations > 0 && spent > patience * (cost + 1.0);
+  const double rate = gain / spent;
+  course.setup_best_rate = std::max(course.setup_best_rate, rate);
+  return rate < fallen * course.setup_best_rate;
+}
+
+bool setup_is_due(Solve& solve) {
+  const bool newton = solve.course.stage == Stage::newton;
+  if (solve.evaluator.preconditioned_by_learning()) {
+    const int cost = solve.work.evaluator.learnt.groups();
+    return newton ? 2 * solve.course.stale >= cost : setup_pays(solve, cost);
   }
-  if (!due) return;
-  solve.work.setup_point = solve.work.base.u;
-  solve.evaluator.setup(solve.work.base.u);
+  if (!solve.evaluator.preconditioner().has_setup()) return false;
+  switch (solve.options.preconditioner_setup) {
+    case PreconditionerSetup::every_newton_step:
+      return newton && solve.report.newton_iterations > 0;
+    case PreconditionerSetup::when_it_pays:
+      return setup_pays(solve, solve.options.setup_cost);
+    default:
+      return false;
+  }
+}
+
+/// Rebuilds the preconditioner where that is due.
+Ending renew_preconditioner(Solve& solve) {
+  Course& course = solve.course;
+  if (!setup_is_due(solve)) return Ending::go_on;
+  if (solve.evaluator.preconditioned_by_learning()) {
+    bool usable = false;
+    const Ending ending = renew_learnt_jacobian(solve, 0.0, usable);
+    if (ending != Ending::go_on) return ending;
+    if (!usable) {
+      begin_again_plainly(solve);
+      return Ending::go_on;
+    }
+  } else {
+    solve.work.setup_point = solve.work.base.u;
+    solve.evaluator.setup(solve.work.base.u);
+  }
   course.setup_evaluations = solve.evaluations();
   course.setup_norm = solve.work.best.norm;
   course.setup_best_rate = 0.0;
@@ -179,9 +224,20 @@ void renew_preconditioner(Solve& solve) {
   // as are Broyden's updates
   solve.work.broyden.clear();
   course.inverted = false;
+  return Ending::go_on;
 }
 
 }  // namespace
+
+void begin_rounds(Solve& solve) {
+  Course& course = solve.course;
+  solve.work.secants.clear();
+  course.mixing_known = false;
+  course.by_lines = false;
+  course.round = 0;
+  course.round_cost = 0;
+  begin_multisecant(solve);
+}
 
 void begin_schedule(Solve& solve) {
   Course& course = solve.course;
@@ -203,8 +259,11 @@ Ending advance(Solve& solve) {
   if (course.stage == Stage::newton && course.stage_iterations >= course.stage_limit) {
     return after_newton(solve, Ending::schedule_done);
   }
-  renew_preconditioner(solve);
-  Ending ending = Ending::go_on;
+  if (wants_to_learn(solve)) {
+    if (const Ending ending = learn(solve); ending != Ending::go_on) return ending;
+  }
+  Ending ending = renew_preconditioner(solve);
+  if (ending != Ending::go_on) return ending;
   switch (course.stage) {
     case Stage::multisecant:
       ending = multisecant_step(solve);

@@ -8,7 +8,7 @@ namespace detail {
 namespace {
 
 // First integer of a snapshot; raised when its fields change.
-constexpr std::int64_t snapshot_version = 2;
+constexpr std::int64_t snapshot_version = 3;
 
 struct Writer {
   Snapshot& out;
@@ -80,8 +80,10 @@ void walk_course(Walker& walk, Course& c) {
   walk(c.setup_evaluations);
   walk(c.setup_norm);
   walk(c.setup_best_rate);
+  walk(c.stale);
   walk(c.doubted);
   walk(c.suspended);
+  walk(c.learning_tried);
 }
 
 template <class Walker>
@@ -114,10 +116,10 @@ void walk_report(Walker& walk, Report& report) {
   walk(report.last_linear_residual);
   walk(report.measured_noise);
   Counts& counts = report.counts;
-  for (int* count :
-       {&counts.start, &counts.newton_trials, &counts.line_search, &counts.multisecant,
-        &counts.pseudo_transient, &counts.noise, &counts.difference_actions, &counts.user_actions,
-        &counts.linearisations, &counts.preconditioner, &counts.preconditioner_setups}) {
+  for (int* count : {&counts.start, &counts.newton_trials, &counts.line_search, &counts.multisecant,
+                     &counts.pseudo_transient, &counts.noise, &counts.difference_actions,
+                     &counts.user_actions, &counts.linearisations, &counts.preconditioner,
+                     &counts.preconditioner_setups, &counts.learning}) {
     walk(*count);
   }
 }
@@ -143,6 +145,7 @@ void walk_state(Walker& walk, Workspace& work, Course& course, Report& report) {
   walk(work.evaluator_state.noise);
   walk(work.evaluator_state.without_preconditioner);
   walk(work.setup_point);
+  if (work.evaluator_state.learnt) work.evaluator.learnt.for_each_field(walk);
   work.secants.for_each_field(walk);
   work.broyden.for_each_field(walk);
   walk(work.by_least_squares);
@@ -165,6 +168,7 @@ Snapshot Solver::save() const {
   write(m.work.base.u.size());
   write(m.work.secants.capacity());
   write(m.work.setup_point.size());
+  write(m.work.evaluator_state.learnt);
   write(m.report.history.size());
   detail::walk_state(write, m.work, m.course, m.report);
   return snapshot;
@@ -181,6 +185,7 @@ void Solver::load(const Snapshot& snapshot) {
   std::int64_t capacity = 0;
   std::int64_t setup_size = 0;
   std::int64_t lines = 0;
+  bool learnt = false;
   read(version);
   if (version != detail::snapshot_version) {
     throw std::invalid_argument("jfnk::Solver::load: snapshot version " + std::to_string(version) +
@@ -190,10 +195,11 @@ void Solver::load(const Snapshot& snapshot) {
   read(n);
   read(capacity);
   read(setup_size);
+  read(learnt);
   read(lines);
   const auto held = static_cast<std::int64_t>(snapshot.reals.size());
   const bool plausible = n >= 0 && 5 * n <= held && (setup_size == 0 || setup_size == n) &&
-                         lines >= 0 && lines <= held && capacity >= 0;
+                         lines >= 0 && lines <= held && capacity >= 0 && (n > 0 || !learnt);
   if (!plausible) detail::Reader::fail();
   if (method != m.options.method || capacity > m.options.multisecant.memory) {
     throw std::invalid_argument("jfnk::Solver::load: saved under other options");
@@ -201,11 +207,18 @@ void Solver::load(const Snapshot& snapshot) {
   detail::resize(m.work, n, std::max<std::int64_t>(n, capacity), m.options, setup_size > 0);
   m.work.secants.resize(n, static_cast<int>(capacity));
   m.work.setup_point.resize(setup_size);
+  if (learnt) {
+    m.work.evaluator.learnt.reset(n);
+    detail::use_learnt_jacobian(m.work, m.options);
+  }
   m.report.history.resize(static_cast<std::size_t>(lines));
   detail::walk_state(read, m.work, m.course, m.report);
   if (read.integer != snapshot.integers.size() || read.real != snapshot.reals.size()) {
     detail::Reader::fail();
   }
+  detail::LearntJacobian& jacobian = m.work.evaluator.learnt;
+  const bool in_use = learnt && !m.work.evaluator_state.without_preconditioner;
+  if (in_use && !jacobian.factorise(jacobian.shift())) detail::Reader::fail();
   m.report.status = Status::in_progress;
   m.needs_setup = true;
   memory_ = std::move(loaded);

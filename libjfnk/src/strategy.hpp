@@ -74,8 +74,10 @@ struct Course {
   int setup_evaluations = 0;     ///< counts at the last setup
   double setup_norm = 0.0;       ///< lowest ||F|| at the last setup
   double setup_best_rate = 0.0;  ///< gain per evaluation soon after it
-  bool doubted = false;          ///< a round without it was tried
-  bool suspended = false;        ///< such a round goes on
+  int stale = 0;                ///< Krylov iterations since then that new factors would have spared
+  bool doubted = false;         ///< a round without it was tried
+  bool suspended = false;       ///< such a round goes on
+  bool learning_tried = false;  ///< see Learning
 };
 
 /// Vectors that live from solve to solve.
@@ -152,6 +154,19 @@ void begin_newton(Solve& solve, int steps);
 /// The same from the first point, by line searches.
 void begin_newton_afresh(Solve& solve, int steps);
 void begin_pseudo_transient(Solve& solve);
+
+/// The rounds of multisecant and Newton from the best point, remembering nothing.
+void begin_rounds(Solve& solve);
+
+/// Whether it is time to learn the Jacobian.
+[[nodiscard]] bool wants_to_learn(const Solve& solve);
+/// Learns it and begins the rounds anew with its factors, or goes on as before.
+[[nodiscard]] Ending learn(Solve& solve);
+/// Factors of J + shift I about work.base for those in use.
+/// @param[out] usable  false if they are singular, or F has no value where it is needed
+[[nodiscard]] Ending renew_learnt_jacobian(Solve& solve, double shift, bool& usable);
+/// Makes the learnt Jacobian the preconditioner.
+void use_learnt_jacobian(Workspace& work, const Options& options);
 
 /// Begins the first stage.
 void begin_schedule(Solve& solve);

@@ -84,6 +84,7 @@ TEST(Allocation, NoneBetweenTheFirstAndTheLastEvaluation) {
       options.multisecant.memory = 4;
       options.hybrid.rounds = 2;
       options.max_evaluations = 400;
+      options.learning.enabled = false;  // factors are allocated when they are learnt
       Watching F{40};
       Vector u = Vector::Zero(40);
       const auto report = jfnk::solve(F, u, options, Halving{});
@@ -95,6 +96,7 @@ TEST(Allocation, NoneBetweenTheFirstAndTheLastEvaluation) {
 
 TEST(Allocation, SecondSolveOfASolverNeedsOnlyItsReason) {
   Options options;
+  options.learning.enabled = false;
   Solver solver(options);
   Watching F{40};
   Vector u = Vector::Zero(40);

@@ -308,9 +308,14 @@ TEST(Extremes, AHundredThousandEvaluationsOfOneSolveEndAtTheLimit) {
   EXPECT_EQ(report.counts.total(), limit);
 }
 
-TEST(Extremes, AHundredThousandEvaluationsOfOneSolverDoNotGrowIt) {
+class OneSolver : public testing::TestWithParam<bool> {};
+
+TEST_P(OneSolver, DoesNotGrowInAHundredThousandEvaluations) {
   const jfnk_test::Bratu bratu(6, 5.0);
-  Solver solver;
+  const bool learning = GetParam();
+  Options options;
+  options.learning.enabled = learning;
+  Solver solver(options);
   int evaluations = 0;
   const auto live = [] { return mallinfo2().uordblks; };
   const auto solve_both = [&] {
@@ -327,7 +332,10 @@ TEST(Extremes, AHundredThousandEvaluationsOfOneSolverDoNotGrowIt) {
   for (int i = 0; i < 10; ++i) solve_both();
   const auto before = live();
   while (evaluations < 100000) solve_both();
-  EXPECT_EQ(live(), before);
+  // Factors are allocated anew by each solve, in blocks that need not be rounded alike.
+  const std::size_t rounding = learning ? 4096 : 0;
+  EXPECT_LE(live(), before + rounding);
 }
+INSTANTIATE_TEST_SUITE_P(WithoutAndWithLearning, OneSolver, testing::Bool());
 
 }  // namespace

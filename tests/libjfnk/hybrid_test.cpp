@@ -98,7 +98,9 @@ struct Misleading {
 TEST(Hybrid, TriesARoundWithoutAPreconditionerByWhichNothingFell) {
   const jfnk_test::Bratu bratu(8, 4.0);
   Vector u = Vector::Zero(64);
-  const Report report = solve(bratu, u, Options{}, Misleading{});
+  Options options;
+  options.learning.enabled = false;
+  const Report report = solve(bratu, u, options, Misleading{});
   EXPECT_TRUE(report.converged()) << report.reason;
   EXPECT_EQ(report.newton_iterations, 0);
   EXPECT_EQ(report.counts.difference_actions, 1);  // the mixing of the round without it

@@ -43,6 +43,7 @@ Report solve_from(double start, PreconditionerSetup when, double setup_cost) {
   options.tolerances.relative = 1e-10;
   options.preconditioner_setup = when;
   options.setup_cost = setup_cost;
+  options.learning.enabled = false;
   Vector u = Vector::Constant(60, start);
   const Report report = jfnk::solve(Reaction{}, u, options, Factors{});
   EXPECT_TRUE(report.converged()) << report.reason;

@@ -113,6 +113,36 @@ TEST(Resume, ContinuesBitForBitFromAnyStepOfEveryStage) {
   }
 }
 
+TEST(Resume, ContinuesBitForBitWithALearntJacobian) {
+  // Learnt, renewed in rounds and, where Newton stands still, shifted by pseudo-transient steps.
+  const jfnk_test::Bratu easy(12, 6.0);
+  const int n = 60;
+  const auto rough = [&](const Vector& u, Vector& r) {
+    for (int i = 0; i < n; ++i) {
+      const double left = i > 0 ? u[i - 1] : 0.0;
+      const double right = i + 1 < n ? u[i + 1] : 1.0;
+      r[i] = 2.0 * u[i] - left - right + 0.3 * std::atan(40.0 * (u[i] - 0.4)) - 0.05;
+    }
+  };
+  Options options;
+  options.tolerances.relative = 1e-10;
+  const auto none = [] { return jfnk::Identity{}; };
+  const auto compare = [&](auto&& residual, Eigen::Index size) {
+    Vector whole = Vector::Zero(size);
+    const Report expected = jfnk::solve(residual, whole, options);
+    EXPECT_GT(expected.counts.learning, 0);
+    for (int at = 0; at < 40; at += 3) {
+      Vector broken = Vector::Zero(size);
+      const Report report = solve_with_break(residual, broken, options, none, at);
+      EXPECT_EQ(report.reason, expected.reason) << at;
+      EXPECT_EQ(report.counts.learning, expected.counts.learning) << at;
+      EXPECT_TRUE(same_bits(broken, whole)) << at;
+    }
+  };
+  compare(easy, 144);
+  compare(rough, n);
+}
+
 TEST(Resume, SetsThePreconditionerUpWhereItWas) {
   const jfnk_test::Bratu bratu(10, 6.0);
   Options options;
@@ -148,6 +178,10 @@ TEST(Resume, RefusesWhatItCannotContinue) {
   Snapshot longer = good;
   longer.integers.push_back(1);
   EXPECT_THROW(other.load(longer), std::invalid_argument);
+  // As if a Jacobian were learnt that is not there.
+  Snapshot invented = good;
+  invented.integers[5] = 1;
+  EXPECT_THROW(other.load(invented), std::invalid_argument);
   Snapshot newer = good;
   newer.integers.front() = 1000;
   EXPECT_THROW(other.load(newer), std::invalid_argument);

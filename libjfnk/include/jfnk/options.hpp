@@ -190,6 +190,34 @@ struct PseudoTransient {
   double gain = 0.1;
 };
 
+/// Method::hybrid without preconditioner, or with one that has ceased to help: the Jacobian is
+/// learnt by looking and factorised, if F lives on a lattice.
+///
+/// A few unknowns, moved one by one, show which components of F they change by how much in the
+/// index: the diagonals of J that are occupied. If these are few, as on grids and chains whose
+/// nodes are numbered in order, J follows from some ten products J v (Curtis, Powell & Reid 1974)
+/// and is factorised by sparse LU; that is a preconditioner, which is renewed where that pays. F
+/// must not depend on an unknown by rounding alone. Not for residuals on several processes.
+struct Learning {
+  bool enabled = true;
+  /// Evaluations before, without and with a preconditioner of the caller's (or its first failure).
+  /// Range [1, inf).
+  int after = 6;
+  int after_preconditioned = 20;
+  /// Only if at the present rate more evaluations than this are still to come. Range [0, inf).
+  double worth = 25.0;
+  /// Only for so many unknowns or more. Range [1, inf).
+  int least_unknowns = 32;
+  /// Given up when one unknown changes more components of F than this. Range [1, inf).
+  int most_rows = 40;
+  /// Given up when the factors would have more entries than this, at 12 bytes each. Range [1, inf).
+  double most_entries = 5e7;
+  /// Given up when the factors would cost more operations than the evaluations they may spare, an
+  /// evaluation being taken to cost this many per unknown, those of the solver's own vectors
+  /// included. To be raised where F is dear; inf asks for evaluations only. Range (0, inf].
+  double operations = 200.0;
+};
+
 /// When `setup(u)` of a preconditioner is called, if it has one.
 enum class PreconditionerSetup {
   at_start,           ///< once per solve, at the first u
@@ -222,6 +250,7 @@ struct Options {
   Hybrid hybrid;
   Stagnation stagnation;
   PseudoTransient pseudo_transient;
+  Learning learning;
   PreconditionerSetup preconditioner_setup = PreconditionerSetup::when_it_pays;
   /// Cost of one `setup`, in evaluations of F; see when_it_pays. Range [0, inf).
   double setup_cost = 10.0;

@@ -61,6 +61,8 @@ struct Counts {
   int linearisations = 0;         ///< calls of the residual's `linearise`
   int preconditioner = 0;         ///< calls of the preconditioner's `apply`
   int preconditioner_setups = 0;  ///< calls of the preconditioner's `setup`
+  int learning = 0;               ///< of the evaluations above, those that went into learning the
+                                  ///< Jacobian and renewing it
 
   /// Residual evaluations of every purpose.
   [[nodiscard]] int residuals() const {

@@ -23,15 +23,17 @@ struct Problem {
   /// Typical sizes of unknowns and residuals, for solvers that take them; empty: ones.
   Vector u_scale = {};
   Vector f_scale = {};
-  /// Of the second set.
-  bool second = false;
+  /// The set of problems: the first, of which some are for tuning, or a later one.
+  int set = 1;
   /// A root, where one is known.
   Vector root = {};
 };
 
 /// The name of the set a problem belongs to.
 inline const char* set_of(const Problem& problem) {
-  if (problem.second) return "held out 2";
+  if (problem.set == 4) return "held out 4";
+  if (problem.set == 3) return "held out 3";
+  if (problem.set == 2) return "held out 2";
   return problem.for_tuning ? "tuning" : "held out";
 }
 
@@ -53,6 +55,11 @@ void add_troubles(std::vector<Problem>& problems);
 /// Problems of all these kinds that were written after libjfnk's constants had been chosen; none
 /// may be chosen by looking at them.
 void add_second_set(std::vector<Problem>& problems);
+/// Again of all these kinds, written after libjfnk's constants and rules had been judged by the
+/// second set, by somebody who did not run any of the solvers compared on them.
+void add_third_set(std::vector<Problem>& problems);
+/// The same once more, written when the results of the third set were known.
+void add_fourth_set(std::vector<Problem>& problems);
 
 inline std::vector<Problem> all_problems() {
   std::vector<Problem> problems;
@@ -60,6 +67,8 @@ inline std::vector<Problem> all_problems() {
   add_classics(problems);
   add_troubles(problems);
   add_second_set(problems);
+  add_third_set(problems);
+  add_fourth_set(problems);
   return problems;
 }
 

@@ -1,8 +1,8 @@
 // usage: jfnk-peers-roots [NAME]
 //
-// Whether the problems of the second set have a root to be found at all: each with NAME in its name
-// by Newton steps with a dense Jacobian, damped and full, which share nothing with the solvers
-// compared. Prints ||F|| over the goal; exit code 1 if one is above it.
+// Whether the problems of all sets but the first have a root to be found at all: each with NAME in
+// its name by Newton steps with a dense Jacobian, damped and full, which share nothing with the
+// solvers compared. Prints ||F|| over the goal; exit code 1 if one is above it.
 #include <Eigen/LU>
 #include <cstdio>
 #include <limits>
@@ -48,7 +48,7 @@ double distance_to_goal(const Problem& problem) {
 int main(int argc, char** argv) {
   bool all_solved = true;
   for (const Problem& problem : peers::all_problems()) {
-    if (!problem.second || problem.name.find(argc > 1 ? argv[1] : "") == std::string::npos) {
+    if (problem.set == 1 || problem.name.find(argc > 1 ? argv[1] : "") == std::string::npos) {
       continue;
     }
     const double distance = distance_to_goal(problem);

@@ -34,7 +34,7 @@ Problem convection(const char* name, int m, double c) {
     r -= f;
     return true;
   };
-  return {name, false, Vector::Zero(m * m), residual, 1e-6, {}, {}, true, root};
+  return {name, false, Vector::Zero(m * m), residual, 1e-6, {}, {}, 2, root};
 }
 
 /// -Laplace(u) = lambda exp(u) in the unit cube.
@@ -275,7 +275,7 @@ void add_second_set(std::vector<Problem>& problems) {
   problems.back().root = vector({1.0, 10.0, 1.0, 5.0, 4.0, 3.0});
   problems.push_back(noisy(minimal_surface("", 12), "noisy surface", false, 1e-6));
   problems.push_back(in_other_units(food_chain("", 6), "chain, 10 decades", false, 10.0));
-  for (std::size_t i = before; i < problems.size(); ++i) problems[i].second = true;
+  for (std::size_t i = before; i < problems.size(); ++i) problems[i].set = 2;
 }
 
 }  // namespace peers
