@@ -188,14 +188,16 @@ bool setup_is_due(Solve& solve) {
   const bool newton = solve.course.stage == Stage::newton;
   if (solve.evaluator.preconditioned_by_learning()) {
     const int cost = solve.work.evaluator.learnt.groups();
-    return newton ? 2 * solve.course.stale >= cost : setup_pays(solve, cost);
+    constexpr int head_start = 2;  // its cost is known, and small
+    return newton ? head_start * solve.course.stale >= cost : setup_pays(solve, cost);
   }
   if (!solve.evaluator.preconditioner().has_setup()) return false;
   switch (solve.options.preconditioner_setup) {
     case PreconditionerSetup::every_newton_step:
       return newton && solve.report.newton_iterations > 0;
     case PreconditionerSetup::when_it_pays:
-      return setup_pays(solve, solve.options.setup_cost);
+      return setup_pays(solve, solve.options.setup_cost) ||
+             (newton && solve.course.stale > 0 && solve.course.stale >= solve.options.setup_cost);
     default:
       return false;
   }

@@ -38,8 +38,10 @@ struct Factors {
   Eigen::PartialPivLU<Eigen::MatrixXd> factors;
 };
 
-Report solve_from(double start, PreconditionerSetup when, double setup_cost) {
+Report solve_from(double start, PreconditionerSetup when, double setup_cost,
+                  jfnk::Method method = jfnk::Method::hybrid) {
   Options options;
+  options.method = method;
   options.tolerances.relative = 1e-10;
   options.preconditioner_setup = when;
   options.setup_cost = setup_cost;
@@ -62,6 +64,20 @@ TEST(Refresh, PaysForItselfWhereThePreconditionerDecays) {
     EXPECT_EQ(never.counts.preconditioner_setups, 1);
     EXPECT_GT(chosen.counts.preconditioner_setups, 1);
     EXPECT_LT(cost(chosen, setup_cost), cost(never, setup_cost));
+  }
+}
+
+TEST(Refresh, OfNewtonStepsCostsNoMoreThanNeverOrAlways) {
+  for (const double start : {1.0, 10.0}) {
+    for (const double setup_cost : {1.0, 3.0, 10.0}) {
+      const auto solve = [&](PreconditionerSetup when) {
+        return cost(solve_from(start, when, setup_cost, jfnk::Method::newton_krylov), setup_cost);
+      };
+      const double chosen = solve(PreconditionerSetup::when_it_pays);
+      EXPECT_LT(chosen, solve(PreconditionerSetup::at_start)) << start << ", " << setup_cost;
+      EXPECT_LT(chosen, solve(PreconditionerSetup::every_newton_step))
+          << start << ", " << setup_cost;
+    }
   }
 }
 

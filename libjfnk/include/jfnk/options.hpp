@@ -223,7 +223,8 @@ enum class PreconditionerSetup {
   at_start,           ///< once per solve, at the first u
   every_newton_step,  ///< before the linear system of each Newton step (and at the first u)
   when_it_pays        ///< at the first u, and when the gain per evaluation has fallen so far below
-                      ///< that after the last setup that `setup_cost` would be earned back
+                      ///< that after the last setup that `setup_cost` would be earned back, or
+                      ///< Krylov iterations beyond one per Newton step have come to that cost
 };
 
 /// All choices of a solve.
