@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "limit/case.hpp"
+#include "temporary_folder.hpp"
 
 namespace {
 
@@ -140,6 +143,40 @@ TEST(Solvers, EndAtTheLimitOfIterationsAndSayWhere) {
     EXPECT_EQ(cut_short.status, SolverStatus::capped);
     EXPECT_EQ(cut_short.message, "iteration limit");
     EXPECT_LE(cut_short.iterations, 3);
+  }
+}
+
+/// Works in another folder as long as it lives.
+class CurrentFolder {
+ public:
+  explicit CurrentFolder(const std::filesystem::path& folder)
+      : before_(std::filesystem::current_path()) {
+    std::filesystem::current_path(folder);
+  }
+  CurrentFolder(const CurrentFolder&) = delete;
+  CurrentFolder& operator=(const CurrentFolder&) = delete;
+  ~CurrentFolder() {
+    std::error_code ignored;
+    std::filesystem::current_path(before_, ignored);
+  }
+
+ private:
+  std::filesystem::path before_;
+};
+
+// Ipopt by itself reads `ipopt.opt` where it is started: these options would end it at once, or,
+// unknown, have it refuse to begin.
+TEST(Solvers, TakeNoOptionsFromTheCurrentFolder) {
+  const ConeProgram program = lower_bound_program(on_fan(weightless(20), 8, 4, 1.5));
+  SolverOptions options;
+  options.form = ConeForm::inequality;
+  for (const char* poison : {"max_iter 0\n", "no_such_option 1\n"}) {
+    const wiring::test::TemporaryFolder folder;
+    std::ofstream(folder / "ipopt.opt") << poison;
+    const CurrentFolder within(folder.path());
+    const ConeSolution found = solve(program, options);
+    EXPECT_EQ(found.status, SolverStatus::solved) << poison;
+    EXPECT_GT(found.iterations, 5) << poison;
   }
 }
 
