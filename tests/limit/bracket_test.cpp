@@ -129,6 +129,27 @@ TEST(Solvers, AgreeOnBothPrograms) {
   }
 }
 
+// The mean stress of such soil has hardly any curvature. N_c = (2 + pi) (1 + phi (2 + pi) / 2 +
+// ...) grows by less than 3 phi at first.
+TEST(Solvers, TakeHardlyAnyFrictionAsTheyTakeNone) {
+  for (const bool is_lower : {true, false}) {
+    const auto value = [&](double phi) {
+      const Problem problem = on_fan(weightless(phi), 12, 5, 1.5);
+      const ConeProgram program =
+          is_lower ? lower_bound_program(problem) : upper_bound_program(problem);
+      const ConeSolution found = solve(program, {});
+      EXPECT_EQ(found.status, SolverStatus::solved) << phi << ": " << found.message;
+      EXPECT_LT(found.iterations, 30) << phi;
+      return program.objective.dot(found.variables);
+    };
+    const double clay = value(0.0);
+    for (const double phi : {0.01, 0.1, 0.5, 1.0}) {
+      EXPECT_GT(value(phi), clay) << phi;
+      EXPECT_LT(value(phi), clay * (1.0 + 3.0 * phi * degree + both)) << phi;
+    }
+  }
+}
+
 // Forced: no solver can do its work in so few iterations.
 TEST(Solvers, EndAtTheLimitOfIterationsAndSayWhere) {
   const Strip strip = weightless(20);
