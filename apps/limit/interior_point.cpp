@@ -22,8 +22,8 @@ using Cones = std::vector<Vector3d>;
 // what rounding may make of them on the way; certificates mend that much.
 constexpr double none = 1e-9, little = 1e-8;
 
-// Where centring crawls, the multipliers it has to reach, which grow with the load, are far above
-// those of the start: it begins anew with more, at most with so many.
+// Where centring crawls though the equations hold, the multipliers it has to reach, which grow with
+// the load, are far above those of the start: it begins anew with more, at most with so many.
 constexpr double crawl = 0.05, more = 100.0, most = 1e4;
 
 struct Steps {
@@ -69,7 +69,7 @@ class InteriorPoint {
     Direction way = centres ? direction(1.0, complementarity(1.0)) : predicted_and_corrected();
     const Steps steps{damped(largest_step(slacks_, way.slacks), centres),
                       damped(largest_step(z_, way.z), centres)};
-    if (centres && std::max(steps.primal, steps.dual) < crawl && begun_with_ < most) {
+    if (centres && crawls(steps) && begun_with_ < most) {
       begin(more * begun_with_);
       return true;
     }
@@ -100,9 +100,16 @@ class InteriorPoint {
     return x.segment<3>(static_cast<Index>(3 * k));
   }
 
+  [[nodiscard]] bool equations_hold(double residual) const {
+    return off_equations_.lpNorm<Eigen::Infinity>() < residual * scale();
+  }
+
   [[nodiscard]] bool holds(double residual) const {
-    return off_equations_.lpNorm<Eigen::Infinity>() < residual * scale() &&
-           off_multipliers_.lpNorm<Eigen::Infinity>() < residual;
+    return equations_hold(residual) && off_multipliers_.lpNorm<Eigen::Infinity>() < residual;
+  }
+
+  [[nodiscard]] bool crawls(const Steps& steps) const {
+    return std::max(steps.primal, steps.dual) < crawl && equations_hold(none);
   }
 
   // At the program's start, all cones' multipliers of this size.
