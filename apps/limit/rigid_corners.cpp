@@ -33,14 +33,10 @@ struct Corner {
 class Outline {
  public:
   explicit Outline(const Mesh& mesh) : mesh_(mesh) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto& nodes = mesh.triangles[t].nodes;
-      for (std::size_t i = 0; i < 3; ++i) {
-        triangle_at_[{nodes[i], nodes[(i + 1) % 3]}] = static_cast<int>(t);
-      }
-    }
-    for (const BoundaryEdge& edge : mesh.boundary) {
-      boundary_of_[{edge.first, edge.second}] = edge.boundary;
+    for (const Edge& edge : edges_of(mesh)) {
+      triangle_at_[{edge.first, edge.second}] = edge.left;
+      if (edge.right >= 0) triangle_at_[{edge.second, edge.first}] = edge.right;
+      if (edge.boundary >= 0) boundary_of_[{edge.first, edge.second}] = edge.boundary;
     }
   }
 
