@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "limit/bisection.hpp"
+#include "limit/rigid_corners.hpp"
 
 namespace limit {
 
@@ -164,7 +165,7 @@ Bracket bracket(Problem lower, Problem upper, const BracketOptions& options,
     return rest;
   };
   Bracket result;
-  Side below(std::move(lower), true), above(std::move(upper), false);
+  Side below(std::move(lower), true), above(with_rigid_corners_cut(std::move(upper)), false);
   below.attempt(result, remaining(), watch);
   above.attempt(result, remaining(), watch);
   while (result.gap() > options.gap && spent() < options.max_seconds) {

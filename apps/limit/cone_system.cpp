@@ -13,11 +13,30 @@ using second_order_cone::Scaling;
 
 namespace {
 
-// Curvature given to free variables: small against the cones', which are of order one at first.
+// Curvature given to free variables, and to the mean stress of soil of little friction: small
+// against the cones', which are of order one at first.
 constexpr double little = 1e-8;
 // Added to the diagonal of A H^-1 A', in all and as a share of each entry: makes up for equations
 // that depend on each other, as a lower bound's do, whose pivots are nothing but rounding.
 constexpr double least = 1e-10, least_share = 1e-13;
+
+// Sine of a few degrees: below, the mean stress has hardly any curvature of its own.
+constexpr double little_friction = 0.1;
+
+// Of the curvature with `little` added in the mean stress. By the mean stress' complement, so that
+// nothing cancels.
+Matrix3d softened_inverse(const Scaling& scaling, double slope) {
+  const Vector3d first = scaling.squared().col(0);
+  const double mean = first[0] / (slope * slope);
+  const double softened = mean / (1.0 + little * mean);
+  const Eigen::Vector2d along = slope / first[0] * first.tail<2>();
+  Matrix3d inverse;
+  inverse(0, 0) = softened;
+  inverse.bottomLeftCorner<2, 1>() = softened * along;
+  inverse.topRightCorner<1, 2>() = softened * along.transpose();
+  inverse.bottomRightCorner<2, 2>() = scaling.disc_inverse() + softened * along * along.transpose();
+  return inverse;
+}
 
 }  // namespace
 
@@ -112,8 +131,12 @@ bool ConeSystem::factorise(const std::vector<Scaling>& scalings) {
     const Vector3d form = slack_form(program_.cones[k]);
     if (form[0] > 0.0) {
       curvature_[k] = form.asDiagonal() * scalings[k].inverse_squared() * form.asDiagonal();
-      const Vector3d back = form.cwiseInverse();
-      inverse = back.asDiagonal() * scalings[k].squared() * back.asDiagonal();
+      if (form[0] < little_friction) {
+        inverse = softened_inverse(scalings[k], form[0]);
+      } else {
+        const Vector3d back = form.cwiseInverse();
+        inverse = back.asDiagonal() * scalings[k].squared() * back.asDiagonal();
+      }
     } else {
       curvature_[k].setZero();
       curvature_[k].bottomRightCorner<2, 2>() =

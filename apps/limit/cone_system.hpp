@@ -20,9 +20,10 @@ namespace limit {
 /// where A are the equations and H, one 3 x 3 block per cone, its curvature (none in free
 /// variables, nor in the mean stress of frictionless soil). H is eliminated, and A H^-1 A', sparse
 /// and positive definite, factorised: a fraction of the size of what Ipopt factorises, without
-/// pivoting. The free variables get a little curvature, which iterative refinement takes out again.
-/// A free variable in very many equations, such as the multiplier of a weight, would fill that
-/// matrix: it stays outside, as a border.
+/// pivoting. The free variables, and the mean stress of soil of little friction, whose curvature
+/// falls with the friction squared, get a little curvature, which iterative refinement takes out
+/// again. A free variable in very many equations, such as the multiplier of a weight, would fill
+/// that matrix: it stays outside, as a border.
 class ConeSystem {
  public:
   explicit ConeSystem(const ScaledProgram& program);

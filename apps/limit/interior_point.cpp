@@ -22,6 +22,10 @@ using Cones = std::vector<Vector3d>;
 // what rounding may make of them on the way; certificates mend that much.
 constexpr double none = 1e-9, little = 1e-8;
 
+// Where centring crawls though the equations hold, the multipliers it has to reach, which grow with
+// the load, are far above those of the start: it begins anew with more, at most with so many.
+constexpr double crawl = 0.05, more = 100.0, most = 1e4;
+
 struct Steps {
   double primal, dual;
 };
@@ -47,13 +51,8 @@ double damped(double largest, bool centres) {
 /// of the cones: cost + equations' y + G' z = 0, u and z in their cones, u'z = 0 in the end.
 class InteriorPoint {
  public:
-  explicit InteriorPoint(const ScaledProgram& program)
-      : program_(program),
-        system_(program),
-        x_(program.start),
-        y_(VectorXd::Zero(program.equations.rows())),
-        z_(program.cones.size(), Vector3d::UnitX()) {
-    update();
+  explicit InteriorPoint(const ScaledProgram& program) : program_(program), system_(program) {
+    begin(1.0);
   }
 
   [[nodiscard]] const VectorXd& variables() const { return x_; }
@@ -70,6 +69,10 @@ class InteriorPoint {
     Direction way = centres ? direction(1.0, complementarity(1.0)) : predicted_and_corrected();
     const Steps steps{damped(largest_step(slacks_, way.slacks), centres),
                       damped(largest_step(z_, way.z), centres)};
+    if (centres && crawls(steps) && begun_with_ < most) {
+      begin(more * begun_with_);
+      return true;
+    }
     if (!(std::max(steps.primal, steps.dual) > 1e-6)) return false;
     const InteriorPoint::State before{x_, y_, z_};
     x_ += steps.primal * way.x;
@@ -97,9 +100,26 @@ class InteriorPoint {
     return x.segment<3>(static_cast<Index>(3 * k));
   }
 
+  [[nodiscard]] bool equations_hold(double residual) const {
+    return off_equations_.lpNorm<Eigen::Infinity>() < residual * scale();
+  }
+
   [[nodiscard]] bool holds(double residual) const {
-    return off_equations_.lpNorm<Eigen::Infinity>() < residual * scale() &&
-           off_multipliers_.lpNorm<Eigen::Infinity>() < residual;
+    return equations_hold(residual) && off_multipliers_.lpNorm<Eigen::Infinity>() < residual;
+  }
+
+  [[nodiscard]] bool crawls(const Steps& steps) const {
+    return std::max(steps.primal, steps.dual) < crawl && equations_hold(none);
+  }
+
+  // At the program's start, all cones' multipliers of this size.
+  void begin(double size) {
+    begun_with_ = size;
+    was_feasible_ = false;
+    x_ = program_.start;
+    y_ = VectorXd::Zero(program_.equations.rows());
+    z_.assign(program_.cones.size(), size * Vector3d::UnitX());
+    update();
   }
 
   void update() {
@@ -193,6 +213,7 @@ class InteriorPoint {
   Cones z_, slacks_;
   VectorXd off_equations_, off_multipliers_;
   double gap_ = 0.0;
+  double begun_with_ = 0.0;
   bool was_feasible_ = false;
   std::vector<Scaling> scalings_;
 };

@@ -37,7 +37,8 @@ Application application(const SolverOptions& options) {
   } else {
     set->SetStringValue("mu_strategy", "adaptive");
   }
-  if (ipopt->Initialize() != Ipopt::Solve_Succeeded) {
+  // No file of options: an ipopt.opt that lies in the current folder is meant for another program.
+  if (ipopt->Initialize("") != Ipopt::Solve_Succeeded) {
     throw std::runtime_error("Ipopt refused its options");
   }
   return ipopt;

@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "limit/case.hpp"
+#include "temporary_folder.hpp"
 
 namespace {
 
@@ -126,6 +129,27 @@ TEST(Solvers, AgreeOnBothPrograms) {
   }
 }
 
+// The mean stress of such soil has hardly any curvature. N_c = (2 + pi) (1 + phi (2 + pi) / 2 +
+// ...) grows by less than 3 phi at first.
+TEST(Solvers, TakeHardlyAnyFrictionAsTheyTakeNone) {
+  for (const bool is_lower : {true, false}) {
+    const auto value = [&](double phi) {
+      const Problem problem = on_fan(weightless(phi), 12, 5, 1.5);
+      const ConeProgram program =
+          is_lower ? lower_bound_program(problem) : upper_bound_program(problem);
+      const ConeSolution found = solve(program, {});
+      EXPECT_EQ(found.status, SolverStatus::solved) << phi << ": " << found.message;
+      EXPECT_LT(found.iterations, 30) << phi;
+      return program.objective.dot(found.variables);
+    };
+    const double clay = value(0.0);
+    for (const double phi : {0.01, 0.1, 0.5, 1.0}) {
+      EXPECT_GT(value(phi), clay) << phi;
+      EXPECT_LT(value(phi), clay * (1.0 + 3.0 * phi * degree + both)) << phi;
+    }
+  }
+}
+
 // Forced: no solver can do its work in so few iterations.
 TEST(Solvers, EndAtTheLimitOfIterationsAndSayWhere) {
   const Strip strip = weightless(20);
@@ -140,6 +164,40 @@ TEST(Solvers, EndAtTheLimitOfIterationsAndSayWhere) {
     EXPECT_EQ(cut_short.status, SolverStatus::capped);
     EXPECT_EQ(cut_short.message, "iteration limit");
     EXPECT_LE(cut_short.iterations, 3);
+  }
+}
+
+/// Works in another folder as long as it lives.
+class CurrentFolder {
+ public:
+  explicit CurrentFolder(const std::filesystem::path& folder)
+      : before_(std::filesystem::current_path()) {
+    std::filesystem::current_path(folder);
+  }
+  CurrentFolder(const CurrentFolder&) = delete;
+  CurrentFolder& operator=(const CurrentFolder&) = delete;
+  ~CurrentFolder() {
+    std::error_code ignored;
+    std::filesystem::current_path(before_, ignored);
+  }
+
+ private:
+  std::filesystem::path before_;
+};
+
+// Ipopt by itself reads `ipopt.opt` where it is started: these options would end it at once, or,
+// unknown, have it refuse to begin.
+TEST(Solvers, TakeNoOptionsFromTheCurrentFolder) {
+  const ConeProgram program = lower_bound_program(on_fan(weightless(20), 8, 4, 1.5));
+  SolverOptions options;
+  options.form = ConeForm::inequality;
+  for (const char* poison : {"max_iter 0\n", "no_such_option 1\n"}) {
+    const wiring::test::TemporaryFolder folder;
+    std::ofstream(folder / "ipopt.opt") << poison;
+    const CurrentFolder within(folder.path());
+    const ConeSolution found = solve(program, options);
+    EXPECT_EQ(found.status, SolverStatus::solved) << poison;
+    EXPECT_GT(found.iterations, 5) << poison;
   }
 }
 

@@ -330,12 +330,12 @@ Power power_of_loads(const Problem& problem, const std::vector<Real>& velocity) 
 }
 
 // A strip's half, and all of it, with the left half mirrored.
-Problem half_strip(const Soil& soil, double surcharge, bool rough) {
+Problem half_strip(const Soil& soil, double surcharge, bool rough, const Box& box = {4.0, 2.0}) {
   Strip strip;
   strip.soil = soil;
   strip.surcharge = surcharge;
   strip.rough = rough;
-  return strip_problem(strip, even_fan(4.0, 2.0, 9, 4, 1.5));
+  return strip_problem(strip, even_fan(box.width, box.depth, 9, 4, 1.5));
 }
 
 Problem whole_strip(const Soil& soil, bool rough) {
@@ -372,6 +372,10 @@ Problem rough_strip() {
 }
 Problem smooth_strip() {
   return half_strip({1.0, std::numbers::pi / 6, 0.0}, 0.5, false);
+}
+// In a box whose corner is cut.
+Problem steep_strip() {
+  return half_strip({1.0, std::numbers::pi / 3.6, 0.5}, 0.2, true, {12.0, 4.0});
 }
 Problem flexible_strip() {
   Problem problem = half_strip({1.0, std::numbers::pi / 18, 0.0}, 0.0, false);
@@ -476,8 +480,9 @@ TEST_P(ExtendedPrecision, AMechanismFailsUnderTheUpperBound) {
 INSTANTIATE_TEST_SUITE_P(
     Problems, ExtendedPrecision,
     ::testing::Values(CaseOf{"tresca", tresca_strip}, CaseOf{"rough", rough_strip},
-                      CaseOf{"smooth", smooth_strip}, CaseOf{"flexible", flexible_strip},
-                      CaseOf{"inclined", inclined_strip}, CaseOf{"growing_weight", growing_weight}),
+                      CaseOf{"smooth", smooth_strip}, CaseOf{"steep", steep_strip},
+                      CaseOf{"flexible", flexible_strip}, CaseOf{"inclined", inclined_strip},
+                      CaseOf{"growing_weight", growing_weight}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
