@@ -96,6 +96,12 @@ Footing footing_of(const GroundScene& scene, const Base& base, wiring::Diagnosis
   } else {
     footing.may_move = {true, true, true};
   }
+  if (!scene.sides[base.side].tension && std::abs(load.eccentricity) >= base.width / 2.0) {
+    diagnosis.error("load.eccentricity", fmt::format("found {:g}", load.eccentricity),
+                    fmt::format("without tension under it, the footing bears loads less than half "
+                                "its width ({:g}) from its middle",
+                                base.width / 2.0));
+  }
   const double given = scene.sides[base.side].pressure;
   for (std::size_t i = 0; i < 3; ++i) {
     footing.dead_load[i] = given * unit[i];
@@ -116,6 +122,7 @@ Boundary boundary_of(const GroundScene& scene, const GroundSide& side) {
     case SideKind::footing:
       boundary.normal = Known::footing;
       boundary.tangential = side.rough ? Known::footing : Known::traction;
+      boundary.may_open = !side.tension;
       break;
     case SideKind::loaded:
       boundary.normal_stress = -side.pressure;
@@ -260,10 +267,8 @@ std::vector<std::string> assumptions_of(const GroundScene& scene, const Problem&
       "the polygons of the scene, rigid beyond fixed sides and rollers; the lower bound holds for "
       "wider ground only if these are far enough away not to matter"};
   if (base) {
-    const bool rough = scene.sides[base->side].rough;
-    assumptions.emplace_back(
-        rough ? "rough base: up to the soil's full strength in shear, and in tension"
-              : "smooth base: no shear stress; bonded, up to the soil's strength in tension");
+    const GroundSide& side = scene.sides[base->side];
+    assumptions.push_back(base_assumption(side.rough, side.tension));
     assumptions.emplace_back(problem.footing.may_move[2]
                                  ? "the footing is free to move along x and y and to rotate"
                                  : "the footing is guided along its normal");

@@ -15,6 +15,7 @@ namespace {
 
 using namespace limit;
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 
 // A footing on two layers; the lower one carries a name.
@@ -131,6 +132,7 @@ TEST(GroundScene, RefusesWhatIsNoGroundByFileLineAndKey) {
   EXPECT_THAT(with("side.surface.along=[[0.5, 0], [4, 0]]"), HasSubstr("is named by side"));
   EXPECT_THAT(with("side.surface.along=[[1, 0], [4, 0.5]]"), HasSubstr("off the ground's outline"));
   EXPECT_THAT(with("side.surface.pressure=1"), HasSubstr("kind loaded or footing"));
+  EXPECT_THAT(with("side.surface.tension=false"), HasSubstr("it belongs to kind footing"));
   EXPECT_THAT(with("load.eccentricity=0.1"), HasSubstr("guided = false"));
   EXPECT_THAT(with("load.sought=gravity"), HasSubstr("a unit_weight that grows"));
   EXPECT_EQ(read(layered).errors, "");
@@ -268,6 +270,37 @@ TEST(Ground, UnitsDoNotMatter) {
   constexpr double digits = 1e-6;  // of the solver, see Bracket.DoesNotDependOnTheUnits
   EXPECT_NEAR(*a.lower / *b.lower, 1e3, 1e3 * digits);
   EXPECT_NEAR(*a.upper / *b.upper, 1e3, 1e3 * digits);
+}
+
+// The same meshes: what the footing cannot use makes no bound better.
+TEST(Ground, AFootingThatMayLiftOffBearsNoMoreThanABondedOne) {
+  std::vector<Solution> found;
+  for (const bool tension : {true, false}) {
+    auto problem = shipped("eccentric_lift_off");
+    ASSERT_TRUE(problem);
+    Case& made = problem->associated;
+    EXPECT_THAT(made.assumptions, Contains(HasSubstr("may lift off the soil")));
+    // Smooth, so that no slip is paid for where it lifts off.
+    for (Problem* each : {&made.lower, &made.upper}) {
+      each->boundaries[0].may_open = !tension;
+      each->boundaries[0].tangential = Known::traction;
+    }
+    BracketOptions options;
+    options.max_triangles = 1;
+    found.push_back(solution_of(made, options, {}));
+    ASSERT_TRUE(found.back().lower && found.back().upper);
+  }
+  EXPECT_LT(*found[1].lower, *found[0].lower);
+  EXPECT_LT(*found[1].upper, *found[0].upper);
+  // Meyerhof's effective width, half the base.
+  EXPECT_GT(*found[1].upper, 0.5e3 * (2.0 + std::numbers::pi));
+}
+
+TEST(Ground, AFootingThatMayLiftOffBearsNoLoadBesideIt) {
+  const std::vector<std::string> beside{"side.footing.tension=false", "load.guided=false",
+                                        "load.eccentricity=0.5"};
+  EXPECT_THAT(read(layered, beside).errors,
+              AllOf(HasSubstr("load.eccentricity"), HasSubstr("half its width (0.5)")));
 }
 
 TEST(StrengthReduction, DividesCohesionAndTheTangent) {
