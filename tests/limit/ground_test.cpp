@@ -72,6 +72,34 @@ kind = "fixed"
 along = [[-2, 0], [-2, -1], [2, -1], [2, 1]]
 )";
 
+// A block whose top is sheared, between free sides.
+constexpr const char* sheared = R"([load]
+sought = "traction"
+[[material]]
+name = "clay"
+cohesion = 1.0
+[[region]]
+material = "clay"
+outline = [[0, 0], [4, 0], [4, 1], [0, 1]]
+[[side]]
+name = "top"
+kind = "loaded"
+live_shear = 1
+along = [[0, 1], [4, 1]]
+[[side]]
+name = "left"
+kind = "free"
+along = [[0, 0], [0, 1]]
+[[side]]
+name = "right"
+kind = "free"
+along = [[4, 0], [4, 1]]
+[[side]]
+name = "floor"
+kind = "fixed"
+along = [[0, 0], [4, 0]]
+)";
+
 // The case, or every error said, a line each.
 struct Read {
   std::optional<GroundScene> scene;
@@ -173,8 +201,8 @@ TEST(GroundMesh, CoversTheGroundAndConformsToLayersAndSides) {
 }
 
 TEST(GroundMesh, HasAFanAtEverySingularPointAndNowhereElse) {
-  const auto singular = [](const char* text) {
-    const Read made = read(text);
+  const auto singular = [](const char* text, const std::vector<std::string>& settings = {}) {
+    const Read made = read(text, settings);
     wiring::Diagnosis diagnosis("ground.toml");
     const GroundOutline outline = ground_outline(*made.scene, diagnosis);
     std::set<std::pair<double, double>> places;
@@ -186,6 +214,20 @@ TEST(GroundMesh, HasAFanAtEverySingularPointAndNowhereElse) {
   using Places = std::set<std::pair<double, double>>;
   EXPECT_EQ(singular(layered), (Places{{1.0, 0.0}}));
   EXPECT_EQ(singular(cut), (Places{{0.0, 0.0}}));
+  // Where one stress cannot have both sides' tractions: a shear beside a side without, and a
+  // pressure up to the crest of a slope, but not up to an upright cut.
+  EXPECT_EQ(singular(sheared), (Places{{0.0, 1.0}, {4.0, 1.0}}));
+  EXPECT_EQ(singular(sheared, {"side.left.kind=roller", "side.right.kind=fixed"}),
+            (Places{{0.0, 1.0}}));
+  const std::vector<std::string> pressed{"side.top.live_shear=0", "side.top.live_pressure=1"};
+  EXPECT_EQ(singular(sheared, pressed), Places{});
+  std::vector<std::string> crest = pressed;
+  for (const char* setting :
+       {"region.0.outline=[[-1, 0], [4, 0], [4, 1], [0, 1]]", "side.left.along=[[-1, 0], [0, 1]]",
+        "side.floor.along=[[-1, 0], [4, 0]]"}) {
+    crest.emplace_back(setting);
+  }
+  EXPECT_EQ(singular(sheared, crest), (Places{{0.0, 1.0}}));
   // As many triangles meet there as rays have been asked for: 1.5 x 24 over 270 degrees.
   const Mesh mesh = read(cut).found->associated.lower.mesh;
   int at_toe = 0;
@@ -241,6 +283,16 @@ TEST(Ground, AUniformTractionOnAStripCarriesPrandtlsPressure) {
   const double exact = 2.0 + std::numbers::pi;  // c / live_pressure = 1
   EXPECT_LT(*found.lower, exact);
   EXPECT_GT(*found.upper, exact);
+  EXPECT_LT(found.gap(), 0.1);
+}
+
+// With one triangle in a corner, its stress would have the top's shear and none: no load at all.
+TEST(Ground, AShearMayMeetAFreeSide) {
+  const Read made = read(sheared);
+  ASSERT_TRUE(made.found) << made.errors;
+  const Solution found = coarse(made);
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_LT(*found.lower, 1.0);  // the block slips along its floor under the cohesion
   EXPECT_LT(found.gap(), 0.1);
 }
 
