@@ -136,6 +136,8 @@ TEST(GroundScene, RefusesWhatIsNoGroundByFileLineAndKey) {
   EXPECT_THAT(with("region.soft.outline=[[0, -2], [4, -2], 3]"),
               HasSubstr("a list of points [x, y]"));
   EXPECT_THAT(with("region.soft.outline=[[0, -2], [4, -2]]"), HasSubstr("found 2 points"));
+  EXPECT_THAT(with("region.soft.outline=[[0, -2e200], [4, -2], [4, -1], [0, -1]]"),
+              HasSubstr("the ground is 2e+200 m across"));
   EXPECT_THAT(
       with("region.soft.outline=[[0, -2], [4, -1], [4, -2], [0, -1]]"),
       AllOf(HasSubstr("--set region.soft.outline"), HasSubstr("crosses itself at (2, -1.5)")));
