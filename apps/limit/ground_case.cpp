@@ -335,8 +335,18 @@ Case case_of(const GroundScene& scene, const GroundOutline& outline,
   const double length = length_of(scene, outline, base);
   result.units = units_of(result.lower, length);
   result.upper = result.lower;
-  result.lower.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, true));
-  result.upper.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, false));
+  try {
+    result.lower.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, true));
+    result.upper.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, false));
+  } catch (const GroundTooFine& narrow) {
+    diagnosis.error(
+        fmt::format("region.{}.outline", narrow.region),
+        fmt::format("so narrow at ({:.6g}, {:.6g}) that a mesh would begin with more than {} "
+                    "triangles",
+                    narrow.place.x(), narrow.place.y(), most_first_triangles),
+        "triangles are as small as the narrowest place near them; layers and gaps are wider, or "
+        "left out");
+  }
   return result;
 }
 
@@ -355,6 +365,7 @@ std::optional<SceneCase> ground_case(const GroundScene& scene, wiring::Diagnosis
       });
   if (is_associated) return result;
   result.davis = case_of(scene, outline, base, true, diagnosis);
+  if (!diagnosis.errors().empty()) return std::nullopt;
   // Both in the same units, for one report.
   result.davis->units = result.associated.units;
   return result;

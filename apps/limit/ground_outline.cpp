@@ -83,6 +83,16 @@ class Arranger {
     if (!(extent >= least && extent <= most)) {
       diagnosis_.error(key(0), fmt::format("the ground is {:.3g} m across", extent),
                        fmt::format("allowed are {:g} .. {:g} m", least, most));
+      return;
+    }
+    // Coordinates must tell places apart that are well within the tolerance.
+    constexpr double farthest = 1e6;
+    const double away = std::max(high.cwiseAbs().maxCoeff(), low.cwiseAbs().maxCoeff());
+    if (away > farthest * extent) {
+      diagnosis_.error(
+          key(0),
+          fmt::format("the ground is {:.3g} m across, {:.3g} m away from the origin", extent, away),
+          fmt::format("allowed is {:g} times its size", farthest));
     }
     result_.size = (high - low).norm();
   }

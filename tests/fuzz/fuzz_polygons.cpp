@@ -28,7 +28,8 @@ class Pen {
   }
   Point point() {
     const std::uint8_t place = byte(), beside = byte();
-    return {place / 16 + little(beside / 16), place % 16 + little(beside % 16)};
+    const int x = place / 16, y = place % 16;
+    return {x + little(beside / 16), y + little(beside % 16)};
   }
 
  private:

@@ -138,6 +138,10 @@ TEST(GroundScene, RefusesWhatIsNoGroundByFileLineAndKey) {
   EXPECT_THAT(with("region.soft.outline=[[0, -2], [4, -2]]"), HasSubstr("found 2 points"));
   EXPECT_THAT(with("region.soft.outline=[[0, -2e200], [4, -2], [4, -1], [0, -1]]"),
               HasSubstr("the ground is 2e+200 m across"));
+  EXPECT_THAT(read(layered, {"region.crust.outline=[[4e7, 0], [40000004, 0], [4e7, 2]]",
+                             "region.soft.outline=[[4e7, 0], [40000004, 0], [4e7, -2]]"})
+                  .errors,
+              HasSubstr("4e+07 m away from the origin"));
   EXPECT_THAT(
       with("region.soft.outline=[[0, -2], [4, -1], [4, -2], [0, -1]]"),
       AllOf(HasSubstr("--set region.soft.outline"), HasSubstr("crosses itself at (2, -1.5)")));
@@ -166,6 +170,16 @@ TEST(GroundScene, RefusesWhatIsNoGroundByFileLineAndKey) {
   EXPECT_THAT(with("load.eccentricity=0.1"), HasSubstr("guided = false"));
   EXPECT_THAT(with("load.sought=gravity"), HasSubstr("a unit_weight that grows"));
   EXPECT_EQ(read(layered).errors, "");
+}
+
+TEST(GroundScene, RefusesWhatWouldTakeTooManyTriangles) {
+  const std::string thin = read(layered, {"region.crust.outline=[[0, -1e-4], [4, -1e-4], [4, 0], "
+                                          "[1, 0], [0, 0]]",
+                                          "region.soft.outline=[[0, -2], [4, -2], [4, -1e-4], "
+                                          "[0, -1e-4]]"})
+                               .errors;
+  EXPECT_THAT(thin, AllOf(HasSubstr("region.crust.outline"), HasSubstr("so narrow at ("),
+                          HasSubstr("12000 triangles")));
 }
 
 double area(const Mesh& mesh) {
