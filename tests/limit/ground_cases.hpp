@@ -60,14 +60,16 @@ inline std::vector<KnownGround> known_grounds() {
   };
 }
 
-/// The case of a shipped scene.
-inline std::optional<SceneCase> shipped(const char* name) {
+/// The case of a shipped scene, with settings.
+inline std::optional<SceneCase> shipped(const char* name,
+                                        const std::vector<std::string>& settings = {}) {
   const auto file =
       std::filesystem::path(FPM_SHARE_DIR) / "scenes" / "limit" / (std::string(name) + ".toml");
   const auto text = wiring::text_of(file);
   wiring::Diagnosis diagnosis(file.string());
   std::optional<wiring::Problem> unreadable;
-  const auto scene = read_ground_scene(std::get<std::string>(text), {}, diagnosis, unreadable);
+  const auto scene =
+      read_ground_scene(std::get<std::string>(text), settings, diagnosis, unreadable);
   std::optional<SceneCase> found;
   if (scene) found = ground_case(*scene, diagnosis);
   for (const wiring::Problem& one : diagnosis.errors()) ADD_FAILURE() << one.text();

@@ -364,6 +364,22 @@ TEST(Ground, AFootingThatMayLiftOffBearsNoMoreThanABondedOne) {
   EXPECT_GT(*found[1].upper, 0.5e3 * (2.0 + std::numbers::pi));
 }
 
+// Of the base, nine tenths lift off: little stiffness beside the mean stresses of clay, which are
+// free.
+TEST(Ground, ALoadCloseToTheEdgeOfABaseThatLiftsOffNeedsNoFallBack) {
+  const auto problem = shipped("eccentric_lift_off", {"load.eccentricity=0.9"});
+  ASSERT_TRUE(problem);
+  BracketOptions options;
+  options.max_triangles = 1;
+  const Solution found = solution_of(problem->associated, options, {});
+  ASSERT_TRUE(found.lower && found.upper);
+  ASSERT_EQ(found.bracket.attempts.size(), 2U);
+  for (const Attempt& attempt : found.bracket.attempts) {
+    EXPECT_EQ(attempt.status, SolverStatus::solved) << attempt.message;
+  }
+  EXPECT_GT(*found.upper, 0.1e3 * (2.0 + std::numbers::pi));  // Meyerhof's effective width
+}
+
 TEST(Ground, AFootingThatMayLiftOffBearsNoLoadBesideIt) {
   const std::vector<std::string> beside{"side.footing.tension=false", "load.guided=false",
                                         "load.eccentricity=0.5"};
