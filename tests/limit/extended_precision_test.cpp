@@ -517,10 +517,13 @@ INSTANTIATE_TEST_SUITE_P(
     Problems, ExtendedPrecision,
     ::testing::Values(CaseOf{"tresca", tresca_strip}, CaseOf{"rough", rough_strip},
                       CaseOf{"smooth", smooth_strip}, CaseOf{"flexible", flexible_strip},
-                      CaseOf{"inclined", inclined_strip}, CaseOf{"growing_weight", growing_weight},
-                      CaseOf{"lifting_tresca", lifting_tresca},
-                      CaseOf{"lifting_rough", lifting_rough},
-                      CaseOf{"lifting_smooth", lifting_smooth}),
+                      CaseOf{"inclined", inclined_strip}, CaseOf{"growing_weight", growing_weight}),
     [](const auto& info) { return std::string(info.param.name); });
+
+INSTANTIATE_TEST_SUITE_P(LiftingOff, ExtendedPrecision,
+                         ::testing::Values(CaseOf{"tresca", lifting_tresca},
+                                           CaseOf{"rough", lifting_rough},
+                                           CaseOf{"smooth", lifting_smooth}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
