@@ -25,14 +25,20 @@ Case strip_case(const Strip& strip, std::optional<Box> wanted) {
                   "upper bound holds for a half-space, too, the lower one only if the box is wide "
                   "and deep enough not to matter",
                   box.width, box.depth),
-      strip.rough ? "rough base: up to the soil's full strength in shear, and in tension"
-                  : "smooth base: no shear stress; bonded, up to the soil's strength in tension"};
+      base_assumption(strip.rough, strip.tension)};
   result.hand = hand_formulas(soil.cohesion, soil.friction_angle, soil.unit_weight, strip.surcharge,
                               strip.half_width);
   result.units = units_of(strip);
   result.lower = strip_problem(strip, lower_fan(strip, box));
   result.upper = strip_problem(strip, upper_fan(strip, box));
   return result;
+}
+
+std::string base_assumption(bool rough, bool tension) {
+  return fmt::format("{} base: {}; {}", rough ? "rough" : "smooth",
+                     rough ? "up to the soil's full strength in shear" : "no shear stress",
+                     tension ? "bonded, up to the soil's strength in tension"
+                             : "no tension, the footing may lift off the soil");
 }
 
 Soil davis_reduced(const Soil& soil, double dilation_angle) {

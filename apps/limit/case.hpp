@@ -29,6 +29,9 @@ struct Case {
 /// @throws std::invalid_argument, see check(Strip).
 [[nodiscard]] Case strip_case(const Strip& strip, std::optional<Box> box);
 
+/// What is assumed of a footing's base, for a report.
+[[nodiscard]] std::string base_assumption(bool rough, bool tension);
+
 /// The soil whose associated collapse is taken for that of a soil that dilates by less than its
 /// friction angle (Davis 1968): c and tan(phi) times cos(psi) cos(phi) / (1 - sin(psi) sin(phi)).
 /// An estimate, no bound. Angles in radians.

@@ -74,6 +74,9 @@ po::options_description options() {
        "half the width of the footing")                                        //
       ("rough", po::bool_switch(), "base with the soil's strength (default)")  //
       ("smooth", po::bool_switch(), "base without shear stress")               //
+      ("no-tension", po::bool_switch(),
+       "the footing (of --strip or of a scene of fpm-run) may lift off; default: the soil holds it "
+       "down, up to its strength")  //
       ("box-width", po::value<double>()->value_name("N"),
        "modelled ground from the axis, in half widths; default: room for Prandtl's mechanism")  //
       ("box-depth", po::value<double>()->value_name("N"), "and below the surface")              //
@@ -174,6 +177,7 @@ Strip strip_of(const po::variables_map& values) {
   strip.surcharge = values["surcharge"].as<double>();
   strip.half_width = values["half-width"].as<double>();
   strip.rough = !values["smooth"].as<bool>();
+  strip.tension = !values["no-tension"].as<bool>();
   return strip;
 }
 
@@ -246,7 +250,12 @@ std::optional<SceneCase> case_of(const po::variables_map& values, std::ostream& 
     say_errors({*problem}, err);
     return std::nullopt;
   }
+  const bool tension = !values["no-tension"].as<bool>();
   if (is_ground_scene(std::get<std::string>(text))) {
+    if (!tension) {
+      throw UsageError(
+          "--no-tension: a scene of polygons has the key tension in its footing's side");
+    }
     return case_of_ground(scenes.front(), std::get<std::string>(text), settings, err);
   }
   const wiring::SceneReading reading =
@@ -254,7 +263,7 @@ std::optional<SceneCase> case_of(const po::variables_map& values, std::ostream& 
   for (const wiring::Problem& one : reading.warnings) err << "warning: " << one.text() << '\n';
   say_errors(reading.errors, err);
   if (!reading.scene) return std::nullopt;
-  return scene_case(*reading.scene);
+  return scene_case(*reading.scene, tension);
 }
 
 void write_all_fields(const std::string& prefix, Case problem, const Solution& found) {

@@ -17,8 +17,11 @@ namespace {
 // against the cones', which are of order one at first.
 constexpr double little = 1e-8;
 // Added to the diagonal of A H^-1 A', in all and as a share of each entry: makes up for equations
-// that depend on each other, as a lower bound's do, whose pivots are nothing but rounding.
-constexpr double least = 1e-10, least_share = 1e-13;
+// that depend on each other, as a lower bound's do, whose pivots are nothing but rounding. The
+// share is that of rounding, too: the mean stresses of clay, free as they are, make entries of 1 /
+// little, beside which a larger one would outweigh what stiffness is left, and the solution be
+// lost.
+constexpr double least = 1e-10, least_share = 1e-15;
 
 // Sine of a few degrees: below, the mean stress has hardly any curvature of its own.
 constexpr double little_friction = 0.1;

@@ -96,6 +96,12 @@ Footing footing_of(const GroundScene& scene, const Base& base, wiring::Diagnosis
   } else {
     footing.may_move = {true, true, true};
   }
+  if (!scene.sides[base.side].tension && std::abs(load.eccentricity) >= base.width / 2.0) {
+    diagnosis.error("load.eccentricity", fmt::format("found {:g}", load.eccentricity),
+                    fmt::format("without tension under it, the footing bears loads less than half "
+                                "its width ({:g}) from its middle",
+                                base.width / 2.0));
+  }
   const double given = scene.sides[base.side].pressure;
   for (std::size_t i = 0; i < 3; ++i) {
     footing.dead_load[i] = given * unit[i];
@@ -116,6 +122,7 @@ Boundary boundary_of(const GroundScene& scene, const GroundSide& side) {
     case SideKind::footing:
       boundary.normal = Known::footing;
       boundary.tangential = side.rough ? Known::footing : Known::traction;
+      boundary.may_open = !side.tension;
       break;
     case SideKind::loaded:
       boundary.normal_stress = -side.pressure;
@@ -260,10 +267,8 @@ std::vector<std::string> assumptions_of(const GroundScene& scene, const Problem&
       "the polygons of the scene, rigid beyond fixed sides and rollers; the lower bound holds for "
       "wider ground only if these are far enough away not to matter"};
   if (base) {
-    const bool rough = scene.sides[base->side].rough;
-    assumptions.emplace_back(
-        rough ? "rough base: up to the soil's full strength in shear, and in tension"
-              : "smooth base: no shear stress; bonded, up to the soil's strength in tension");
+    const GroundSide& side = scene.sides[base->side];
+    assumptions.push_back(base_assumption(side.rough, side.tension));
     assumptions.emplace_back(problem.footing.may_move[2]
                                  ? "the footing is free to move along x and y and to rotate"
                                  : "the footing is guided along its normal");
@@ -330,8 +335,18 @@ Case case_of(const GroundScene& scene, const GroundOutline& outline,
   const double length = length_of(scene, outline, base);
   result.units = units_of(result.lower, length);
   result.upper = result.lower;
-  result.lower.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, true));
-  result.upper.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, false));
+  try {
+    result.lower.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, true));
+    result.upper.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, false));
+  } catch (const GroundTooFine& narrow) {
+    diagnosis.error(
+        fmt::format("region.{}.outline", narrow.region),
+        fmt::format("so narrow at ({:.6g}, {:.6g}) that a mesh would begin with more than {} "
+                    "triangles",
+                    narrow.place.x(), narrow.place.y(), most_first_triangles),
+        "triangles are as small as the narrowest place near them; layers and gaps are wider, or "
+        "left out");
+  }
   return result;
 }
 
@@ -350,6 +365,7 @@ std::optional<SceneCase> ground_case(const GroundScene& scene, wiring::Diagnosis
       });
   if (is_associated) return result;
   result.davis = case_of(scene, outline, base, true, diagnosis);
+  if (!diagnosis.errors().empty()) return std::nullopt;
   // Both in the same units, for one report.
   result.davis->units = result.associated.units;
   return result;

@@ -1,5 +1,6 @@
 #include "limit/ground_fan.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -39,11 +40,51 @@ Corner corner_at(const GroundOutline& outline, int point) {
   return corner;
 }
 
+// What a side says of the stress (xx, yy, xy) in each of its ends: its normal and its shear
+// component, where these are given; columns of the values: given, and per unit of the multiplier.
+struct GivenTraction {
+  GivenTraction(const GroundScene& scene, const GroundOutline& outline,
+                const GroundSegment& segment) {
+    const GroundSide& side = scene.sides[static_cast<std::size_t>(segment.side)];
+    if (side.kind == SideKind::fixed) return;
+    const Point t = (outline.at(segment.second) - outline.at(segment.first)).normalized();
+    const Point n(t.y(), -t.x());
+    const bool is_live = scene.load.sought == Sought::traction;
+    if (side.kind == SideKind::free || side.kind == SideKind::loaded) {
+      forms.row(0) << n.x() * n.x(), n.y() * n.y(), 2.0 * n.x() * n.y();
+      values.row(0) << -side.pressure, is_live ? -side.live_pressure : 0.0;
+    }
+    if (side.kind == SideKind::footing && side.rough) return;
+    forms.row(1) << n.x() * t.x(), n.y() * t.y(), n.x() * t.y() + n.y() * t.x();
+    values.row(1) << side.shear, is_live ? side.live_shear : 0.0;
+  }
+  Eigen::Matrix<double, 2, 3> forms = Eigen::Matrix<double, 2, 3>::Zero();
+  Eigen::Matrix2d values = Eigen::Matrix2d::Zero();
+};
+
+// Whether one stress cannot have the tractions of both sides, as a shear that meets a shear-free
+// side at a right angle, or only a large one can. Stress may jump within a fan.
+bool needs_two_stresses(const GroundScene& scene, const GroundOutline& outline,
+                        const Corner& corner) {
+  const GivenTraction before(scene, outline, *corner.before);
+  const GivenTraction after(scene, outline, *corner.after);
+  Eigen::Matrix<double, 4, 3> forms;
+  Eigen::Matrix<double, 4, 2> values;
+  forms << before.forms, after.forms;
+  values << before.values, after.values;
+  const Eigen::Matrix<double, 3, 2> least = forms.completeOrthogonalDecomposition().solve(values);
+  constexpr double rounding = 1e-9, large = 2.0;
+  return (forms * least - values).norm() > rounding * values.norm() ||
+         least.norm() > large * values.norm();
+}
+
 bool is_singular(const GroundScene& scene, const GroundOutline& outline, const Corner& corner) {
   // Less is a step of a polygon that stands for a curve.
   constexpr double turn = 10.0 * pi / 180.0;
   const double angle = corner.angle(outline);
   if (angle > pi + turn) return true;
+  // Flatter corners have several triangles anyway.
+  if (angle < pi - turn && needs_two_stresses(scene, outline, corner)) return true;
   const GroundSide& before = scene.sides[static_cast<std::size_t>(corner.before->side)];
   const GroundSide& after = scene.sides[static_cast<std::size_t>(corner.after->side)];
   if (before.kind == SideKind::roller || after.kind == SideKind::roller) return false;
@@ -104,10 +145,10 @@ std::vector<Limit> limits_at(const GroundOutline& outline, const Corner& corner)
   return limits;
 }
 
-// The rays from one of them until just before the next.
+// The rays from one of them until just before the next, at least two.
 void add_sector(GroundFan& fan, const Limit& limit, double end, double rays_per_radian) {
   const double opening = end - limit.angle;
-  const int rays = std::max(1, static_cast<int>(std::lround(rays_per_radian * opening)));
+  const int rays = std::max(2, static_cast<int>(std::lround(rays_per_radian * opening)));
   const Point& u = limit.direction;
   fan.directions.push_back(u);
   fan.regions.push_back(limit.region);

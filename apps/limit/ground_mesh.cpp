@@ -9,6 +9,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -125,7 +126,25 @@ class Mesher {
     CGAL::Delaunay_mesher_2<Triangulation, Criteria> mesher(triangulation_,
                                                             Criteria(sharpest, longest_));
     mesher.set_seeds(outside.begin(), outside.end(), false);
-    mesher.refine_mesh();
+    mesher.init();
+    while (mesher.step_by_step_refine_mesh()) {
+      if (triangulation_.number_of_faces() > most_first_triangles) throw too_fine();
+    }
+  }
+
+  // With the place of the smallest triangle.
+  [[nodiscard]] GroundTooFine too_fine() const {
+    GroundTooFine narrow;
+    double least = std::numeric_limits<double>::infinity();
+    for (auto face : triangulation_.finite_face_handles()) {
+      const double area = triangulation_.triangle(face).area();
+      const int region = region_at(centre_of(face));
+      if (region < 0 || area >= least) continue;
+      least = area;
+      narrow.region = static_cast<std::size_t>(region);
+      narrow.place = centre_of(face);
+    }
+    return narrow;
   }
 
   int node_at(const Point& place) {

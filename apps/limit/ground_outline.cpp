@@ -46,7 +46,7 @@ class Arranger {
 
   GroundOutline outline() {
     measure();
-    collect_points();
+    if (is_good()) collect_points();
     if (is_good() && points_are_apart()) {
       for (auto& ring : result_.regions) divide(ring);
       for (std::size_t r = 0; r < scene_.regions.size(); ++r) check_itself(r);
@@ -76,6 +76,23 @@ class Arranger {
         low = low.cwiseMin(point);
         high = high.cwiseMax(point);
       }
+    }
+    // Squares of lengths must neither overflow nor vanish.
+    constexpr double least = 1e-100, most = 1e100;
+    const double extent = (high - low).maxCoeff();
+    if (!(extent >= least && extent <= most)) {
+      diagnosis_.error(key(0), fmt::format("the ground is {:.3g} m across", extent),
+                       fmt::format("allowed are {:g} .. {:g} m", least, most));
+      return;
+    }
+    // Coordinates must tell places apart that are well within the tolerance.
+    constexpr double farthest = 1e6;
+    const double away = std::max(high.cwiseAbs().maxCoeff(), low.cwiseAbs().maxCoeff());
+    if (away > farthest * extent) {
+      diagnosis_.error(
+          key(0),
+          fmt::format("the ground is {:.3g} m across, {:.3g} m away from the origin", extent, away),
+          fmt::format("allowed is {:g} times its size", farthest));
     }
     result_.size = (high - low).norm();
   }

@@ -28,8 +28,9 @@ struct GroundOutline {
 };
 
 /// Joins the regions and finds the side of each part of the outline. What is no ground is an error
-/// of the diagnosis: polygons that cross or touch themselves, overlap, are thinner than a millionth
-/// of the whole, or fall apart; sides off the outline; outline (of a hole, too) without a side.
+/// of the diagnosis: a size whose square is no number, or too small for the digits of its place;
+/// polygons that cross or touch themselves, overlap, are thinner than a millionth of the whole, or
+/// fall apart; sides off the outline; outline (of a hole, too) without a side.
 [[nodiscard]] GroundOutline ground_outline(const GroundScene& scene, wiring::Diagnosis& diagnosis);
 
 /// Distance of a place from the straight piece between two others.

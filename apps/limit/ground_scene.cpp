@@ -89,7 +89,10 @@ std::vector<TableInfo> make_tables() {
                    {.unit = "Pa", .doc = "loaded: per unit of the multiplier"}),
              field("live_shear", ValueKind::number, {.unit = "Pa", .doc = "likewise"}),
              field("base", ValueKind::choice, {.doc = "of the footing; default rough"},
-                   {"rough", "smooth"})})};
+                   {"rough", "smooth"}),
+             field("tension", ValueKind::boolean,
+                   {.doc = "of the footing: whether the soil holds it down, up to its strength, or "
+                           "it may lift off; default true"})})};
 }
 
 const std::vector<TableInfo>& tables() {
@@ -214,6 +217,7 @@ class Reader {
     side.live_pressure = value_or(entry, "live_pressure", 0.0);
     side.live_shear = value_or(entry, "live_shear", 0.0);
     side.rough = value_or(entry, "base", std::string("rough")) == "rough";
+    side.tension = value_or(entry, "tension", true);
     const auto belongs = [&](std::string_view key, bool allowed, const char* to) {
       if (allowed || entry.count(key) == 0) return;
       diagnosis_.error(fmt::format("side.{}.{}", i, key), "given for a side of kind " + kind,
@@ -224,7 +228,7 @@ class Reader {
     for (const char* key : {"shear", "live_pressure", "live_shear"}) {
       belongs(key, loaded, "kind loaded");
     }
-    belongs("base", footing, "kind footing");
+    for (const char* key : {"base", "tension"}) belongs(key, footing, "kind footing");
     if (side.along.size() == 1) {
       diagnosis_.error(fmt::format("side.{}.along", i), "found one point", "allowed are 2 or more");
     }

@@ -37,7 +37,8 @@ struct GroundSide {
   double shear = 0.0;          // [Pa] loaded: given, along the outline with the ground to the left
   double live_pressure = 0.0;  // [Pa] loaded: per unit of the multiplier
   double live_shear = 0.0;
-  bool rough = true;  // footing
+  bool rough = true;    // footing
+  bool tension = true;  // footing: bonded to the soil; else it may lift off
 };
 
 enum class Sought { footing, traction, gravity, strength };

@@ -54,12 +54,14 @@ class Builder {
         add_cone(triangle.region, problem.mesh.nodes[static_cast<std::size_t>(node)]);
       }
     }
+    for (const Edge& edge : edges_) add_contacts(edge);
   }
 
   ConeProgram program() {
     equilibrium_of_triangles();
     equilibrium_of_sides();
     equilibrium_of_footing();
+    stresses_of_contacts();
     const Eigen::Index variables = multiplier() + 1;
     ConeProgram program;
     program.cones = cones_;
@@ -87,6 +89,27 @@ class Builder {
     const double load = overburden_.at(soil, place);
     cones_.push_back(yield_cone(soil, load, reserve));
     starts_.push_back(inner_point(cones_.back(), load));
+  }
+
+  // Cones of the normal stress at both ends of a side that may open.
+  void add_contacts(const Edge& edge) {
+    if (edge.boundary < 0) return;
+    if (!problem_.boundaries[static_cast<std::size_t>(edge.boundary)].may_open) return;
+    const Point normal = SideFrame(problem_.mesh, edge).normal;
+    for (const int node : {edge.first, edge.second}) {
+      const Eigen::Index stress = corner_at(edge.left, node);
+      contacts_.push_back({stress, multiplier(), normal});
+      cones_.push_back(contact_cone(cones_[static_cast<std::size_t>(stress / 3)].scale, reserve));
+      starts_.push_back(inner_point(cones_.back(), 0.0));
+    }
+  }
+
+  void stresses_of_contacts() {
+    for (const Contact& contact : contacts_) {
+      equations_.begin(0.0);
+      add(contact.stress, traction(contact.normal, contact.normal));
+      equations_.add(contact.variable, -1.0);
+    }
   }
 
   void add(Eigen::Index variables, const Form& form, double factor = 1.0) {
@@ -180,6 +203,12 @@ class Builder {
   Overburden overburden_;
   std::vector<YieldCone> cones_;
   std::vector<Eigen::Vector3d> starts_;
+  // The stress of a corner, and the variable that is its normal component.
+  struct Contact {
+    Eigen::Index stress, variable;
+    Point normal;
+  };
+  std::vector<Contact> contacts_;
   EquationBuilder equations_;
 };
 

@@ -15,7 +15,8 @@ using StressField = std::vector<Eigen::Matrix3d>;
 /// The lower-bound theorem on linear stress triangles with statically admissible discontinuities
 /// (Lyamin & Sloan 2002): maximise the multiplier over stress fields in equilibrium inside the
 /// triangles, across their sides, at the boundaries and with the footing, nowhere beyond yield.
-/// The variables are 9 per triangle, the last one is the multiplier.
+/// Where the footing may lift off, no corner under it is in tension.
+/// The variables are 9 per triangle, 3 per such corner, the last one is the multiplier.
 /// The strength is less by one or two parts in 1e6, so that the answer of a solver lies inside.
 [[nodiscard]] ConeProgram lower_bound_program(const Problem& problem);
 

@@ -125,10 +125,43 @@ class Equilibrium {
   EquationBuilder equations_;
 };
 
-// Radius of Mohr's circle less the one that yields, over a stress that cannot vanish.
-double excess(const Soil& soil, const Eigen::Vector3d& stress) {
+// What no stress may exceed: yield in each triangle's corner, no tension where a footing may lift
+// off.
+struct Limit {
+  Eigen::Index corner = 0;
+  const Soil* soil = nullptr;  // none: no tension
+  Point normal{0.0, 0.0};
+};
+
+std::vector<Limit> limits_of(const Problem& problem) {
+  std::vector<Limit> limits;
+  const Mesh& mesh = problem.mesh;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Soil& soil = problem.soils[static_cast<std::size_t>(mesh.triangles[t].region)];
+    for (int i = 0; i < 3; ++i) limits.push_back({static_cast<Eigen::Index>(9 * t) + 3 * i, &soil});
+  }
+  for (const Edge& edge : edges_of(mesh)) {
+    if (edge.boundary < 0) continue;
+    if (!problem.boundaries[static_cast<std::size_t>(edge.boundary)].may_open) continue;
+    const Point along = (node_at(mesh, edge.second) - node_at(mesh, edge.first)).normalized();
+    for (const int node : {edge.first, edge.second}) {
+      limits.push_back(
+          {corner_index(mesh, edge.left, node), nullptr, Point(along.y(), -along.x())});
+    }
+  }
+  return limits;
+}
+
+// Radius of Mohr's circle less the one that yields, over a stress that cannot vanish; or tension.
+double excess(const Limit& limit, const Eigen::VectorXd& field) {
+  const auto stress = field.segment<3>(limit.corner);
+  if (limit.soil == nullptr) {
+    const Point& n = limit.normal;
+    return n.x() * n.x() * stress[0] + n.y() * n.y() * stress[1] + 2.0 * n.x() * n.y() * stress[2];
+  }
   const double mean = (stress[0] + stress[1]) / 2.0;
   const double radius = std::hypot((stress[0] - stress[1]) / 2.0, stress[2]);
+  const Soil& soil = *limit.soil;
   const double strength =
       soil.cohesion * std::cos(soil.friction_angle) - mean * std::sin(soil.friction_angle);
   return radius - strength;
@@ -208,25 +241,20 @@ LowerCertificate certify_lower(const Problem& problem, const StressField& propos
   const auto equations = equilibrium.matrix();
   Eigen::VectorXd x = as_vector(proposed);
   certificate.residual = satisfy(equations, equilibrium.right_side(), x);
-  certificate.field = as_field(x);
 
   const std::optional<Rest> rest = rest_of(problem);
+  const std::vector<Limit> limits = limits_of(problem);
   certificate.yield_excess = -INFINITY;
   double drawn = 0.0;
   bool inside = true;
-  for (std::size_t t = 0; t < proposed.size(); ++t) {
-    const Soil& soil = problem.soils[static_cast<std::size_t>(problem.mesh.triangles[t].region)];
-    for (int i = 0; i < 3; ++i) {
-      const double here = excess(soil, certificate.field[t].col(i));
-      certificate.yield_excess = std::max(certificate.yield_excess, here);
-      if (here <= 0.0) continue;
-      // Convex: at the share t of rest the excess is at most (1 - t) here + t resting.
-      const double resting =
-          rest ? excess(soil, rest->stress.segment<3>(static_cast<Eigen::Index>(9 * t) + 3 * i))
-               : 0.0;
-      inside = inside && resting < 0.0;
-      drawn = std::max(drawn, here / (here - resting));
-    }
+  for (const Limit& limit : limits) {
+    const double here = excess(limit, x);
+    certificate.yield_excess = std::max(certificate.yield_excess, here);
+    if (here <= 0.0) continue;
+    // Convex: at the share t of rest the excess is at most (1 - t) here + t resting.
+    const double resting = rest ? excess(limit, rest->stress) : 0.0;
+    inside = inside && resting < 0.0;
+    drawn = std::max(drawn, here / (here - resting));
   }
   if (drawn > 0.0 && inside) {
     constexpr double more = 1.0 + 1e-6;  // so that rounding does not undo it
@@ -236,12 +264,9 @@ LowerCertificate certify_lower(const Problem& problem, const StressField& propos
     certificate.multiplier = certificate.kept * multiplier + drawn * rest->multiplier;
     const Equilibrium after(problem, certificate.multiplier);
     certificate.residual = (after.matrix() * x - after.right_side()).lpNorm<Eigen::Infinity>();
-    certificate.field = as_field(x);
-    for (std::size_t t = 0; t < proposed.size(); ++t) {
-      const Soil& soil = problem.soils[static_cast<std::size_t>(problem.mesh.triangles[t].region)];
-      for (int i = 0; i < 3; ++i) inside = inside && excess(soil, certificate.field[t].col(i)) <= 0;
-    }
+    for (const Limit& limit : limits) inside = inside && excess(limit, x) <= 0.0;
   }
+  certificate.field = as_field(x);
   // Relative to stresses up to the multiplier's size, in the problem's units of order one.
   const double rounding = 1e-10 * std::max(1.0, std::abs(multiplier));
   certificate.holds = inside && certificate.residual < rounding;

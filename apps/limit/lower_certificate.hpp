@@ -13,8 +13,9 @@ struct LowerCertificate {
   double proposed = 0.0;      // what the optimiser claimed
   double residual = 0.0;      // largest imbalance left: force of a triangle over its outline's
                               // length, jump of the traction at a side's end
-  double yield_excess = 0.0;  // largest d^2 + t^2 beyond yield over the strength, as a stress
-                              // ratio, before the field was drawn inwards; <= 0: it lay inside
+  double yield_excess = 0.0;  // largest radius of Mohr's circle beyond yield, or tension where the
+                              // footing may lift off, before the field was drawn inwards; <= 0: it
+                              // lay inside
   double kept = 1.0;          // share of the field that was kept; the rest is the resting ground's
   bool holds = false;         // the field is in equilibrium to rounding and nowhere beyond yield
   StressField field;

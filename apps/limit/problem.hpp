@@ -32,6 +32,7 @@ struct Boundary {
   double shear_stress = 0.0;        // [Pa] along the outline, body to the left
   double live_normal_stress = 0.0;  // [Pa] per unit of the multiplier, in addition
   double live_shear_stress = 0.0;
+  bool may_open = false;  // where normal == footing: no tension, the footing may leave the soil
 };
 
 /// A rigid body on the boundaries whose conditions name it. Its three motions are those along x and

@@ -168,9 +168,10 @@ Problem problem_of(const wiring::Scene& scene, const Footing2d& footing, const F
   return problem;
 }
 
-Case case_of(const wiring::Scene& scene, bool reduce) {
+Case case_of(const wiring::Scene& scene, bool tension, bool reduce) {
   Footing2d footing = footing_of(scene, reduce);
   Strip& strip = footing.strip;
+  strip.tension = tension;
   double steepest = 0.0;
   for (std::size_t m = 0; m < footing.soils.size(); ++m) {
     strip.soil = footing.soils[m];
@@ -210,14 +211,14 @@ Case case_of(const wiring::Scene& scene, bool reduce) {
 
 }  // namespace
 
-SceneCase scene_case(const wiring::Scene& scene) {
-  SceneCase result{case_of(scene, false), std::nullopt, scene};
+SceneCase scene_case(const wiring::Scene& scene, bool tension) {
+  SceneCase result{case_of(scene, tension, false), std::nullopt, scene};
   const bool is_associated =
       std::all_of(scene.material.begin(), scene.material.end(), [](const wiring::Material& m) {
         return m.dilation_angle.value_or(0.0) == m.friction_angle.value_or(0.0);
       });
   if (is_associated) return result;
-  result.davis = case_of(scene, true);
+  result.davis = case_of(scene, tension, true);
   // Both in the same units, for one report.
   result.davis->units = result.associated.units;
   return result;

@@ -17,7 +17,8 @@ struct SceneCase {
 
 /// The footing of a scene: half a body, mirrored at its left side, pressed down by a part of its
 /// top from there on. Materials become soils by their regions, whose boundaries the meshes follow.
+/// @param tension  whether the soil holds the footing down, which a scene does not say
 /// @throws std::invalid_argument, naming the key, for a scene that is no such footing.
-[[nodiscard]] SceneCase scene_case(const wiring::Scene& scene);
+[[nodiscard]] SceneCase scene_case(const wiring::Scene& scene, bool tension = true);
 
 }  // namespace limit

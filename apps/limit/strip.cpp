@@ -85,6 +85,7 @@ Problem strip_problem(const Strip& strip, const Fan& fan) {
   };
   boundary(FanBoundary::base) = {"base", Known::footing,
                                  strip.rough ? Known::footing : Known::traction};
+  boundary(FanBoundary::base).may_open = !strip.tension;
   boundary(FanBoundary::surface) = {"surface"};
   boundary(FanBoundary::surface).normal_stress = -strip.surcharge;
   boundary(FanBoundary::wall) = {"wall", Known::support, Known::support};

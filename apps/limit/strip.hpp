@@ -12,6 +12,7 @@ struct Strip {
   double half_width = 1.0;  // [m] > 0
   double surcharge = 0.0;   // [Pa] >= 0, on the surface beside the footing
   bool rough = true;        // the soil's full strength along the base; else no shear stress
+  bool tension = true;  // the soil's strength across the base, too; else the footing may lift off
 };
 
 /// Extent of the modelled half of the ground, in half widths, from the axis and from the surface.

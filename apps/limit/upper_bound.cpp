@@ -85,13 +85,20 @@ class Builder {
   ConeProgram program() {
     for (std::size_t t = 0; t < problem_.mesh.triangles.size(); ++t) add_triangle(t);
     for (const Edge& edge : edges_) add_side(edge);
+    const int equations = rows_.count + static_cast<int>(contacts_.size());
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const int row = rows_.count + static_cast<int>(c);
+      add(row, contacts_[c].traction, 1.0);
+      add(row, contacts_[c].variable, -1.0);
+    }
     const auto multiplier = static_cast<int>(3 * cones_.size());
     const Loads loads(problem_, edges_);
     for (int row = 0; row < rows_.count; ++row) add(row, multiplier, -loads.live[row]);
     ConeProgram program;
-    program.equations.resize(rows_.count, multiplier + 1);
+    program.equations.resize(equations, multiplier + 1);
     program.equations.setFromTriplets(entries_.begin(), entries_.end());
-    program.right_side = loads.dead;
+    program.right_side = Eigen::VectorXd::Zero(equations);
+    program.right_side.head(rows_.count) = loads.dead;
     program.objective = Eigen::VectorXd::Unit(multiplier + 1, multiplier);
     program.start = Eigen::VectorXd::Zero(multiplier + 1);
     for (std::size_t k = 0; k < cones_.size(); ++k) {
@@ -109,6 +116,14 @@ class Builder {
     cones_.push_back(yield_cone(soil, load, 0.0));
     starts_.push_back(inner_point(cones_.back(), load));
     return 3 * static_cast<int>(cones_.size() - 1);
+  }
+
+  // A normal traction (variable `traction`) that may not pull, as a variable of its own: the
+  // multiplier of their equality is the opening, which costs nothing.
+  void add_contact(int traction) {
+    contacts_.push_back({traction, 3 * static_cast<int>(cones_.size())});
+    cones_.push_back(contact_cone(cones_[static_cast<std::size_t>(traction / 3)].scale, 0.0));
+    starts_.push_back(inner_point(cones_.back(), 0.0));
   }
 
   void add(int row, int column, double value) {
@@ -141,7 +156,7 @@ class Builder {
   // velocity, the footing's or nothing, less that of the triangle. (p, t) is (normal, shear x
   // cos(phi)); d stays out.
   void add_side(const Edge& edge) {
-    bool has_shear = true;
+    bool has_shear = true, may_open = false;
     if (edge.boundary >= 0) {
       const Boundary& boundary = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
       if (boundary.normal == Known::traction && boundary.tangential != Known::traction) {
@@ -150,6 +165,7 @@ class Builder {
       }
       if (boundary.normal == Known::traction) return;
       has_shear = boundary.tangential != Known::traction;
+      may_open = boundary.may_open;
     }
     const Mesh& mesh = problem_.mesh;
     const int region = mesh.triangles[static_cast<std::size_t>(edge.left)].region;
@@ -164,6 +180,7 @@ class Builder {
         {{1.0, 0.0, 0.0}, {-0.5, 2.0, -0.5}, {0.0, 0.0, 1.0}}};
     for (std::size_t c = 0; c < 3; ++c) {
       const int column = add_cone(region, at[c]);
+      if (may_open) add_contact(column);
       for (std::size_t i = 0; i < 3; ++i) {
         const double factor = control[c][i] * length / 3.0;
         const Point n = factor * normal;
@@ -203,6 +220,10 @@ class Builder {
   Rows rows_;
   std::vector<YieldCone> cones_;
   std::vector<Eigen::Vector3d> starts_;
+  struct Contact {
+    int traction, variable;
+  };
+  std::vector<Contact> contacts_;
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
@@ -221,7 +242,8 @@ VelocityField velocity_field(const Problem& problem, const Eigen::VectorXd& mult
     if (rows.footing[motion] < 0) continue;
     field.footing[static_cast<Eigen::Index>(motion)] = multipliers[rows.footing[motion]];
   }
-  const double power = Loads(problem, edges_of(problem.mesh)).live.dot(multipliers);
+  const Eigen::VectorXd live = Loads(problem, edges_of(problem.mesh)).live;
+  const double power = live.dot(multipliers.head(live.size()));
   const double scale = power != 0.0 ? 1.0 / power : 1.0;
   field.footing *= scale;
   for (std::size_t t = 0; t < triangles; ++t) {

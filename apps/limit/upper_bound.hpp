@@ -22,7 +22,8 @@ struct VelocityField {
 /// every velocity is that of the loads. The strain rate is linear in a triangle and the jump
 /// quadratic along a side, so that a flow rule kept in the corners and by the jump's control points
 /// (Bernstein) is kept everywhere. The velocities are the multipliers of the equations: 12 per
-/// triangle, then the footing's motions that are free.
+/// triangle, then the footing's motions that are free; then the openings, at each control point
+/// where the footing may lift off.
 [[nodiscard]] ConeProgram upper_bound_program(const Problem& problem);
 
 /// The velocity field of such a program's multipliers, scaled to unit power of the live load.

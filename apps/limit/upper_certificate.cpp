@@ -25,12 +25,13 @@ double value(const Terms& terms, const Eigen::VectorXd& velocities) {
 }
 
 /// A place where soil flows: a corner of a triangle or a control point of a jump. It must dilate by
-/// at least `ratio` times the shear, exactly zero without friction, and dissipates, times `weight`,
-/// `per_dilation` times the dilation or `per_shear` times the shear.
+/// at least `ratio` times the shear, or, if it may not dilate, not at all, and dissipates, times
+/// `weight`, `per_dilation` times the dilation and `per_shear` times the shear.
 struct FlowPoint {
   Terms dilation;
   std::array<Terms, 2> shear;  // the root of the sum of their squares
   double ratio = 0.0;
+  bool may_dilate = false;
   double per_dilation = 0.0, per_shear = 0.0;
   double weight = 0.0;
   std::size_t triangle = 0;
@@ -70,7 +71,8 @@ class Flow {
     point.ratio = ratio;
     point.weight = weight;
     point.triangle = triangle;
-    if (soil.friction_angle > 0.0) {
+    point.may_dilate = soil.friction_angle > 0.0;
+    if (point.may_dilate) {
       point.per_dilation = soil.cohesion / std::tan(soil.friction_angle);
     } else {
       point.per_shear = soil.cohesion;
@@ -125,11 +127,12 @@ class Flow {
   }
 
   void jumps(const Edge& edge) {
-    bool slips_freely = false;
+    bool slips_freely = false, may_open = false;
     if (edge.boundary >= 0) {
       const Boundary& boundary = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
       if (boundary.normal == Known::traction) return;
       slips_freely = boundary.tangential == Known::traction;
+      may_open = boundary.may_open;
     }
     const Mesh& mesh = problem_.mesh;
     const auto t = static_cast<std::size_t>(edge.left);
@@ -140,6 +143,12 @@ class Flow {
     for (const auto& weights : control) {
       FlowPoint jump =
           point(t, slips_freely ? 0.0 : std::tan(soil_of(t).friction_angle), (b - a).norm() / 3.0);
+      if (may_open) {
+        // The largest power of a traction that yields and does not pull: that of the cohesion.
+        jump.may_dilate = true;
+        jump.per_dilation = 0.0;
+        jump.per_shear = soil_of(t).cohesion;
+      }
       const auto add = [&](Eigen::Index x, const Point& unit, double factor) {
         jump.dilation.emplace_back(x, factor * unit.dot(normal));
         if (!slips_freely) jump.shear[0].emplace_back(x, factor * unit.dot(tangent));
@@ -224,22 +233,17 @@ double shear_of(const FlowPoint& point, const Eigen::VectorXd& x) {
   return std::hypot(value(point.shear[0], x), value(point.shear[1], x));
 }
 
-// What a frictional point lacks of the dilation its shear demands.
+// What a point that may dilate lacks of the dilation its shear demands.
 double lack(const FlowPoint& point, const Eigen::VectorXd& x) {
   return point.ratio * shear_of(point, x) - value(point.dilation, x);
 }
 
-bool is_frictional(const Problem& problem, const FlowPoint& point) {
-  const int region = problem.mesh.triangles[point.triangle].region;
-  return problem.soils[static_cast<std::size_t>(region)].friction_angle > 0.0;
-}
-
-// No dilation in the frictionless points, the footing's immovable motions at rest.
+// No dilation where there may be none, the footing's immovable motions at rest.
 double without_dilation(const Problem& problem, const std::vector<FlowPoint>& points,
                         Eigen::VectorXd& x) {
   EquationBuilder equations;
   for (const FlowPoint& point : points) {
-    if (is_frictional(problem, point)) continue;
+    if (point.may_dilate) continue;
     double norm = 0.0;
     for (const auto& term : point.dilation) norm += term.second * term.second;
     equations.begin(0.0);
@@ -264,9 +268,9 @@ UpperCertificate certify_upper(const Problem& problem, const VelocityField& prop
   Eigen::VectorXd x = as_vector(proposed), inner = as_vector(dilating);
   certificate.violation = -INFINITY;
   for (const FlowPoint& point : flow.points()) {
-    certificate.violation = std::max(
-        certificate.violation,
-        is_frictional(problem, point) ? lack(point, x) : std::abs(value(point.dilation, x)));
+    certificate.violation =
+        std::max(certificate.violation,
+                 point.may_dilate ? lack(point, x) : std::abs(value(point.dilation, x)));
   }
   certificate.residual = without_dilation(problem, flow.points(), x);
   without_dilation(problem, flow.points(), inner);
@@ -275,7 +279,7 @@ UpperCertificate certify_upper(const Problem& problem, const VelocityField& prop
   bool holds = true;
   for (const FlowPoint& point : flow.points()) {
     const double here = lack(point, x);
-    if (!is_frictional(problem, point) || here <= 0.0) continue;
+    if (!point.may_dilate || here <= 0.0) continue;
     const double there = lack(point, inner);
     holds = holds && there < 0.0;
     mixed = std::max(mixed, here / (here - there));
@@ -287,7 +291,7 @@ UpperCertificate certify_upper(const Problem& problem, const VelocityField& prop
     x = (1.0 - mixed) * x + mixed * inner;
     certificate.kept = 1.0 - mixed;
     for (const FlowPoint& point : flow.points()) {
-      holds = holds && (!is_frictional(problem, point) || lack(point, x) <= 0.0);
+      holds = holds && (!point.may_dilate || lack(point, x) <= 0.0);
     }
   }
   const double live = value(flow.live_power(), x);

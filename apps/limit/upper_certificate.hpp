@@ -19,8 +19,9 @@ struct UpperCertificate {
 };
 
 /// Dissipation and work of a velocity field. In soil without friction the field is first made free
-/// of dilation (least squares, to rounding); in frictional soil, where it violates the flow rule,
-/// as much of `dilating` is mixed in, a field that keeps it with room to spare.
+/// of dilation (least squares, to rounding); where it violates the flow rule of frictional soil, or
+/// a footing that may lift off sinks into the soil, as much of `dilating` is mixed in, a field that
+/// keeps them with room to spare.
 [[nodiscard]] UpperCertificate certify_upper(const Problem& problem, const VelocityField& proposed,
                                              const VelocityField& dilating);
 

@@ -37,6 +37,10 @@ YieldCone yield_cone(const Soil& soil, double overburden, double reserve) {
   return {strength, slope, std::max(strength + slope * overburden, least)};
 }
 
+YieldCone contact_cone(double scale, double reserve) {
+  return {-reserve * scale, 1.0, scale};
+}
+
 Eigen::Vector3d inner_point(const YieldCone& cone, double overburden) {
   const double strength = cone.strength + cone.slope * overburden;
   const double more = strength > 0.0 ? 0.0 : cone.scale / std::max(cone.slope, 1e-6);

@@ -24,6 +24,11 @@ class Overburden {
 /// cohesion's.
 [[nodiscard]] YieldCone yield_cone(const Soil& soil, double overburden, double reserve);
 
+/// The cone whose variable p is a normal stress across a contact that bears no tension, p <= 0 less
+/// the fraction `reserve` of the scale, a stress typical of the place. Nothing else may name its d
+/// and t: what remains of it is one-dimensional.
+[[nodiscard]] YieldCone contact_cone(double scale, double reserve);
+
 /// (p, d, t) of an isotropic stress strictly inside the cone.
 [[nodiscard]] Eigen::Vector3d inner_point(const YieldCone& cone, double overburden);
 

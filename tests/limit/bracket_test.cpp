@@ -274,6 +274,76 @@ TEST(LowerCertificate, RestoresEquilibriumThatIsLost) {
   EXPECT_LE(found.multiplier, 1.0);
 }
 
+// Nothing in this collapse pulls at the base: the same bounds but for twice the solver's gap.
+TEST(Bracket, OfACentricLoadDoesNotNeedTensionAtTheBase) {
+  for (const double phi : {0.0, 20.0}) {
+    Strip strip = weightless(phi);
+    const Bracket bonded = small_bracket(strip);
+    strip.tension = false;
+    const Bracket lifting = small_bracket(strip);
+    ASSERT_TRUE(bonded.lower && bonded.upper && lifting.lower && lifting.upper);
+    constexpr double close = 2e-5;
+    EXPECT_NEAR(lifting.lower_bound() / bonded.lower_bound(), 1.0, close);
+    EXPECT_NEAR(lifting.upper_bound() / bonded.upper_bound(), 1.0, close);
+  }
+}
+
+TEST(LowerCertificate, RefusesTensionUnderAFootingThatMayLiftOff) {
+  Strip strip = weightless(0);
+  strip.surcharge = 1.0;
+  Problem problem = on_fan(strip, 8, 3, 1.5);
+  // Ground at rest under the surcharge, and under as much suction.
+  const StressField rest(problem.mesh.triangles.size(),
+                         Eigen::Vector3d(-1.0, -1.0, 0.0).replicate<1, 3>());
+  StressField pulled = rest;
+  for (auto& stress : pulled) stress *= -1.0;
+  for (const bool may_open : {false, true}) {
+    problem.boundaries[0].may_open = may_open;
+    problem.boundaries[1].normal_stress = -1.0;
+    EXPECT_TRUE(certify_lower(problem, rest, 1.0).holds);
+    problem.boundaries[1].normal_stress = 1.0;
+    const LowerCertificate found = certify_lower(problem, pulled, -1.0);
+    EXPECT_EQ(found.holds, !may_open);
+    EXPECT_NEAR(found.yield_excess, may_open ? 1.0 : -1.0, 1e-12);
+  }
+}
+
+// Nothing moves but the footing, which slides by one and rises: over a base of length one, the
+// power of a traction that yields is c cot(phi) times the rise, or c times the slip, if the base
+// bears no tension; no mechanism if it rises by less than tan(phi) times the slip.
+TEST(UpperCertificate, ABaseThatMayOpenDissipatesItsSlipAlone) {
+  for (const double phi : {0.0, 20.0}) {
+    for (const bool rough : {true, false}) {
+      Strip strip = weightless(phi);
+      strip.rough = rough;
+      Problem problem = strip_problem(strip, even_fan(3.0, 1.5, 8, 3, 1.5));
+      problem.footing.may_move = {true, true, false};
+      problem.footing.live_load = {1.0, 0.0, 0.0};
+      VelocityField field;
+      field.triangles.assign(problem.mesh.triangles.size(), Eigen::Matrix<double, 2, 6>::Zero());
+      field.footing = {1.0, 0.5, 0.0};  // 0.5 > tan(20)
+      problem.boundaries[0].may_open = true;
+      const UpperCertificate opening = certify_upper(problem, field, field);
+      EXPECT_TRUE(opening.holds);
+      EXPECT_NEAR(opening.dissipation, rough ? 1.0 : 0.0, 1e-12);
+      problem.boundaries[0].may_open = false;
+      const UpperCertificate bonded = certify_upper(problem, field, field);
+      if (phi > 0.0) {
+        EXPECT_TRUE(bonded.holds);
+        EXPECT_NEAR(bonded.dissipation, 0.5 / std::tan(phi * degree), 1e-12);
+      }
+      problem.boundaries[0].may_open = true;
+      VelocityField sinking = field;
+      sinking.footing = {1.0, rough ? std::tan(phi * degree) - 0.1 : -0.1, 0.0};
+      EXPECT_FALSE(certify_upper(problem, sinking, sinking).holds);
+      const UpperCertificate repaired = certify_upper(problem, sinking, field);
+      EXPECT_TRUE(repaired.holds);
+      EXPECT_NEAR(repaired.violation, 0.1, 1e-12);
+      EXPECT_LT(repaired.kept, 1.0);
+    }
+  }
+}
+
 TEST(UpperCertificate, RepairsAFieldThatContracts) {
   const Strip strip = weightless(20);
   const Problem problem = on_fan(strip, 8, 4, 2.0);

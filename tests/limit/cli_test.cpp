@@ -35,6 +35,7 @@ TEST(FpmLimit, RefusesWhatItCannotBracketWithTheReason) {
            {{"--strip", "--c", "1", "--half-width", "0"}, "half width: found 0"},
            {{"--strip", "--c", "nan"}, "cohesion"},
            {{"--strip", "--c", "1", "--rough", "--smooth"}, "exclude each other"},
+           {{FPM_SHARE_DIR "/scenes/limit/inclined.toml", "--no-tension"}, "the key tension"},
            {{"--strip", "--c", "1", "--gap", "0%"}, "--gap: found 0%"},
            {{"--strip", "--c", "1", "--gap", "2x"}, "--gap: found 2x"},
            {{"--strip", "--c", "1", "--phi", "20", "--psi", "30"}, "--psi: found 30"},
@@ -73,7 +74,10 @@ TEST(FpmLimit, PrintsBoundsThatAreWiderThanAskedAndSaysSo) {
 TEST(FpmLimit, EndsWellOnceTheGapIsReached) {
   const Outcome reached = run({"--strip", "--c", "1", "--gap", "10%", "--smooth"});
   EXPECT_EQ(reached.code, ExitCode::done);
-  EXPECT_THAT(reached.out, HasSubstr("smooth base"));
+  EXPECT_THAT(reached.out, HasSubstr("smooth base: no shear stress; bonded"));
+  const Outcome lifting = run({"--strip", "--c", "1", "--gap", "10%", "--no-tension"});
+  EXPECT_EQ(lifting.code, ExitCode::done);
+  EXPECT_THAT(lifting.out, HasSubstr("no tension, the footing may lift off"));
 }
 
 }  // namespace

@@ -169,6 +169,22 @@ std::vector<Row> equilibrium(const Problem& problem, const Real& multiplier) {
   return rows;
 }
 
+// Normal stresses, times a square, that must not be tension: where the footing may lift off.
+std::vector<Row> contacts(const Problem& problem) {
+  std::vector<Row> rows;
+  for (const Edge& edge : edges_of(problem.mesh)) {
+    if (edge.right >= 0 || !boundary_of(problem, edge).may_open) continue;
+    const Plane a = node(problem.mesh, edge.first), b = node(problem.mesh, edge.second);
+    const Real nx = b.y - a.y, ny = a.x - b.x;
+    for (const int end : {edge.first, edge.second}) {
+      const std::size_t at =
+          9 * static_cast<std::size_t>(edge.left) + 3 * corner(problem.mesh, edge.left, end);
+      rows.push_back({{{at, nx * nx}, {at + 1, ny * ny}, {at + 2, 2 * nx * ny}}, 0});
+    }
+  }
+  return rows;
+}
+
 struct Strength {
   Real cohesion, sine, cosine;
 };
@@ -194,11 +210,12 @@ SixTerms gradient(const Mesh& mesh, std::size_t t, std::size_t i) {
   return {term(i, -3, -3), term(3 + i, 4, 0), term(j, -1, 0), term(3 + k, 0, 4), term(k, 0, -1)};
 }
 
-// Where soil flows: dilation, two measures of shear, weight; `rolls`: without shear strength.
+// Where soil flows: dilation, two measures of shear, weight; where it `opens`, dilation is free.
 struct Flow {
   Row dilation;
   std::array<Row, 2> shear;
   Real weight, ratio;
+  bool opens = false;
 };
 
 std::vector<Flow> flows(const Problem& problem) {
@@ -243,6 +260,7 @@ std::vector<Flow> flows(const Problem& problem) {
       Flow flow;
       flow.ratio = rolls ? Real(0) : Real(soil.sine / soil.cosine);
       flow.weight = length / 3;
+      flow.opens = edge.right < 0 && boundary_of(problem, edge).may_open;
       const auto add = [&](std::size_t index, const Real& x_share, const Real& y_share) {
         flow.dilation.terms.emplace_back(index, x_share * ty - y_share * tx);
         if (!rolls) flow.shear[0].terms.emplace_back(index, x_share * tx + y_share * ty);
@@ -409,6 +427,23 @@ Problem growing_weight() {
   return problem;
 }
 
+// 0.4 beside the middle of a base of width 2; the footing may lift off.
+Problem lifting(const Soil& soil, bool rough) {
+  Problem problem = whole_strip(soil, rough);
+  problem.boundaries[0].may_open = true;
+  problem.footing.live_load = {0.0, -2.0, -0.8};
+  return problem;
+}
+Problem lifting_tresca() {
+  return lifting({1.0, 0.0, 0.0}, true);
+}
+Problem lifting_rough() {
+  return lifting({1.0, std::numbers::pi / 9, 0.0}, true);
+}
+Problem lifting_smooth() {
+  return lifting({1.0, std::numbers::pi / 18, 0.5}, false);
+}
+
 struct CaseOf {
   const char* name;
   Problem (*problem)();
@@ -441,6 +476,7 @@ TEST_P(ExtendedPrecision, AStressFieldBalancesTheLowerBoundNowhereBeyondYield) {
     ASSERT_GE(strength, 0);
     ASSERT_LE(half * half + stress[at + 2] * stress[at + 2], strength * strength);
   }
+  for (const Row& contact : contacts(problem)) ASSERT_LE(value(contact, stress), 0);
 }
 
 TEST_P(ExtendedPrecision, AMechanismFailsUnderTheUpperBound) {
@@ -457,7 +493,9 @@ TEST_P(ExtendedPrecision, AMechanismFailsUnderTheUpperBound) {
   const Strength soil = strength_of(problem);
   if (soil.sine == 0) {
     std::vector<Row> still;
-    for (const Flow& flow : points) still.push_back(flow.dilation);
+    for (const Flow& flow : points) {
+      if (!flow.opens) still.push_back(flow.dilation);
+    }
     ASSERT_LT(satisfy_exactly(still, velocity), exact);
   }
   Real dissipation = 0;
@@ -465,8 +503,10 @@ TEST_P(ExtendedPrecision, AMechanismFailsUnderTheUpperBound) {
     const Real dilation = value(flow.dilation, velocity);
     const Real first = value(flow.shear[0], velocity), second = value(flow.shear[1], velocity);
     const Real shear = sqrt(first * first + second * second);
-    if (soil.sine > 0) {
+    if (soil.sine > 0 || flow.opens) {
       ASSERT_GE(dilation, flow.ratio * shear);
+    }
+    if (soil.sine > 0 && !flow.opens) {
       dissipation += flow.weight * soil.cohesion * soil.cosine / soil.sine * dilation;
     } else {
       dissipation += flow.weight * soil.cohesion * shear;
@@ -484,5 +524,11 @@ INSTANTIATE_TEST_SUITE_P(
                       CaseOf{"flexible", flexible_strip}, CaseOf{"inclined", inclined_strip},
                       CaseOf{"growing_weight", growing_weight}),
     [](const auto& info) { return std::string(info.param.name); });
+
+INSTANTIATE_TEST_SUITE_P(LiftingOff, ExtendedPrecision,
+                         ::testing::Values(CaseOf{"tresca", lifting_tresca},
+                                           CaseOf{"rough", lifting_rough},
+                                           CaseOf{"smooth", lifting_smooth}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

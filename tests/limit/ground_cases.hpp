@@ -49,6 +49,8 @@ inline std::vector<KnownGround> known_grounds() {
       {"two_layers", prandtl, 2 * prandtl, "either clay alone"},
       {"inclined", green * (1.0 - digits), green * (1.0 + digits), "Green 1954"},
       {"eccentric", 0.75 * prandtl, prandtl, "Meyerhof's effective width; centric load"},
+      {"eccentric_lift_off", 0.5 * prandtl, 0.5 * 5.52e3,
+       "Meyerhof's effective width; the best slip circle, 5.52 c over the same width"},
       {"flexible", prandtl, prandtl, "Prandtl 1920"},
       {"smooth_platens", unconfined, unconfined, "2 c tan(45 + phi/2)"},
       {"rough_platens", 2e3, 2e3, "2 c for a width up to the height"},
@@ -58,14 +60,16 @@ inline std::vector<KnownGround> known_grounds() {
   };
 }
 
-/// The case of a shipped scene.
-inline std::optional<SceneCase> shipped(const char* name) {
+/// The case of a shipped scene, with settings.
+inline std::optional<SceneCase> shipped(const char* name,
+                                        const std::vector<std::string>& settings = {}) {
   const auto file =
       std::filesystem::path(FPM_SHARE_DIR) / "scenes" / "limit" / (std::string(name) + ".toml");
   const auto text = wiring::text_of(file);
   wiring::Diagnosis diagnosis(file.string());
   std::optional<wiring::Problem> unreadable;
-  const auto scene = read_ground_scene(std::get<std::string>(text), {}, diagnosis, unreadable);
+  const auto scene =
+      read_ground_scene(std::get<std::string>(text), settings, diagnosis, unreadable);
   std::optional<SceneCase> found;
   if (scene) found = ground_case(*scene, diagnosis);
   for (const wiring::Problem& one : diagnosis.errors()) ADD_FAILURE() << one.text();

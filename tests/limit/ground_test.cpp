@@ -15,6 +15,7 @@ namespace {
 
 using namespace limit;
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 
 // A footing on two layers; the lower one carries a name.
@@ -71,6 +72,34 @@ kind = "fixed"
 along = [[-2, 0], [-2, -1], [2, -1], [2, 1]]
 )";
 
+// A block whose top is sheared, between free sides.
+constexpr const char* sheared = R"([load]
+sought = "traction"
+[[material]]
+name = "clay"
+cohesion = 1.0
+[[region]]
+material = "clay"
+outline = [[0, 0], [4, 0], [4, 1], [0, 1]]
+[[side]]
+name = "top"
+kind = "loaded"
+live_shear = 1
+along = [[0, 1], [4, 1]]
+[[side]]
+name = "left"
+kind = "free"
+along = [[0, 0], [0, 1]]
+[[side]]
+name = "right"
+kind = "free"
+along = [[4, 0], [4, 1]]
+[[side]]
+name = "floor"
+kind = "fixed"
+along = [[0, 0], [4, 0]]
+)";
+
 // The case, or every error said, a line each.
 struct Read {
   std::optional<GroundScene> scene;
@@ -107,6 +136,12 @@ TEST(GroundScene, RefusesWhatIsNoGroundByFileLineAndKey) {
   EXPECT_THAT(with("region.soft.outline=[[0, -2], [4, -2], 3]"),
               HasSubstr("a list of points [x, y]"));
   EXPECT_THAT(with("region.soft.outline=[[0, -2], [4, -2]]"), HasSubstr("found 2 points"));
+  EXPECT_THAT(with("region.soft.outline=[[0, -2e200], [4, -2], [4, -1], [0, -1]]"),
+              HasSubstr("the ground is 2e+200 m across"));
+  EXPECT_THAT(read(layered, {"region.crust.outline=[[4e7, 0], [40000004, 0], [4e7, 2]]",
+                             "region.soft.outline=[[4e7, 0], [40000004, 0], [4e7, -2]]"})
+                  .errors,
+              HasSubstr("4e+07 m away from the origin"));
   EXPECT_THAT(
       with("region.soft.outline=[[0, -2], [4, -1], [4, -2], [0, -1]]"),
       AllOf(HasSubstr("--set region.soft.outline"), HasSubstr("crosses itself at (2, -1.5)")));
@@ -131,9 +166,20 @@ TEST(GroundScene, RefusesWhatIsNoGroundByFileLineAndKey) {
   EXPECT_THAT(with("side.surface.along=[[0.5, 0], [4, 0]]"), HasSubstr("is named by side"));
   EXPECT_THAT(with("side.surface.along=[[1, 0], [4, 0.5]]"), HasSubstr("off the ground's outline"));
   EXPECT_THAT(with("side.surface.pressure=1"), HasSubstr("kind loaded or footing"));
+  EXPECT_THAT(with("side.surface.tension=false"), HasSubstr("it belongs to kind footing"));
   EXPECT_THAT(with("load.eccentricity=0.1"), HasSubstr("guided = false"));
   EXPECT_THAT(with("load.sought=gravity"), HasSubstr("a unit_weight that grows"));
   EXPECT_EQ(read(layered).errors, "");
+}
+
+TEST(GroundScene, RefusesWhatWouldTakeTooManyTriangles) {
+  const std::string thin = read(layered, {"region.crust.outline=[[0, -1e-4], [4, -1e-4], [4, 0], "
+                                          "[1, 0], [0, 0]]",
+                                          "region.soft.outline=[[0, -2], [4, -2], [4, -1e-4], "
+                                          "[0, -1e-4]]"})
+                               .errors;
+  EXPECT_THAT(thin, AllOf(HasSubstr("region.crust.outline"), HasSubstr("so narrow at ("),
+                          HasSubstr("12000 triangles")));
 }
 
 double area(const Mesh& mesh) {
@@ -171,8 +217,8 @@ TEST(GroundMesh, CoversTheGroundAndConformsToLayersAndSides) {
 }
 
 TEST(GroundMesh, HasAFanAtEverySingularPointAndNowhereElse) {
-  const auto singular = [](const char* text) {
-    const Read made = read(text);
+  const auto singular = [](const char* text, const std::vector<std::string>& settings = {}) {
+    const Read made = read(text, settings);
     wiring::Diagnosis diagnosis("ground.toml");
     const GroundOutline outline = ground_outline(*made.scene, diagnosis);
     std::set<std::pair<double, double>> places;
@@ -184,6 +230,20 @@ TEST(GroundMesh, HasAFanAtEverySingularPointAndNowhereElse) {
   using Places = std::set<std::pair<double, double>>;
   EXPECT_EQ(singular(layered), (Places{{1.0, 0.0}}));
   EXPECT_EQ(singular(cut), (Places{{0.0, 0.0}}));
+  // Where one stress cannot have both sides' tractions: a shear beside a side without, and a
+  // pressure up to the crest of a slope, but not up to an upright cut.
+  EXPECT_EQ(singular(sheared), (Places{{0.0, 1.0}, {4.0, 1.0}}));
+  EXPECT_EQ(singular(sheared, {"side.left.kind=roller", "side.right.kind=fixed"}),
+            (Places{{0.0, 1.0}}));
+  const std::vector<std::string> pressed{"side.top.live_shear=0", "side.top.live_pressure=1"};
+  EXPECT_EQ(singular(sheared, pressed), Places{});
+  std::vector<std::string> crest = pressed;
+  for (const char* setting :
+       {"region.0.outline=[[-1, 0], [4, 0], [4, 1], [0, 1]]", "side.left.along=[[-1, 0], [0, 1]]",
+        "side.floor.along=[[-1, 0], [4, 0]]"}) {
+    crest.emplace_back(setting);
+  }
+  EXPECT_EQ(singular(sheared, crest), (Places{{0.0, 1.0}}));
   // As many triangles meet there as rays have been asked for: 1.5 x 24 over 270 degrees.
   const Mesh mesh = read(cut).found->associated.lower.mesh;
   int at_toe = 0;
@@ -242,6 +302,16 @@ TEST(Ground, AUniformTractionOnAStripCarriesPrandtlsPressure) {
   EXPECT_LT(found.gap(), 0.1);
 }
 
+// With one triangle in a corner, its stress would have the top's shear and none: no load at all.
+TEST(Ground, AShearMayMeetAFreeSide) {
+  const Read made = read(sheared);
+  ASSERT_TRUE(made.found) << made.errors;
+  const Solution found = coarse(made);
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_LT(*found.lower, 1.0);  // the block slips along its floor under the cohesion
+  EXPECT_LT(found.gap(), 0.1);
+}
+
 TEST(Ground, StrengthOfClayIsReducedByTheFactorOfItsLoad) {
   // Without friction the factor of safety is the multiplier of all loads: 3.777 of a cut whose
   // gamma H / c is one; here half of it.
@@ -268,6 +338,53 @@ TEST(Ground, UnitsDoNotMatter) {
   constexpr double digits = 1e-6;  // of the solver, see Bracket.DoesNotDependOnTheUnits
   EXPECT_NEAR(*a.lower / *b.lower, 1e3, 1e3 * digits);
   EXPECT_NEAR(*a.upper / *b.upper, 1e3, 1e3 * digits);
+}
+
+// The same meshes: what the footing cannot use makes no bound better.
+TEST(Ground, AFootingThatMayLiftOffBearsNoMoreThanABondedOne) {
+  std::vector<Solution> found;
+  for (const bool tension : {true, false}) {
+    auto problem = shipped("eccentric_lift_off");
+    ASSERT_TRUE(problem);
+    Case& made = problem->associated;
+    EXPECT_THAT(made.assumptions, Contains(HasSubstr("may lift off the soil")));
+    // Smooth, so that no slip is paid for where it lifts off.
+    for (Problem* each : {&made.lower, &made.upper}) {
+      each->boundaries[0].may_open = !tension;
+      each->boundaries[0].tangential = Known::traction;
+    }
+    BracketOptions options;
+    options.max_triangles = 1;
+    found.push_back(solution_of(made, options, {}));
+    ASSERT_TRUE(found.back().lower && found.back().upper);
+  }
+  EXPECT_LT(*found[1].lower, *found[0].lower);
+  EXPECT_LT(*found[1].upper, *found[0].upper);
+  // Meyerhof's effective width, half the base.
+  EXPECT_GT(*found[1].upper, 0.5e3 * (2.0 + std::numbers::pi));
+}
+
+// Of the base, nine tenths lift off: little stiffness beside the mean stresses of clay, which are
+// free.
+TEST(Ground, ALoadCloseToTheEdgeOfABaseThatLiftsOffNeedsNoFallBack) {
+  const auto problem = shipped("eccentric_lift_off", {"load.eccentricity=0.9"});
+  ASSERT_TRUE(problem);
+  BracketOptions options;
+  options.max_triangles = 1;
+  const Solution found = solution_of(problem->associated, options, {});
+  ASSERT_TRUE(found.lower && found.upper);
+  ASSERT_EQ(found.bracket.attempts.size(), 2U);
+  for (const Attempt& attempt : found.bracket.attempts) {
+    EXPECT_EQ(attempt.status, SolverStatus::solved) << attempt.message;
+  }
+  EXPECT_GT(*found.upper, 0.1e3 * (2.0 + std::numbers::pi));  // Meyerhof's effective width
+}
+
+TEST(Ground, AFootingThatMayLiftOffBearsNoLoadBesideIt) {
+  const std::vector<std::string> beside{"side.footing.tension=false", "load.guided=false",
+                                        "load.eccentricity=0.5"};
+  EXPECT_THAT(read(layered, beside).errors,
+              AllOf(HasSubstr("load.eccentricity"), HasSubstr("half its width (0.5)")));
 }
 
 TEST(StrengthReduction, DividesCohesionAndTheTangent) {
