@@ -40,7 +40,8 @@ class BroydenMemory {
   template <class Walker>
   void for_each_field(Walker& walk) {
     walk(size_);
-    for (int i = 0; i < size_ && i < static_cast<int>(s_.size()); ++i) {
+    if (size_ < 0 || size_ > static_cast<int>(s_.size())) size_ = 0;  // damaged
+    for (int i = 0; i < size_; ++i) {
       walk(s_[static_cast<std::size_t>(i)]);
       walk(w_[static_cast<std::size_t>(i)]);
     }

@@ -51,9 +51,12 @@ class LearntJacobian {
   void for_each_field(Walker& walk) {
     std::int64_t count = static_cast<std::int64_t>(diagonals_.size());
     walk(count);
-    if (count < 1 || count > 2 * n_) count = 1;
+    if (count < 1 || count > 2 * n_) count = 1;  // damaged, as the reader will find out
     diagonals_.resize(static_cast<std::size_t>(count));
-    for (Eigen::Index& diagonal : diagonals_) walk(diagonal);
+    for (Eigen::Index& diagonal : diagonals_) {
+      walk(diagonal);
+      if (diagonal < -n_ || diagonal > n_) diagonal = 0;
+    }
     if (groups_ == 0) group_columns();
     for (Eigen::Index k = 0; k < matrix_.nonZeros(); ++k) walk(matrix_.valuePtr()[k]);
     walk(shift_);

@@ -22,7 +22,7 @@ Ending renew_shifted_factors(Solve& solve, double shift) {
   LearntJacobian& jacobian = solve.work.evaluator.learnt;
   bool usable = true;
   Ending ending = Ending::go_on;
-  if (solve.course.stage_iterations == 0 || 2 * solve.course.stale >= jacobian.groups()) {
+  if (solve.course.stage_iterations == 0 || 2.0 * solve.course.stale >= jacobian.groups()) {
     ending = renew_learnt_jacobian(solve, shift, usable);
   } else if (shift != jacobian.shift()) {
     usable = jacobian.factorise(shift);

@@ -188,7 +188,7 @@ bool setup_is_due(Solve& solve) {
   const bool newton = solve.course.stage == Stage::newton;
   if (solve.evaluator.preconditioned_by_learning()) {
     const int cost = solve.work.evaluator.learnt.groups();
-    constexpr int head_start = 2;  // its cost is known, and small
+    constexpr double head_start = 2.0;  // its cost is known, and small
     return newton ? head_start * solve.course.stale >= cost : setup_pays(solve, cost);
   }
   if (!solve.evaluator.preconditioner().has_setup()) return false;

@@ -45,7 +45,10 @@ class SecantMemory {
   void for_each_field(Walker& walk) {
     walk(size_);
     walk(first_);
-    for (int i = 0; i < size_ && i < capacity_; ++i) {
+    // Damaged, as the reader will find out.
+    if (size_ < 0 || size_ > capacity_) size_ = 0;
+    if (first_ < 0 || first_ >= capacity_) first_ = 0;
+    for (int i = 0; i < size_; ++i) {
       walk(du(i));
       walk(q_[static_cast<std::size_t>(i)]);
       for (int j = 0; j <= i; ++j) walk(r_(j, i));

@@ -1,3 +1,4 @@
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
@@ -124,6 +125,25 @@ void walk_report(Walker& walk, Report& report) {
   }
 }
 
+/// Whether this can be the course of a solve in progress.
+bool plausible_course(const Course& c) {
+  const auto kept = static_cast<int>(c.last_norms.size());
+  return c.stage >= Stage::multisecant && c.stage < Stage::ended && c.last_norms_count >= 0 &&
+         c.last_norms_count <= kept && c.round >= 0 && c.stage_iterations >= 0;
+}
+
+/// Whether the counts can be those of a solve.
+bool plausible_counts(const Counts& c) {
+  std::int64_t sum = 0;
+  for (const int count :
+       {c.start, c.newton_trials, c.line_search, c.multisecant, c.pseudo_transient, c.noise,
+        c.difference_actions, c.user_actions, c.learning}) {
+    if (count < 0) return false;
+    sum += count;
+  }
+  return sum <= std::numeric_limits<int>::max();
+}
+
 template <class Walker>
 void walk_iterate(Walker& walk, Iterate& point) {
   walk(point.u);
@@ -198,7 +218,7 @@ void Solver::load(const Snapshot& snapshot) {
   read(learnt);
   read(lines);
   const auto held = static_cast<std::int64_t>(snapshot.reals.size());
-  const bool plausible = n >= 0 && 5 * n <= held && (setup_size == 0 || setup_size == n) &&
+  const bool plausible = n >= 0 && n <= held / 5 && (setup_size == 0 || setup_size == n) &&
                          lines >= 0 && lines <= held && capacity >= 0 && (n > 0 || !learnt);
   if (!plausible) detail::Reader::fail();
   if (method != m.options.method || capacity > m.options.multisecant.memory) {
@@ -213,7 +233,8 @@ void Solver::load(const Snapshot& snapshot) {
   }
   m.report.history.resize(static_cast<std::size_t>(lines));
   detail::walk_state(read, m.work, m.course, m.report);
-  if (read.integer != snapshot.integers.size() || read.real != snapshot.reals.size()) {
+  if (read.integer != snapshot.integers.size() || read.real != snapshot.reals.size() ||
+      !detail::plausible_counts(m.report.counts) || !detail::plausible_course(m.course)) {
     detail::Reader::fail();
   }
   detail::LearntJacobian& jacobian = m.work.evaluator.learnt;

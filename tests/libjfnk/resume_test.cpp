@@ -3,6 +3,7 @@
 #include <boost/archive/text_iarchive.hpp>
 #include <boost/archive/text_oarchive.hpp>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "jfnk/jfnk.hpp"
@@ -191,6 +192,41 @@ TEST(Resume, RefusesWhatItCannotContinue) {
   EXPECT_FALSE(other.step(bratu));  // still nothing to do
   other.load(good);
   EXPECT_TRUE(other.step(bratu));
+}
+
+TEST(Resume, RefusesOrSurvivesAnyDamagedNumber) {
+  const jfnk_test::Bratu bratu(8, 6.0);
+  Options options;
+  options.tolerances.relative = 1e-10;
+  Solver solver(options);
+  ASSERT_TRUE(solver.start(bratu, Vector::Zero(64)));
+  for (int step = 0; step < 7; ++step) ASSERT_TRUE(solver.step(bratu));
+  const Snapshot good = solver.save();
+  int refused = 0;
+  const auto try_to_continue = [&](const Snapshot& damaged) {
+    Solver other(options);
+    try {
+      other.load(damaged);
+    } catch (const std::invalid_argument&) {
+      ++refused;
+      return;
+    }
+    for (int step = 0; step < 3 && other.step(bratu); ++step) {
+    }
+  };
+  for (std::size_t i = 0; i < good.integers.size(); ++i) {
+    for (const std::int64_t value : {std::int64_t{-1}, std::int64_t{1} << 40, std::int64_t{77}}) {
+      Snapshot damaged = good;
+      damaged.integers[i] = value;
+      try_to_continue(damaged);
+    }
+  }
+  for (std::size_t i = 0; i < good.reals.size(); i += 11) {
+    Snapshot damaged = good;
+    damaged.reals[i] = std::numeric_limits<double>::quiet_NaN();
+    try_to_continue(damaged);
+  }
+  EXPECT_GT(refused, 0);
 }
 
 }  // namespace
