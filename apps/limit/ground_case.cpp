@@ -102,6 +102,11 @@ Footing footing_of(const GroundScene& scene, const Base& base, wiring::Diagnosis
                                 "its width ({:g}) from its middle",
                                 base.width / 2.0));
   }
+  if (!scene.sides[base.side].rough && load.inclination != 0.0) {
+    diagnosis.error("load.inclination",
+                    fmt::format("found {:g} degrees", load.inclination / degree),
+                    "a smooth base bears no load along itself");
+  }
   const double given = scene.sides[base.side].pressure;
   for (std::size_t i = 0; i < 3; ++i) {
     footing.dead_load[i] = given * unit[i];

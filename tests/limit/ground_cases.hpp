@@ -46,7 +46,9 @@ inline std::vector<KnownGround> known_grounds() {
       {"vertical_cut", 3.776, 3.778, "Lyamin & Sloan 2002 below, Pastor et al. 2000 above"},
       {"slope", 0.0, 10.3907, "the best logarithmic spiral through the toe (Chen 1975)"},
       {"slope_safety", 1.0, 1.25189, "the same spiral with the strength divided"},
-      {"two_layers", prandtl, 2 * prandtl, "either clay alone"},
+      // Circle about (1.2067, 0.2917) B off the edge: 2 R^2 (c1 t1 + c2 t2) / (B (x - B/2)), t the
+      // half angles in crust and clay.
+      {"two_layers", prandtl, 7.79860e3, "the soft clay alone; the best slip circle (Button 1953)"},
       {"inclined", green * (1.0 - digits), green * (1.0 + digits), "Green 1954"},
       {"eccentric", 0.75 * prandtl, prandtl, "Meyerhof's effective width; centric load"},
       {"eccentric_lift_off", 0.5 * prandtl, 0.5 * 5.52e3,

@@ -387,6 +387,13 @@ TEST(Ground, AFootingThatMayLiftOffBearsNoLoadBesideIt) {
               AllOf(HasSubstr("load.eccentricity"), HasSubstr("half its width (0.5)")));
 }
 
+TEST(Ground, ASmoothFootingBearsNoInclinedLoad) {
+  const std::vector<std::string> inclined{"side.footing.base=smooth", "load.guided=false",
+                                          "load.inclination=5"};
+  EXPECT_THAT(read(layered, inclined).errors,
+              AllOf(HasSubstr("load.inclination"), HasSubstr("5 degrees"), HasSubstr("smooth")));
+}
+
 TEST(StrengthReduction, DividesCohesionAndTheTangent) {
   const Soil soil{10.0, 0.5, 18.0};
   const Soil weak = weakened(soil, 2.0);
