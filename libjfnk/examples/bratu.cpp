@@ -74,7 +74,10 @@ int main(int argc, char** argv) {
     if (!report.converged()) std::printf("  %s\n", report.reason.c_str());
     all_converged = all_converged && report.converged();
   };
+  jfnk::Options without_learning;
+  without_learning.learning.enabled = false;
   run("default", jfnk::Options{}, jfnk::Identity{});
+  run("default, without learning", without_learning, jfnk::Identity{});
   run("default, Laplacian", jfnk::Options{}, cholesky);
   run("Newton-Krylov", jfnk::newton_krylov(), jfnk::Identity{});
   run("Newton-Krylov, Laplacian", jfnk::newton_krylov(), cholesky);
