@@ -90,9 +90,9 @@ Finding find_diagonals(Solve& solve) {
     bool anything_new = false;
     const Finding finding = look_at_column(solve, std::min(j, n - 1), anything_new);
     if (finding != Finding::ok) return finding;
-    if (++seen >= least && !anything_new) break;
+    if (++seen >= least && !anything_new) return Finding::ok;
   }
-  return Finding::ok;
+  return Finding::nothing;  // numbered in no order
 }
 
 /// The entries at a point, and their factors.
@@ -150,10 +150,12 @@ bool factors_pay(const Solve& solve) {
 Finding learn_jacobian(Solve& solve) {
   constexpr int attempts = 3;
   constexpr double worthwhile = 0.5;    // products, of the evaluations they may spare
+  constexpr double groups_per_row = 2;  // entries of a row are in groups of their own, at least
   constexpr int columns_per_group = 3;  // at least; with fewer, n products would do as well
   LearntJacobian& jacobian = solve.work.evaluator.learnt;
   const Eigen::Index n = solve.work.base.u.size();
-  double budget = worthwhile * evaluations_left(solve);
+  double budget = std::min(worthwhile * evaluations_left(solve),
+                           groups_per_row * solve.options.learning.most_rows);
   jacobian.reset(n);
   if (const Finding finding = find_diagonals(solve); finding != Finding::ok) return finding;
   for (int attempt = 0; attempt < attempts; ++attempt) {

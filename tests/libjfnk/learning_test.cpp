@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "jfnk/jfnk.hpp"
 #include "learnt_jacobian.hpp"
@@ -158,6 +159,33 @@ TEST(Learning, GivesUpAfterOneColumnWhereEveryUnknownCountsEverywhere) {
   EXPECT_TRUE(report.converged());
   // A point off the base, and one column.
   EXPECT_EQ(report.counts.learning, 2);
+}
+
+TEST(Learning, GivesUpAfterALookWhereUnknownsAreInNoOrder) {
+  const Bratu bratu(24, 6.0);
+  const int n = 24 * 24;
+  const auto node = [&](int i) { return (233 * i + i * i * i) % n; };
+  std::vector<int> place(n);
+  std::vector<bool> taken(n, false);
+  for (int i = 0; i < n; ++i) {
+    int free = node(i);
+    while (taken[free]) free = (free + 1) % n;
+    taken[free] = true;
+    place[i] = free;
+  }
+  Vector v(n);
+  Vector s(n);
+  const auto F = [&](const Vector& u, Vector& r) {
+    for (int i = 0; i < n; ++i) v[place[i]] = u[i];
+    bratu(v, s);
+    for (int i = 0; i < n; ++i) r[i] = s[place[i]];
+  };
+  const Report plain = solve_from(F, Vector::Zero(n), without_learning());
+  const Report report = solve_from(F, Vector::Zero(n), Options{});
+  EXPECT_TRUE(report.converged()) << report.reason;
+  // A point off the base and at most six columns.
+  EXPECT_LE(report.counts.learning, 7);
+  EXPECT_EQ(report.counts.total(), plain.counts.total() + report.counts.learning);
 }
 
 TEST(Learning, SeesWhatVanishesAtTheStart) {
