@@ -162,9 +162,9 @@ Ending after_newton(Solve& solve, Ending ending) {
 Ending after_pseudo_transient(Solve& solve) {
   const bool gained = solve.work.best.norm < solve.course.stage_start_norm;
   const bool learnt = solve.evaluator.preconditioned_by_learning();
-  if (!gained)
-    return learnt ? rescue(solve, solve.course.newton_failure) : solve.course.newton_failure;
-  if (learnt) solve.course.stale = solve.work.evaluator.learnt.groups();  // and shifted
+  if (!gained && learnt) return rescue(solve, solve.course.newton_failure);
+  if (!gained) return solve.course.newton_failure;
+  if (learnt) solve.course.stale = solve.work.evaluator.learnt.groups();  // its factors are shifted
   begin_final_newton(solve);
   return Ending::go_on;
 }

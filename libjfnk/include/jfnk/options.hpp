@@ -190,13 +190,13 @@ struct PseudoTransient {
   double gain = 0.1;
 };
 
-/// Method::hybrid without preconditioner, or with one that has ceased to help: the Jacobian is
-/// learnt by looking and factorised, if F lives on a lattice.
+/// Whether and when Method::hybrid learns the Jacobian of an F on a lattice, where there is no
+/// preconditioner or none that helps any more.
 ///
-/// A few unknowns, moved one by one, show which components of F they change by how much in the
-/// index: the diagonals of J that are occupied. If these are few, as on grids and chains whose
-/// nodes are numbered in order, J follows from some ten products J v (Curtis, Powell & Reid 1974)
-/// and is factorised by sparse LU; that is a preconditioner, which is renewed where that pays. F
+/// A few unknowns, moved one by one, show which components of F depend on them; how far off in the
+/// index these are tells which diagonals of J are occupied. If the diagonals are few, as on grids
+/// and chains whose nodes are numbered in order, J follows from some ten products J v (Curtis,
+/// Powell & Reid 1974). Its sparse LU factors are the preconditioner, renewed where that pays. F
 /// must not depend on an unknown by rounding alone. Not for residuals on several processes.
 struct Learning {
   bool enabled = true;
