@@ -108,13 +108,16 @@ bool try_first_point_by_lines(Solve& solve) {
   return true;
 }
 
-/// With factors of the Jacobian itself another path is the better hope, and cheap; then the plain
-/// method, as if nothing had been learnt.
-void rescue_with_learnt_factors(Solve& solve) {
-  if (try_transient(solve) || try_first_point_by_lines(solve)) return;
+/// The plain method and its rescues, as if nothing had been learnt.
+void begin_unlearnt(Solve& solve) {
   solve.course.restarted = false;
   solve.course.transient_tried = false;
   begin_again_plainly(solve);
+}
+
+/// With factors of the Jacobian itself another path is the better hope, and cheap.
+void rescue_with_learnt_factors(Solve& solve) {
+  if (!try_transient(solve) && !try_first_point_by_lines(solve)) begin_unlearnt(solve);
 }
 
 /// What is left when Newton has failed where it stands: another start, then another path.
@@ -212,7 +215,7 @@ Ending renew_preconditioner(Solve& solve) {
     const Ending ending = renew_learnt_jacobian(solve, 0.0, usable);
     if (ending != Ending::go_on) return ending;
     if (!usable) {
-      begin_again_plainly(solve);
+      begin_unlearnt(solve);
       return Ending::go_on;
     }
   } else {
