@@ -8,6 +8,8 @@
 #include <cstring>
 #include <limits>
 
+namespace comparison {
+
 namespace {
 
 double gap(double a, double b) {
@@ -157,3 +159,5 @@ std::vector<Difference> differences(const Source& a, const Source& b, const Requ
   }
   return all;
 }
+
+}  // namespace comparison

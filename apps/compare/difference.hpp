@@ -6,6 +6,8 @@
 
 #include "compare/source.hpp"
 
+namespace comparison {
+
 /// A bound on differences of the fields whose name matches a pattern (`*` and `?` as in a shell).
 /// A pattern without a slash also matches the last part of a name.
 struct Tolerance {
@@ -50,3 +52,5 @@ struct Difference {
 /// one has others is a difference of `curve/step`.
 [[nodiscard]] std::vector<Difference> differences(const Source& a, const Source& b,
                                                   const Request& request);
+
+}  // namespace comparison

@@ -10,14 +10,15 @@
 
 #include "compare/difference.hpp"
 #include "compare/report.hpp"
-#include "wiring/exit_code.hpp"
-#include "wiring/file_error.hpp"
-#include "wiring/version.hpp"
+#include "files/file_error.hpp"
+#include "program/exit_code.hpp"
+#include "program/version.hpp"
 
 namespace {
 
 namespace po = boost::program_options;
-using wiring::ExitCode;
+using namespace comparison;
+using program::ExitCode;
 using Texts = std::vector<std::string>;
 
 constexpr std::string_view usage =
@@ -130,7 +131,7 @@ ExitCode run(const Texts& arguments) {
     return ExitCode::done;
   }
   if (values["version"].as<bool>()) {
-    std::cout << "fpm-compare " << wiring::version << '\n';
+    std::cout << "fpm-compare " << program::version << '\n';
     return ExitCode::done;
   }
   return compare(values);
@@ -140,15 +141,15 @@ ExitCode run(const Texts& arguments) {
 
 int main(int count, char** words) {
   try {
-    return wiring::to_int(run({words + 1, words + count}));
+    return program::to_int(run({words + 1, words + count}));
   } catch (const UsageError& failure) {
     std::cerr << "error: " << failure.what() << "\nTry fpm-compare --help.\n";
-    return wiring::to_int(ExitCode::input_refused);
-  } catch (const wiring::FileError& failure) {
+    return program::to_int(ExitCode::input_refused);
+  } catch (const files::FileError& failure) {
     std::cerr << "error: " << failure.what() << '\n';
-    return wiring::to_int(ExitCode::checkpoint_unusable);
+    return program::to_int(ExitCode::checkpoint_unusable);
   } catch (const std::exception& failure) {
     std::cerr << "internal error: " << failure.what() << "\nThis is a bug: please report it.\n";
-    return wiring::to_int(ExitCode::bug);
+    return program::to_int(ExitCode::bug);
   }
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+namespace comparison {
+
 namespace {
 
 std::string where(const Source& a, const Difference& difference) {
@@ -62,3 +64,5 @@ std::string comparison_report(const Source& a, const std::vector<Difference>& di
   }
   return out + summary(differences);
 }
+
+}  // namespace comparison

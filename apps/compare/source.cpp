@@ -6,15 +6,17 @@
 #include <map>
 #include <memory>
 
-#include "wiring/checkpoint_file.hpp"
-#include "wiring/checkpoint_folder.hpp"
-#include "wiring/curve.hpp"
-#include "wiring/hdf5_file.hpp"
-#include "wiring/unsealed_file.hpp"
+#include "files/hdf5_file.hpp"
+#include "files/unsealed_file.hpp"
+#include "record/checkpoint_file.hpp"
+#include "record/checkpoint_folder.hpp"
+#include "record/curve.hpp"
 
-using wiring::CurveRow;
-using wiring::FileError;
-using wiring::Hdf5File;
+namespace comparison {
+
+using files::FileError;
+using files::Hdf5File;
+using record::CurveRow;
 
 namespace {
 
@@ -29,7 +31,7 @@ struct Origins {
 };
 
 Quantity dataset_of(const Hdf5File& file, const std::string& path) {
-  const wiring::DatasetInfo info = file.info(path);
+  const files::DatasetInfo info = file.info(path);
   Quantity quantity{info.unit, info.shape, {}};
   if (info.type == "float64") {
     quantity.values = file.read_all<double>(path);
@@ -44,7 +46,7 @@ Quantity dataset_of(const Hdf5File& file, const std::string& path) {
   return quantity;
 }
 
-Quantity column_of(const std::vector<CurveRow>& rows, const wiring::CurveColumn& column) {
+Quantity column_of(const std::vector<CurveRow>& rows, const record::CurveColumn& column) {
   const auto take = [&](auto member) {
     std::vector<std::remove_cvref_t<decltype(rows.front().*member)>> values;
     for (const CurveRow& row : rows) values.push_back(row.*member);
@@ -65,7 +67,7 @@ void add_datasets(Origins& origins, const std::string& group, const std::string&
 }
 
 // The wall time is another one in every run.
-bool is_compared(const wiring::CurveColumn& column) {
+bool is_compared(const record::CurveColumn& column) {
   return column.name != "wall_s";
 }
 
@@ -73,7 +75,7 @@ Quantity loaded(const Origins& origins, const std::string& name) {
   if (const auto found = origins.datasets.find(name); found != origins.datasets.end()) {
     return dataset_of(*origins.file, found->second);
   }
-  for (const wiring::CurveColumn& column : wiring::curve_columns()) {
+  for (const record::CurveColumn& column : record::curve_columns()) {
     if (name == curve_group + std::string(column.name)) return column_of(origins.rows, column);
   }
   throw std::logic_error(name + " is no field of the source");
@@ -83,7 +85,7 @@ Source source_of(std::string what, Origins origins) {
   Source source{std::move(what), {}, {}, {}, {}};
   for (const auto& entry : origins.datasets) source.names.push_back(entry.first);
   if (!origins.rows.empty()) {
-    for (const wiring::CurveColumn& column : wiring::curve_columns()) {
+    for (const record::CurveColumn& column : record::curve_columns()) {
       if (is_compared(column)) source.names.push_back(curve_group + std::string(column.name));
     }
   }
@@ -100,16 +102,16 @@ Source source_of(std::string what, Origins origins) {
 
 Source curve_source(const std::filesystem::path& path) {
   Origins origins;
-  origins.rows = wiring::read_curve(path);
+  origins.rows = record::read_curve(path);
   if (origins.rows.empty()) throw FileError(path, "has no row");
   const auto last = origins.rows.back().step;
   return source_of(fmt::format("curve to step {}", last), std::move(origins));
 }
 
 Source checkpoint_source(const std::filesystem::path& path) {
-  wiring::CheckpointNotes notes;
+  record::CheckpointNotes notes;
   Origins origins;
-  origins.file = std::make_shared<const Hdf5File>(wiring::open_checkpoint(path, notes));
+  origins.file = std::make_shared<const Hdf5File>(record::open_checkpoint(path, notes));
   add_datasets(origins, "/state", "");
   origins.rows = std::move(notes.history);
   const auto step = origins.rows.back().step;
@@ -118,7 +120,7 @@ Source checkpoint_source(const std::filesystem::path& path) {
 
 Source frame_source(const std::filesystem::path& path) {
   Origins origins;
-  origins.file = std::make_shared<const Hdf5File>(wiring::open_unsealed(path));
+  origins.file = std::make_shared<const Hdf5File>(files::open_unsealed(path));
   if (!origins.file->has("/VTKHDF/PointData")) throw FileError(path, "is no frame");
   add_datasets(origins, "/VTKHDF/PointData", "");
   origins.datasets["Points"] = points_path;
@@ -127,7 +129,7 @@ Source frame_source(const std::filesystem::path& path) {
 
 Source folder_source(const std::filesystem::path& path) {
   std::vector<std::string> objections;
-  const auto newest = wiring::newest_usable(path / "checkpoints", objections);
+  const auto newest = record::newest_usable(path / "checkpoints", objections);
   if (newest) return checkpoint_source(*newest);
   throw FileError(path, objections.empty() ? "is no output folder: it has no checkpoint"
                                            : "has no usable checkpoint: " + objections.front());
@@ -140,5 +142,7 @@ Source open_source(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path, failure)) throw FileError(path, "there is no such file");
   if (std::filesystem::is_directory(path)) return folder_source(path);
   if (path.extension() == ".csv") return curve_source(path);
-  return wiring::is_checkpoint(path) ? checkpoint_source(path) : frame_source(path);
+  return record::is_checkpoint(path) ? checkpoint_source(path) : frame_source(path);
 }
+
+}  // namespace comparison

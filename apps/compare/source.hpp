@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+namespace comparison {
+
 /// One field of a file: a dataset, or a column of a curve.
 struct Quantity {
   std::string unit;
@@ -26,5 +28,7 @@ struct Source {
 /// Opens a checkpoint (all of /state, and the curve so far), a frame (positions and fields), a
 /// curve file, or an output folder (its newest usable checkpoint, and the curve). Wall times are
 /// left out.
-/// @throws wiring::FileError if it is none of these, or damaged.
+/// @throws files::FileError if it is none of these, or damaged.
 [[nodiscard]] Source open_source(const std::filesystem::path& path);
+
+}  // namespace comparison

@@ -6,20 +6,22 @@
 #include <iterator>
 #include <vector>
 
+#include "bounds/limit_bracket.hpp"
+#include "files/hdf5_file.hpp"
+#include "files/unsealed_file.hpp"
+#include "files/vtkhdf.hpp"
 #include "info/describe_checkpoint.hpp"
-#include "wiring/curve.hpp"
-#include "wiring/hdf5_file.hpp"
-#include "wiring/limit_bracket.hpp"
-#include "wiring/run_lock.hpp"
-#include "wiring/unsealed_file.hpp"
-#include "wiring/vtkhdf.hpp"
+#include "record/curve.hpp"
+#include "record/run_lock.hpp"
+
+namespace info {
 
 namespace {
 
-using wiring::FileError;
-using wiring::Hdf5File;
+using files::FileError;
+using files::Hdf5File;
 
-std::string attribute_text(const wiring::Attribute& value) {
+std::string attribute_text(const files::Attribute& value) {
   if (const auto* list = std::get_if<std::vector<std::int64_t>>(&value)) {
     return fmt::format("{}", fmt::join(*list, ", "));
   }
@@ -59,7 +61,7 @@ void describe_group(std::string& out, const Hdf5File& file, const std::string& p
       describe_group(out, file, child, depth + 1);
       continue;
     }
-    const wiring::DatasetInfo info = file.info(child);
+    const files::DatasetInfo info = file.info(child);
     const std::string shape = fmt::format("{}", fmt::join(info.shape, " x "));
     const std::string unit = info.unit.empty() ? "" : fmt::format(" [{}]", info.unit);
     fmt::format_to(std::back_inserter(out), "{}{}: {} {}{}\n", indent, name, info.type, shape,
@@ -84,9 +86,9 @@ std::vector<std::filesystem::path> hdf_files(const std::filesystem::path& folder
 
 std::string curve_summary(const std::filesystem::path& curve) {
   try {
-    const auto rows = wiring::read_curve(curve);
+    const auto rows = record::read_curve(curve);
     if (rows.empty()) return "no step yet";
-    const wiring::CurveRow& last = rows.back();
+    const record::CurveRow& last = rows.back();
     return fmt::format(
         "{} rows, last step {}: load {:.6g}, settlement {:.6g} m, d/B {:.4f}, mean "
         "pressure {:.6g} Pa, {} plastic particles",
@@ -99,22 +101,22 @@ std::string curve_summary(const std::filesystem::path& curve) {
 
 std::string bracket_summary(const std::filesystem::path& bracket) {
   try {
-    return "collapse load " + wiring::bracket_line(wiring::read_limit_bracket(bracket));
+    return "collapse load " + bounds::bracket_line(bounds::read_limit_bracket(bracket));
   } catch (const FileError& failure) {
     return failure.reason();
   }
 }
 
 std::string lock_summary(const std::filesystem::path& folder) {
-  const wiring::LockOwner owner = wiring::lock_owner(folder);
+  const record::LockOwner owner = record::lock_owner(folder);
   if (owner.alive) return "running: " + owner.name;
   return owner.name.empty() ? "not running" : "killed, or its machine went down: " + owner.name;
 }
 
 std::string checkpoint_summary(const std::filesystem::path& checkpoint) {
   try {
-    wiring::CheckpointNotes notes;
-    (void)wiring::open_checkpoint(checkpoint, notes);
+    record::CheckpointNotes notes;
+    (void)record::open_checkpoint(checkpoint, notes);
     return checkpoint_line(notes);
   } catch (const FileError& failure) {
     return "UNUSABLE: " + failure.reason();
@@ -124,10 +126,10 @@ std::string checkpoint_summary(const std::filesystem::path& checkpoint) {
 }  // namespace
 
 std::string describe_file(const std::filesystem::path& path) {
-  wiring::CheckpointNotes notes;
-  const bool checkpoint = wiring::is_checkpoint(path);
+  record::CheckpointNotes notes;
+  const bool checkpoint = record::is_checkpoint(path);
   const Hdf5File file =
-      checkpoint ? wiring::open_checkpoint(path, notes) : wiring::open_unsealed(path);
+      checkpoint ? record::open_checkpoint(path, notes) : files::open_unsealed(path);
   std::string out = fmt::format("{} ({} bytes)\n", path.string(), std::filesystem::file_size(path));
   if (checkpoint) out += describe_checkpoint(notes) + "  contents\n";
   describe_group(out, file, "/", checkpoint ? 2 : 1);
@@ -135,8 +137,8 @@ std::string describe_file(const std::filesystem::path& path) {
 }
 
 std::string scene_in(const std::filesystem::path& checkpoint) {
-  wiring::CheckpointNotes notes;
-  (void)wiring::open_checkpoint(checkpoint, notes);
+  record::CheckpointNotes notes;
+  (void)record::open_checkpoint(checkpoint, notes);
   return notes.scene;
 }
 
@@ -164,3 +166,5 @@ std::string describe_folder(const std::filesystem::path& folder) {
   }
   return out;
 }
+
+}  // namespace info

@@ -4,11 +4,13 @@
 
 #include <iterator>
 
-#include "wiring/scene_changes.hpp"
+#include "scene/changes.hpp"
 
-using wiring::Ancestor;
-using wiring::CheckpointNotes;
-using wiring::CurveRow;
+namespace info {
+
+using record::Ancestor;
+using record::CheckpointNotes;
+using record::CurveRow;
 
 namespace {
 
@@ -46,13 +48,15 @@ std::string describe_checkpoint(const CheckpointNotes& notes) {
   line("when", notes.created);
   line("why", notes.reason);
   line("written by", fmt::format("{}; schema {}", notes.versions, notes.schema));
-  line("identity", wiring::identity_of(notes.digest));
+  line("identity", record::identity_of(notes.digest));
   if (notes.lineage.empty()) line("lineage", "from the start in one go");
   for (std::size_t i = notes.lineage.size(); i-- > 0;) {
     const bool parent = i + 1 == notes.lineage.size();
     line(parent ? "parent" : "before that", ancestor_text(notes.lineage[i]));
     for (const std::string& change : notes.lineage[i].changed) line("", "changed: " + change);
   }
-  line("may change", wiring::what_may_change());
+  line("may change", scene::what_may_change());
   return out;
 }
+
+}  // namespace info

@@ -5,14 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "files/durable_file.hpp"
 #include "info/describe.hpp"
-#include "wiring/durable_file.hpp"
-#include "wiring/exit_code.hpp"
-#include "wiring/version.hpp"
+#include "program/exit_code.hpp"
+#include "program/version.hpp"
 
 namespace {
 
-using wiring::ExitCode;
+using namespace info;
+using program::ExitCode;
 
 constexpr const char* usage =
     "Usage: fpm-info FILE|FOLDER ...\n"
@@ -38,7 +39,7 @@ ExitCode describe_all(const std::vector<std::string>& paths, bool scene) {
   for (const std::string& path : paths) {
     try {
       std::cout << described(path, scene);
-    } catch (const wiring::FileError& failure) {
+    } catch (const files::FileError& failure) {
       std::cerr << "error: " << failure.what() << '\n';
       code = ExitCode::checkpoint_unusable;
     }
@@ -59,7 +60,7 @@ ExitCode run(const std::vector<std::string>& arguments) {
       return ExitCode::done;
     }
     if (argument == "--version") {
-      std::cout << "fpm-info " << wiring::version << '\n';
+      std::cout << "fpm-info " << program::version << '\n';
       return ExitCode::done;
     }
     if (argument.starts_with("--")) {
@@ -79,9 +80,9 @@ ExitCode run(const std::vector<std::string>& arguments) {
 
 int main(int count, char** words) {
   try {
-    return wiring::to_int(run({words + 1, words + count}));
+    return program::to_int(run({words + 1, words + count}));
   } catch (const std::exception& failure) {
     std::cerr << "internal error: " << failure.what() << "\nThis is a bug: please report it.\n";
-    return wiring::to_int(ExitCode::bug);
+    return program::to_int(ExitCode::bug);
   }
 }

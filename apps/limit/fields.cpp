@@ -7,18 +7,19 @@
 #include <iterator>
 #include <numeric>
 
-#include "wiring/durable_file.hpp"
-#include "wiring/hdf5_file.hpp"
+#include "files/durable_file.hpp"
+#include "files/hdf5_file.hpp"
 
 namespace limit {
 
 namespace {
 
-const Soil& soil_of(const Case& problem, const Triangle& triangle) {
+const problem::Soil& soil_of(const problem::Case& problem, const mesh::Triangle& triangle) {
   return problem.lower.soils[static_cast<std::size_t>(triangle.region)];
 }
 
-Point corner_of_triangle(const Mesh& mesh, const Triangle& triangle, std::size_t corner) {
+mesh::Point corner_of_triangle(const mesh::Mesh& mesh, const mesh::Triangle& triangle,
+                               std::size_t corner) {
   return mesh.nodes[static_cast<std::size_t>(triangle.nodes[corner % 3])];
 }
 
@@ -27,7 +28,7 @@ class Grid {
  public:
   Grid(const std::filesystem::path& temporary, std::uint8_t cell_type, std::size_t points_per_cell,
        const std::vector<double>& points)
-      : file_(wiring::Hdf5File::create(temporary)), points_(points.size() / 3) {
+      : file_(files::Hdf5File::create(temporary)), points_(points.size() / 3) {
     const std::size_t cells = points_ / points_per_cell;
     file_.make_group("/VTKHDF");
     // ParaView wants Type as a fixed-length text.
@@ -59,15 +60,15 @@ class Grid {
            const std::string& unit) {
     const std::size_t tuples = values.size() / components;
     const std::string group = tuples == points_ ? "/VTKHDF/PointData/" : "/VTKHDF/CellData/";
-    const wiring::Shape shape =
-        components == 1 ? wiring::Shape{tuples} : wiring::Shape{tuples, components};
+    const files::Shape shape =
+        components == 1 ? files::Shape{tuples} : files::Shape{tuples, components};
     file_.write<double>(group + name, values, shape, unit);
   }
 
   void close() { file_.close(); }
 
  private:
-  wiring::Hdf5File file_;
+  files::Hdf5File file_;
   std::size_t points_;
 };
 
@@ -95,14 +96,14 @@ void put(std::vector<double>& values, std::initializer_list<double> more) {
 
 }  // namespace
 
-void write_fields(const std::filesystem::path& file, const Case& problem,
-                  const Bound<LowerCertificate>& bound) {
-  const Mesh& mesh = bound.mesh;
+void write_fields(const std::filesystem::path& file, const problem::Case& problem,
+                  const bracket::Bound<certificate::LowerCertificate>& bound) {
+  const mesh::Mesh& mesh = bound.mesh;
   std::vector<double> points, stress, principal, direction, ratio;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Soil& soil = soil_of(problem, mesh.triangles[t]);
+    const problem::Soil& soil = soil_of(problem, mesh.triangles[t]);
     for (std::size_t i = 0; i < 3; ++i) {
-      const Point at = problem.units.length * corner_of_triangle(mesh, mesh.triangles[t], i);
+      const mesh::Point at = problem.units.length * corner_of_triangle(mesh, mesh.triangles[t], i);
       const Eigen::Vector3d s =
           problem.units.stress * bound.certificate.field[t].col(static_cast<Eigen::Index>(i));
       const double mean = (s[0] + s[1]) / 2, half = (s[0] - s[1]) / 2;
@@ -119,7 +120,7 @@ void write_fields(const std::filesystem::path& file, const Case& problem,
     }
   }
   constexpr std::uint8_t triangle_cell = 5;
-  wiring::write_durably(file, [&](const std::filesystem::path& temporary) {
+  files::write_durably(file, [&](const std::filesystem::path& temporary) {
     Grid grid(temporary, triangle_cell, 3, points);
     grid.add("stress", stress, 6, "Pa");
     grid.add("principal_stresses", principal, 3, "Pa");
@@ -129,26 +130,26 @@ void write_fields(const std::filesystem::path& file, const Case& problem,
   });
 }
 
-void write_fields(const std::filesystem::path& file, const Case& problem,
-                  const Bound<UpperCertificate>& bound) {
-  const Mesh& mesh = bound.mesh;
+void write_fields(const std::filesystem::path& file, const problem::Case& problem,
+                  const bracket::Bound<certificate::UpperCertificate>& bound) {
+  const mesh::Mesh& mesh = bound.mesh;
   std::vector<double> points, velocity, dissipation;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Triangle& triangle = mesh.triangles[t];
+    const mesh::Triangle& triangle = mesh.triangles[t];
     for (std::size_t i = 0; i < 6; ++i) {
-      const Point corner = corner_of_triangle(mesh, triangle, i);
-      const Point at =
+      const mesh::Point corner = corner_of_triangle(mesh, triangle, i);
+      const mesh::Point at =
           problem.units.length *
-          (i < 3 ? corner : Point((corner + corner_of_triangle(mesh, triangle, i + 1)) / 2));
+          (i < 3 ? corner : mesh::Point((corner + corner_of_triangle(mesh, triangle, i + 1)) / 2));
       const auto v = bound.certificate.field.triangles[t].col(static_cast<Eigen::Index>(i));
       put(points, {at.x(), at.y(), 0.0});
       put(velocity, {v.x(), v.y(), 0.0});
     }
-    const double area = twice_area(mesh, triangle) / 2 * problem.units.length;
+    const double area = mesh::twice_area(mesh, triangle) / 2 * problem.units.length;
     dissipation.push_back(bound.certificate.of_triangle[t] * problem.units.multiplier() / area);
   }
   constexpr std::uint8_t quadratic_triangle_cell = 22;
-  wiring::write_durably(file, [&](const std::filesystem::path& temporary) {
+  files::write_durably(file, [&](const std::filesystem::path& temporary) {
     Grid grid(temporary, quadratic_triangle_cell, 6, points);
     grid.add("velocity", velocity, 3, "");
     grid.add("dissipation", dissipation, 1, problem.unit.empty() ? "1/m" : problem.unit + "/m");
@@ -156,18 +157,18 @@ void write_fields(const std::filesystem::path& file, const Case& problem,
   });
 }
 
-void write_mechanism(const std::filesystem::path& file, const Case& problem,
-                     const Bound<UpperCertificate>& bound) {
-  const Mesh& mesh = bound.mesh;
+void write_mechanism(const std::filesystem::path& file, const problem::Case& problem,
+                     const bracket::Bound<certificate::UpperCertificate>& bound) {
+  const mesh::Mesh& mesh = bound.mesh;
   const auto& field = bound.certificate.field.triangles;
   double fastest = 0.0, densest = 0.0;
-  Point low = mesh.nodes.front(), high = low;
+  mesh::Point low = mesh.nodes.front(), high = low;
   for (std::size_t t = 0; t < field.size(); ++t) {
     fastest = std::max(fastest, field[t].colwise().norm().maxCoeff());
-    densest = std::max(
-        densest, bound.certificate.of_triangle[t] / std::sqrt(twice_area(mesh, mesh.triangles[t])));
+    densest = std::max(densest, bound.certificate.of_triangle[t] /
+                                    std::sqrt(mesh::twice_area(mesh, mesh.triangles[t])));
   }
-  for (const Point& node : mesh.nodes) {
+  for (const mesh::Point& node : mesh.nodes) {
     low = low.cwiseMin(node);
     high = high.cwiseMax(node);
   }
@@ -187,19 +188,19 @@ void write_mechanism(const std::filesystem::path& file, const Case& problem,
       problem.unit.empty() ? "" : " " + problem.unit);
   for (std::size_t t = 0; t < field.size(); ++t) {
     const double density =
-        bound.certificate.of_triangle[t] / std::sqrt(twice_area(mesh, mesh.triangles[t]));
+        bound.certificate.of_triangle[t] / std::sqrt(mesh::twice_area(mesh, mesh.triangles[t]));
     const double shade = densest > 0.0 ? std::sqrt(std::max(0.0, density / densest)) : 0.0;
     fmt::format_to(out, "<path fill=\"rgb({0},{1},{1})\" d=\"M", 255 - std::lround(60 * shade),
                    255 - std::lround(225 * shade));
     for (std::size_t i = 0; i < 3; ++i) {
-      const Point at = corner_of_triangle(mesh, mesh.triangles[t], i) +
-                       carried * field[t].col(static_cast<Eigen::Index>(i));
+      const mesh::Point at = corner_of_triangle(mesh, mesh.triangles[t], i) +
+                             carried * field[t].col(static_cast<Eigen::Index>(i));
       fmt::format_to(out, " {:.2f},{:.2f}", pixels * at.x(), -pixels * at.y());
     }
     text += " Z\"/>\n";
   }
   text += "</g>\n</svg>\n";
-  wiring::write_text_durably(file, text);
+  files::write_text_durably(file, text);
 }
 
 }  // namespace limit

@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "limit/cli.hpp"
+#include "limit/command_line.hpp"
 
 int main(int count, char** words) {
   const std::vector<std::string> arguments(words + 1, words + count);
-  return wiring::to_int(limit::fpm_limit(arguments, std::cout, std::cerr));
+  return program::to_int(limit::fpm_limit(arguments, std::cout, std::cerr));
 }

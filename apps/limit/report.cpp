@@ -8,7 +8,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "wiring/version.hpp"
+#include "program/version.hpp"
 
 namespace limit {
 
@@ -16,35 +16,35 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string_view word(ConeForm form) {
+std::string_view word(solver::ConeForm form) {
   switch (form) {
-    case ConeForm::cones:
+    case solver::ConeForm::cones:
       return "cone";
-    case ConeForm::inequality:
+    case solver::ConeForm::inequality:
       return "inequality";
-    case ConeForm::quadratic:
+    case solver::ConeForm::quadratic:
       return "quadratic inequality";
-    case ConeForm::barrier:
+    case solver::ConeForm::barrier:
       break;
   }
   return "barrier";
 }
 
-std::string_view solver(ConeForm form) {
-  return form == ConeForm::cones ? "interior point" : "Ipopt";
+std::string_view solver(solver::ConeForm form) {
+  return form == solver::ConeForm::cones ? "interior point" : "Ipopt";
 }
 
-std::string_view status_of(const Solution& solution) {
+std::string_view status_of(const bracket::Solution& solution) {
   if (!solution.lower || !solution.upper) return "not certified";
   return solution.bracket.reached ? "reached" : "wider than asked";
 }
 
 // A key for what has the case's unit.
-std::string with_unit(const std::string& key, const Case& problem) {
+std::string with_unit(const std::string& key, const problem::Case& problem) {
   return problem.unit.empty() ? key : key + "_" + problem.unit;
 }
 
-ordered_json as_json(const Case& problem, const Attempt& attempt) {
+ordered_json as_json(const problem::Case& problem, const bracket::Attempt& attempt) {
   ordered_json json{{"bound", attempt.is_lower ? "lower" : "upper"},
                     {"triangles", attempt.triangles},
                     {"cones", word(attempt.form)},
@@ -58,8 +58,8 @@ ordered_json as_json(const Case& problem, const Attempt& attempt) {
 }
 
 // Of a solution alone; both the answer and the Davis-reduced one have it.
-ordered_json as_json(const Case& problem, const Solution& solution) {
-  const Bracket& bracket = solution.bracket;
+ordered_json as_json(const problem::Case& problem, const bracket::Solution& solution) {
+  const bracket::Bracket& bracket = solution.bracket;
   const double stress = problem.units.stress, multiplier = problem.units.multiplier();
   ordered_json json{{"lower_bound", nullptr},
                     {"upper_bound", nullptr},
@@ -74,7 +74,7 @@ ordered_json as_json(const Case& problem, const Solution& solution) {
     json["gap"] = solution.gap();
   }
   if (bracket.lower) {
-    const LowerCertificate& found = bracket.lower->certificate;
+    const certificate::LowerCertificate& found = bracket.lower->certificate;
     json["lower_certificate"] = {
         {"equilibrium_residual_Pa", found.residual * stress},
         {"yield_excess_Pa", found.yield_excess * stress},
@@ -83,7 +83,7 @@ ordered_json as_json(const Case& problem, const Solution& solution) {
     json["lower_solver"] = as_json(problem, bracket.lower->attempt);
   }
   if (bracket.upper) {
-    const UpperCertificate& found = bracket.upper->certificate;
+    const certificate::UpperCertificate& found = bracket.upper->certificate;
     json["upper_certificate"] = {
         {with_unit("dissipation", problem), found.dissipation * multiplier},
         {"flow_rule_violation", found.violation},
@@ -94,7 +94,7 @@ ordered_json as_json(const Case& problem, const Solution& solution) {
   return json;
 }
 
-ordered_json as_json(const wiring::PlateauCheck& run) {
+ordered_json as_json(const bounds::PlateauCheck& run) {
   const auto or_null = [](const std::optional<double>& value) {
     return value ? ordered_json(*value) : ordered_json(nullptr);
   };
@@ -108,11 +108,11 @@ ordered_json as_json(const wiring::PlateauCheck& run) {
           {"perhaps", run.reasons}};
 }
 
-std::string unit_text(const Case& problem) {
+std::string unit_text(const problem::Case& problem) {
   return problem.unit.empty() ? "" : " " + problem.unit;
 }
 
-void say_bounds(std::string& text, const Solution& solution, const std::string& unit) {
+void say_bounds(std::string& text, const bracket::Solution& solution, const std::string& unit) {
   const auto out = std::back_inserter(text);
   if (solution.lower) {
     fmt::format_to(out, "  lower bound {:>14.7g}{}\n", *solution.lower, unit);
@@ -133,12 +133,13 @@ void say_bounds(std::string& text, const Solution& solution, const std::string& 
   }
 }
 
-void say_certificates(std::string& text, const Case& problem, const Bracket& bracket) {
+void say_certificates(std::string& text, const problem::Case& problem,
+                      const bracket::Bracket& bracket) {
   const double stress = problem.units.stress;
   const auto out = std::back_inserter(text);
   text += "Certificates, found without the optimiser:\n";
   if (bracket.lower) {
-    const LowerCertificate& found = bracket.lower->certificate;
+    const certificate::LowerCertificate& found = bracket.lower->certificate;
     fmt::format_to(out,
                    "  stress field   {} triangles; equilibrium to {:.1e} Pa, yield excess before "
                    "shrinking {:.1e} Pa, shrunk by {:.1e}\n",
@@ -146,7 +147,7 @@ void say_certificates(std::string& text, const Case& problem, const Bracket& bra
                    found.yield_excess * stress, 1.0 - found.kept);
   }
   if (bracket.upper) {
-    const UpperCertificate& found = bracket.upper->certificate;
+    const certificate::UpperCertificate& found = bracket.upper->certificate;
     fmt::format_to(out,
                    "  velocity field {} triangles; dissipation {:.7g}{} per unit power of the live "
                    "loads, violation of the flow rule as proposed {:.1e}, repaired by {:.1e}\n",
@@ -156,13 +157,13 @@ void say_certificates(std::string& text, const Case& problem, const Bracket& bra
   }
 }
 
-void say_solver(std::string& text, const Bracket& bracket) {
+void say_solver(std::string& text, const bracket::Bracket& bracket) {
   const auto out = std::back_inserter(text);
   int iterations = 0;
-  for (const Attempt& attempt : bracket.attempts) iterations += attempt.iterations;
+  for (const bracket::Attempt& attempt : bracket.attempts) iterations += attempt.iterations;
   fmt::format_to(out, "Solver: {} attempts, {} iterations; the bounds come from\n",
                  bracket.attempts.size(), iterations);
-  const auto say = [&](std::string_view name, const Attempt& attempt) {
+  const auto say = [&](std::string_view name, const bracket::Attempt& attempt) {
     fmt::format_to(out, "  {}: {}, {} form, {}, {} iterations\n", name, solver(attempt.form),
                    word(attempt.form), attempt.message, attempt.iterations);
   };
@@ -172,7 +173,7 @@ void say_solver(std::string& text, const Bracket& bracket) {
 
 }  // namespace
 
-std::string attempt_line(const Case& problem, const Attempt& attempt) {
+std::string attempt_line(const problem::Case& problem, const bracket::Attempt& attempt) {
   const std::string bound =
       attempt.certified ? fmt::format("{:.7g}{}", *attempt.certified * problem.units.multiplier(),
                                       unit_text(problem))
@@ -182,8 +183,9 @@ std::string attempt_line(const Case& problem, const Attempt& attempt) {
                      attempt.message, attempt.iterations, attempt.seconds);
 }
 
-std::string text_report(const Case& problem, const Answer& answer, const BracketOptions& options) {
-  const Bracket& bracket = answer.found.bracket;
+std::string text_report(const problem::Case& problem, const Answer& answer,
+                        const bracket::BracketOptions& options) {
+  const bracket::Bracket& bracket = answer.found.bracket;
   const std::string unit = unit_text(problem);
   std::string text;
   const auto out = std::back_inserter(text);
@@ -203,7 +205,7 @@ std::string text_report(const Case& problem, const Answer& answer, const Bracket
     text += "With Davis' reduced strength for this dilation (an estimate, not rigorous):\n";
     say_bounds(text, *answer.davis, unit);
   }
-  if (answer.run) text += text_of(*answer.run);
+  if (answer.run) text += bounds::text_of(*answer.run);
   text += '\n';
   say_certificates(text, problem, bracket);
   say_solver(text, bracket);
@@ -212,13 +214,14 @@ std::string text_report(const Case& problem, const Answer& answer, const Bracket
     fmt::format_to(out, "  {}\n", assumption);
   }
   if (!problem.hand.empty()) text += "By hand (none of them a bound):\n";
-  for (const HandFormula& formula : problem.hand) {
+  for (const problem::HandFormula& formula : problem.hand) {
     fmt::format_to(out, "  {:<30}{:>10.5g} Pa\n", formula.name, formula.pressure);
   }
   return text;
 }
 
-std::string json_report(const Case& problem, const Answer& answer, const BracketOptions& options) {
+std::string json_report(const problem::Case& problem, const Answer& answer,
+                        const bracket::BracketOptions& options) {
   ordered_json json = as_json(problem, answer.found);
   json["quantity"] = problem.quantity;
   json["unit"] = problem.unit;
@@ -231,14 +234,14 @@ std::string json_report(const Case& problem, const Answer& answer, const Bracket
   json["case"] = problem.title;
   for (const auto& [what, value] : problem.data) json["data"][what] = value;
   json["assumptions"] = problem.assumptions;
-  for (const HandFormula& formula : problem.hand) {
+  for (const problem::HandFormula& formula : problem.hand) {
     json["hand_formulas_Pa"][formula.name] = formula.pressure;
   }
   json["attempts"] = ordered_json::array();
-  for (const Attempt& attempt : answer.found.bracket.attempts) {
+  for (const bracket::Attempt& attempt : answer.found.bracket.attempts) {
     json["attempts"].push_back(as_json(problem, attempt));
   }
-  json["program"] = std::string("fpm-limit ") + std::string(wiring::version);
+  json["program"] = std::string("fpm-limit ") + std::string(program::version);
   return json.dump(2) + '\n';
 }
 

@@ -4,12 +4,16 @@
 #include <iostream>
 #include <system_error>
 
-#include "wiring/run_loop.hpp"
+#include "run/run_loop.hpp"
 
-wiring::ExitCode run_scene(const wiring::RunRequest& request) {
-  wiring::RunRequest complete = request;
+namespace run {
+
+program::ExitCode run_scene(const run::RunRequest& request) {
+  run::RunRequest complete = request;
   std::error_code failure;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", failure);
   complete.limit_program = self.parent_path() / "fpm-limit";
-  return wiring::run_programme(complete, std::cout, std::cerr);
+  return run::run_programme(complete, std::cout, std::cerr);
 }
+
+}  // namespace run

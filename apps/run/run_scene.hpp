@@ -1,9 +1,13 @@
 #pragma once
 
-#include "wiring/exit_code.hpp"
-#include "wiring/run_request.hpp"
+#include "program/exit_code.hpp"
+#include "run/request.hpp"
+
+namespace run {
 
 /// Runs (or with `check_only` only builds) one scene.
-/// @return how it ended, see wiring::ExitCode. Numerical failure is a value; exceptions are misuse
+/// @return how it ended, see program::ExitCode. Numerical failure is a value; exceptions are misuse
 /// or environment (disk, memory) and are turned into a message by the caller.
-[[nodiscard]] wiring::ExitCode run_scene(const wiring::RunRequest& request);
+[[nodiscard]] program::ExitCode run_scene(const run::RunRequest& request);
+
+}  // namespace run

@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "bodies.hpp"
-#include "wiring/checkpoint.hpp"
-#include "wiring/checkpoint_folder.hpp"
-#include "wiring/durable_file.hpp"
-#include "wiring/particle_fields.hpp"
-#include "wiring/stepper.hpp"
+#include "files/durable_file.hpp"
+#include "model/checkpoint.hpp"
+#include "model/particle_fields.hpp"
+#include "record/checkpoint_folder.hpp"
+#include "stepping/stepper.hpp"
 
 namespace benchmarks {
 namespace {
@@ -43,22 +43,23 @@ double seconds_since(Clock::time_point start) {
 template <int Dim>
 class Run {
  public:
-  Run(const wiring::Scene& scene, std::filesystem::path folder)
+  Run(const scene::Scene& scene, std::filesystem::path folder)
       : scene_(scene),
-        model_(wiring::build_model<Dim>(scene)),
-        state_(wiring::initial_state(model_, scene)),
+        model_(model::build_model<Dim>(scene)),
+        state_(model::initial_state(model_, scene)),
         stepper_(scene, model_, state_),
-        notes_(wiring::notes_for(scene)),
+        notes_(model::notes_for(scene)),
         folder_(std::move(folder)) {}
 
   /// Goes to the end; checkpoints every so many steps as the scene says.
   void go(std::vector<Degree>& degrees) {
     while (!stepper_.finished()) {
       const auto start = Clock::now();
-      const wiring::StepResult result = stepper_.advance();
+      const stepping::StepResult result = stepper_.advance();
       seconds_ += seconds_since(start);
-      if (result.outcome != wiring::StepOutcome::converged) throw std::runtime_error(result.reason);
-      wiring::CurveRow row;
+      if (result.outcome != stepping::StepOutcome::converged)
+        throw std::runtime_error(result.reason);
+      record::CurveRow row;
       row.step = result.record.step;
       notes_.history.push_back(row);
       if (state_.programme.step % scene_.output.checkpoints_every != 0) continue;
@@ -74,27 +75,27 @@ class Run {
  private:
   void write(Degree& degree) {
     const auto start = Clock::now();
-    const auto path = folder_ / wiring::checkpoint_name(state_.programme.step);
-    const auto fields = wiring::particle_fields(
+    const auto path = folder_ / record::checkpoint_name(state_.programme.step);
+    const auto fields = model::particle_fields(
         model_, state_, stepper_.equilibrium().unmasked_residual(), scene_.output.fields);
-    wiring::write_checkpoint(path, model_, state_, notes_, fields, degree.deflate);
+    model::write_checkpoint(path, model_, state_, notes_, fields, degree.deflate);
     degree.seconds += seconds_since(start);
     degree.bytes += static_cast<double>(std::filesystem::file_size(path));
     std::filesystem::remove(path);
   }
 
-  const wiring::Scene& scene_;
-  wiring::Model<Dim> model_;
-  wiring::State<Dim> state_;
-  wiring::LoadStepper<Dim> stepper_;
-  wiring::CheckpointNotes notes_;
+  const scene::Scene& scene_;
+  model::Model<Dim> model_;
+  model::State<Dim> state_;
+  stepping::LoadStepper<Dim> stepper_;
+  record::CheckpointNotes notes_;
   std::filesystem::path folder_;
   double seconds_ = 0.0;
   long checkpoints_ = 0;
 };
 
 template <int Dim>
-void measure(const std::string& name, const wiring::Scene& scene,
+void measure(const std::string& name, const scene::Scene& scene,
              const std::filesystem::path& folder) {
   std::vector<Degree> degrees{{.deflate = 0}, {.deflate = 1}, {.deflate = 6}};
   Run<Dim> run(scene, folder);
@@ -112,9 +113,9 @@ int main_of(int count, char** arguments) {
   if (count != 3) throw std::invalid_argument(usage);
   const std::string name = arguments[1];
   const auto folder = std::filesystem::path(arguments[2]) / "fpm-bench-checkpoint";
-  const wiring::Scene scene = scene_of(body_named(name));
+  const scene::Scene scene = scene_of(body_named(name));
   omp_set_num_threads(1);
-  wiring::create_folder(folder);
+  files::create_folder(folder);
   std::printf("body,particles,compression,bytes_per_particle,ms_each,percent_of_run\n");
   if (scene.geometry.dimension == 2) measure<2>(name, scene, folder);
   if (scene.geometry.dimension == 3) measure<3>(name, scene, folder);

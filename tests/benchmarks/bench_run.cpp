@@ -16,8 +16,8 @@
 #include <string_view>
 
 #include "bodies.hpp"
-#include "wiring/model.hpp"
-#include "wiring/stepper.hpp"
+#include "model/model.hpp"
+#include "stepping/stepper.hpp"
 
 namespace benchmarks {
 namespace {
@@ -55,12 +55,12 @@ double processor_seconds() {
 
 /// @returns whether every step converged
 template <int Dim>
-bool run(const Body& body, const wiring::Scene& scene, const Request& request) {
+bool run(const Body& body, const scene::Scene& scene, const Request& request) {
   using Clock = std::chrono::steady_clock;
   const double before = peak_bytes();
-  const auto model = wiring::build_model<Dim>(scene);
-  auto state = wiring::initial_state(model, scene);
-  wiring::LoadStepper<Dim> stepper(scene, model, state);
+  const auto model = model::build_model<Dim>(scene);
+  auto state = model::initial_state(model, scene);
+  stepping::LoadStepper<Dim> stepper(scene, model, state);
   const double to = request.to.value_or(body.run_to);
   long steps = 0;
   long evaluations = 0;
@@ -68,8 +68,8 @@ bool run(const Body& body, const wiring::Scene& scene, const Request& request) {
   const double processor_start = processor_seconds();
   const auto start = Clock::now();
   while (converged && !stepper.finished() && state.programme.load < to) {
-    const wiring::StepResult result = stepper.advance();
-    converged = result.outcome == wiring::StepOutcome::converged;
+    const stepping::StepResult result = stepper.advance();
+    converged = result.outcome == stepping::StepOutcome::converged;
     evaluations += result.record.evaluations;
     if (converged) ++steps;
     if (!converged) std::fprintf(stderr, "%s: %s\n", body.name.c_str(), result.reason.c_str());
@@ -122,7 +122,7 @@ int main_of(int count, char** arguments) {
   }
   const Request request = read_arguments(count, arguments);
   const Body body = body_named(request.body);
-  const wiring::Scene scene = scene_of(body);
+  const scene::Scene scene = scene_of(body);
   omp_set_num_threads(request.threads);
   const bool converged =
       scene.geometry.dimension == 2 ? run<2>(body, scene, request) : run<3>(body, scene, request);

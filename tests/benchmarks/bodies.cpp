@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "wiring/scene_reader.hpp"
+#include "scene/reader.hpp"
 
 namespace benchmarks {
 
@@ -37,9 +37,9 @@ Body body_named(std::string_view name) {
   throw std::invalid_argument("no body \"" + std::string(name) + "\"; there are" + known);
 }
 
-wiring::Scene scene_of(const Body& body) {
+scene::Scene scene_of(const Body& body) {
   const auto reading =
-      wiring::read_scene(std::filesystem::path(FPM_SCENES) / body.scene, body.settings);
+      scene::read_scene(std::filesystem::path(FPM_SCENES) / body.scene, body.settings);
   if (reading.scene) return *reading.scene;
   std::string problems = body.name + " is refused:";
   for (const auto& problem : reading.errors) problems += '\n' + problem.text();

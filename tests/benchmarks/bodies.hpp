@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "wiring/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace benchmarks {
 
@@ -26,6 +26,6 @@ Body body_named(std::string_view name);
 
 /// The scene of a body.
 /// @throws std::runtime_error with every problem if the scene is refused
-wiring::Scene scene_of(const Body& body);
+scene::Scene scene_of(const Body& body);
 
 }  // namespace benchmarks

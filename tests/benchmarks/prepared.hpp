@@ -5,30 +5,30 @@
 #include <stdexcept>
 
 #include "bodies.hpp"
-#include "wiring/equilibrium.hpp"
-#include "wiring/model.hpp"
-#include "wiring/preconditioner.hpp"
-#include "wiring/stepper.hpp"
+#include "equilibrium/equilibrium.hpp"
+#include "equilibrium/preconditioner.hpp"
+#include "model/model.hpp"
+#include "stepping/stepper.hpp"
 
 namespace benchmarks {
 
 /// Advances a state by up to `steps` steps of its programme.
 /// @throws std::runtime_error with the solver's reason if one does not converge
 template <int Dim>
-wiring::State<Dim> settled_state(const wiring::Scene& scene, const wiring::Model<Dim>& model,
-                                 int steps) {
-  wiring::State<Dim> state = wiring::initial_state(model, scene);
-  wiring::LoadStepper<Dim> stepper(scene, model, state);
+model::State<Dim> settled_state(const scene::Scene& scene, const model::Model<Dim>& model,
+                                int steps) {
+  model::State<Dim> state = model::initial_state(model, scene);
+  stepping::LoadStepper<Dim> stepper(scene, model, state);
   for (int k = 0; k < steps && !stepper.finished(); ++k) {
-    const wiring::StepResult result = stepper.advance();
-    if (result.outcome != wiring::StepOutcome::converged) throw std::runtime_error(result.reason);
+    const stepping::StepResult result = stepper.advance();
+    if (result.outcome != stepping::StepOutcome::converged) throw std::runtime_error(result.reason);
   }
   return state;
 }
 
 /// The operator on the initial rows, which the preconditioner is built from.
 template <int Dim>
-fpm::MomentOperator<Dim> initial_operator(const wiring::Model<Dim>& model) {
+fpm::MomentOperator<Dim> initial_operator(const model::Model<Dim>& model) {
   return {fpm::Rows<Dim>(model.particles, model.ghosts, model.row_options), model.ghosts,
           model.channels};
 }
@@ -39,7 +39,7 @@ template <int Dim>
 struct Prepared {
   Prepared(const Body& body, int settle_steps)
       : scene(scene_of(body)),
-        model(wiring::build_model<Dim>(scene)),
+        model(model::build_model<Dim>(scene)),
         state(settled_state(scene, model, settle_steps)),
         equilibrium(model, state),
         preconditioner(model, initial_operator(model), scene.solver.coarse_spacing_over_spacing),
@@ -59,11 +59,11 @@ struct Prepared {
   Prepared(const Prepared&) = delete;
   Prepared& operator=(const Prepared&) = delete;
 
-  wiring::Scene scene;
-  wiring::Model<Dim> model;
-  wiring::State<Dim> state;
-  wiring::Equilibrium<Dim> equilibrium;
-  wiring::TwoLevelPreconditioner<Dim> preconditioner;
+  scene::Scene scene;
+  model::Model<Dim> model;
+  model::State<Dim> state;
+  equilibrium::Equilibrium<Dim> equilibrium;
+  equilibrium::TwoLevelPreconditioner<Dim> preconditioner;
   Eigen::VectorXd increment;
   Eigen::VectorXd direction;
   Eigen::VectorXd result;

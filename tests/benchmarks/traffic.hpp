@@ -42,7 +42,7 @@ Traffic traffic_of(const Prepared<Dim>& p) {
   double state = (constitutive::stress_size<Dim> + 1) * number + 1.0;  // stress, volume, material
   if (layout.finite) state += tensor;
   if (layout.plastic) state += 2.0 * number;
-  if (layout.subpoints) state += (6 + wiring::State<Dim>::subpoint_rows) * number;
+  if (layout.subpoints) state += (6 + model::State<Dim>::subpoint_rows) * number;
   // What its row knows of its pairs: stiffness, moments, memory, position, gradient; own force out.
   double pair_row = pairs ? number + pair_moments + (field + tensor) + field + tensor + field : 0.0;
   if (layout.incremental) pair_row += number;

@@ -3,31 +3,31 @@
 #include <gmock/gmock.h>
 
 #include "compare/difference.hpp"
-#include "wiring/curve.hpp"
-#include "wiring/durable_file.hpp"
-#include "wiring/temporary_folder.hpp"
-#include "wiring/vtkhdf.hpp"
+#include "files/durable_file.hpp"
+#include "files/vtkhdf.hpp"
+#include "record/curve.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 
+using support::TemporaryFolder;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using wiring::test::TemporaryFolder;
 
 std::filesystem::path stored(int schema) {
   return std::filesystem::path(FPM_STORED_CHECKPOINTS) /
          ("schema-" + std::to_string(schema) + ".hdf");
 }
 
-bool all_identical(const Source& a, const Source& b) {
-  const auto all = differences(a, b, {});
-  return !all.empty() && std::ranges::all_of(all, &Difference::identical);
+bool all_identical(const comparison::Source& a, const comparison::Source& b) {
+  const auto all = comparison::differences(a, b, {});
+  return !all.empty() && std::ranges::all_of(all, &comparison::Difference::identical);
 }
 
 TEST(Source, OfACheckpointIsItsStateAndItsCurve) {
-  const Source source = open_source(stored(2));
+  const comparison::Source source = comparison::open_source(stored(2));
   EXPECT_EQ(source.what, "checkpoint of step 6");
   EXPECT_THAT(source.names, Contains("particles/stress"));
   EXPECT_THAT(source.names, Contains("rows/neighbour"));
@@ -41,55 +41,57 @@ TEST(Source, OfACheckpointIsItsStateAndItsCurve) {
 
 // The same run, compressed and of another schema.
 TEST(Source, OfOneStateInTwoSchemasIsTheSame) {
-  EXPECT_TRUE(all_identical(open_source(stored(1)), open_source(stored(2))));
+  EXPECT_TRUE(
+      all_identical(comparison::open_source(stored(1)), comparison::open_source(stored(2))));
 }
 
 TEST(Source, OfAFolderIsItsNewestUsableCheckpoint) {
   const TemporaryFolder folder;
-  wiring::create_folder(folder / "checkpoints");
+  files::create_folder(folder / "checkpoints");
   std::filesystem::copy_file(stored(2), folder.path() / "checkpoints" / "step-000006.hdf");
-  wiring::write_text_durably(folder.path() / "checkpoints" / "step-000007.hdf", "damaged");
-  EXPECT_TRUE(all_identical(open_source(folder.path()), open_source(stored(2))));
+  files::write_text_durably(folder.path() / "checkpoints" / "step-000007.hdf", "damaged");
+  EXPECT_TRUE(
+      all_identical(comparison::open_source(folder.path()), comparison::open_source(stored(2))));
 }
 
 TEST(Source, OfAFrameIsItsPointsAndFields) {
   const TemporaryFolder folder;
-  const std::vector<wiring::PointField> fields{
-      wiring::scalar_field("plastic_strain", "-", 2, [](std::size_t i) { return double(i); })};
+  const std::vector<files::PointField> fields{
+      files::scalar_field("plastic_strain", "-", 2, [](std::size_t i) { return double(i); })};
   const auto frame = folder / "frame-000001.hdf";
-  wiring::write_frame(frame, 1, 0.5, std::vector<double>{0, 1, 0, 2, 3, 0}, fields);
-  const Source source = open_source(frame);
+  files::write_frame(frame, 1, 0.5, std::vector<double>{0, 1, 0, 2, 3, 0}, fields);
+  const comparison::Source source = comparison::open_source(frame);
   EXPECT_THAT(source.names, ElementsAre("Points", "plastic_strain"));
-  EXPECT_TRUE(all_identical(source, open_source(frame)));
+  EXPECT_TRUE(all_identical(source, comparison::open_source(frame)));
 }
 
 TEST(Source, OfACurveIsItsColumns) {
   const TemporaryFolder folder;
   const auto file = folder / "curve.csv";
-  auto curve = wiring::CurveFile::create(file, 2);
-  wiring::CurveRow row;
+  auto curve = record::CurveFile::create(file, 2);
+  record::CurveRow row;
   for (row.step = 0; row.step < 3; ++row.step) curve.append(row);
-  const Source source = open_source(file);
+  const comparison::Source source = comparison::open_source(file);
   EXPECT_EQ(source.what, "curve to step 2");
   EXPECT_THAT(source.steps, ElementsAre(0, 1, 2));
-  EXPECT_TRUE(all_identical(source, open_source(file)));
+  EXPECT_TRUE(all_identical(source, comparison::open_source(file)));
 }
 
 TEST(Source, ThatIsNoneIsRefused) {
   const TemporaryFolder folder;
   const auto refusal = [](const std::filesystem::path& path) {
     try {
-      (void)open_source(path);
+      (void)comparison::open_source(path);
       return std::string();
-    } catch (const wiring::FileError& failure) {
+    } catch (const files::FileError& failure) {
       return failure.reason();
     }
   };
   EXPECT_THAT(refusal(folder / "none"), HasSubstr("there is no such file"));
   EXPECT_THAT(refusal(folder.path()), HasSubstr("it has no checkpoint"));
-  wiring::write_text_durably(folder / "text.hdf", "text");
+  files::write_text_durably(folder / "text.hdf", "text");
   EXPECT_THAT(refusal(folder / "text.hdf"), HasSubstr("is no whole HDF5 file"));
-  wiring::write_text_durably(folder / "curve.csv", "text");
+  files::write_text_durably(folder / "curve.csv", "text");
   EXPECT_THAT(refusal(folder / "curve.csv"), HasSubstr("header of a curve"));
 }
 

@@ -41,7 +41,7 @@ steps = 1
 
 TEST(Place, ColumnOfOneOrTwoCellsIsRefusedByName) {
   for (const int cells : {1, 2}) {
-    const auto reading = wiring::parse_scene(column_scene(cells), "column", {});
+    const auto reading = scene::parse_scene(column_scene(cells), "column", {});
     ASSERT_FALSE(reading.scene);
     ASSERT_EQ(reading.errors.size(), 1U);
     EXPECT_NE(reading.errors[0].text().find("geometry.spacing"), std::string::npos);

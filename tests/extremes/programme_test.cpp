@@ -16,7 +16,7 @@ TEST(Programme, CutsAHugeFirstStep) {
   PlaneRun run(verification::shipped_scene(
       "footing.toml", footing_with({"drive.target=0.033", "programme.steps=1"})));
   const auto first = run.stepper.advance();
-  ASSERT_EQ(first.outcome, wiring::StepOutcome::converged);
+  ASSERT_EQ(first.outcome, stepping::StepOutcome::converged);
   EXPECT_GT(first.record.cuts, 0);
   EXPECT_LT(first.record.load, 1.0);
   EXPECT_GT(first.record.mean_pressure, 0.0);
@@ -30,7 +30,7 @@ TEST(Programme, ReportsAStepThatMayNotBeCutAndKeepsTheState) {
                                     "programme.minimum_increment_ratio=1.0"})));
   const Eigen::MatrixXd stress = run.state.stress;
   const auto result = run.stepper.advance();
-  EXPECT_EQ(result.outcome, wiring::StepOutcome::minimum_increment);
+  EXPECT_EQ(result.outcome, stepping::StepOutcome::minimum_increment);
   EXPECT_FALSE(result.reason.empty());
   EXPECT_GT(result.residual.norm(), 0.0);
   EXPECT_EQ(run.state.programme.step, 0);
@@ -54,7 +54,7 @@ TEST(Programme, OfNearlyNothingMovesNothing) {
 TEST(Programme, OfNothingIsRefused) {
   const Settings nothing = {"drive.target=0"};
   const auto reading =
-      wiring::read_scene(std::filesystem::path(FPM_SCENES) / "footing.toml", nothing);
+      scene::read_scene(std::filesystem::path(FPM_SCENES) / "footing.toml", nothing);
   ASSERT_FALSE(reading.scene);
   EXPECT_NE(reading.errors[0].text().find("drive.target"), std::string::npos);
 }
@@ -83,7 +83,7 @@ directions = ["x", "y"]
 )";
   PlaneRun run(verification::scene_of(scene));
   const auto result = run.stepper.advance();
-  ASSERT_EQ(result.outcome, wiring::StepOutcome::converged);
+  ASSERT_EQ(result.outcome, stepping::StepOutcome::converged);
   EXPECT_EQ(result.record.max_displacement, 0.0);
   EXPECT_EQ(result.record.newton_iterations, 0);
   // The one of the first step's predictor, on the prescribed displacements.

@@ -9,7 +9,7 @@ namespace extremes {
 
 using verification::report;
 using verification::Settings;
-using Steps = std::vector<wiring::StepRecord>;
+using Steps = std::vector<stepping::StepRecord>;
 using PlaneRun = verification::Run<2>;
 using SpaceRun = verification::Run<3>;
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <string>
 
+#include "files/file_seal.hpp"
 #include "memory_file.hpp"
-#include "wiring/checkpoint.hpp"
-#include "wiring/file_seal.hpp"
+#include "model/checkpoint.hpp"
 
 namespace {
 
@@ -19,11 +19,11 @@ std::string next_text(std::span<const char>& rest) {
 }
 
 void write_file(const std::filesystem::path& path, std::span<const char> rest) {
-  auto file = wiring::Hdf5File::create(path, {.user_block = wiring::seal_size});
+  auto file = files::Hdf5File::create(path, {.user_block = files::seal_size});
   const auto put_number = [&](const char* name, std::int64_t number) {
     file.write<std::int64_t>(name, std::span(&number, 1), {1});
   };
-  put_number("/meta/schema", wiring::checkpoint_schema);
+  put_number("/meta/schema", record::checkpoint_schema);
   put_number("/meta/dimension", 2);
   put_number("/state/programme/step", 6);
   for (const char* name : {"/meta/scene", "/meta/materials", "/meta/lineage", "/history/curve"}) {
@@ -32,11 +32,11 @@ void write_file(const std::filesystem::path& path, std::span<const char> rest) {
   for (const char* name : {"/meta/title", "/meta/versions", "/meta/created", "/meta/reason"}) {
     file.write_text(name, "");
   }
-  wiring::ContentDigest digest;
-  for (const char* group : {"/meta", "/history", "/state"}) wiring::add_group(digest, file, group);
-  wiring::write_digest(file, digest);
+  files::ContentDigest digest;
+  for (const char* group : {"/meta", "/history", "/state"}) files::add_group(digest, file, group);
+  record::write_digest(file, digest);
   file.close();
-  wiring::write_seal(path, wiring::checkpoint_schema, "fuzzer");
+  files::write_seal(path, record::checkpoint_schema, "fuzzer");
 }
 
 }  // namespace
@@ -45,10 +45,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fuzz::MemoryFile memory;
   write_file(memory.path(), {reinterpret_cast<const char*>(data), size});
   try {
-    wiring::CheckpointNotes notes;
-    (void)wiring::open_checkpoint(memory.path(), notes);
-    (void)wiring::scene_of(memory.path(), notes);
-  } catch (const wiring::FileError&) {
+    record::CheckpointNotes notes;
+    (void)record::open_checkpoint(memory.path(), notes);
+    (void)model::scene_of(memory.path(), notes);
+  } catch (const files::FileError&) {
     // refused with its reason
   }
   return 0;

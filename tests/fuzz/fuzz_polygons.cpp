@@ -7,13 +7,13 @@
 #include <span>
 #include <string>
 
-#include "limit/ground_case.hpp"
-#include "limit/ground_outline.hpp"
+#include "limit/ground/ground_case.hpp"
+#include "limit/ground/ground_outline.hpp"
 
 namespace {
 
-using limit::GroundScene;
-using limit::Point;
+using limit::ground::GroundScene;
+using limit::mesh::Point;
 
 class Pen {
  public:
@@ -58,24 +58,24 @@ void add_sides(GroundScene& scene, Pen& pen) {
       const Point &from = region.outline[i], &to = region.outline[(i + 1) % region.outline.size()];
       if (is_shared(from, to)) continue;
       const std::uint8_t kind = pen.byte();
-      limit::GroundSide& side = scene.sides.emplace_back();
+      limit::ground::GroundSide& side = scene.sides.emplace_back();
       side.name = std::to_string(scene.sides.size());
-      side.kind = static_cast<limit::SideKind>(kind % 5);
+      side.kind = static_cast<limit::ground::SideKind>(kind % 5);
       side.along = {from, to};
       side.rough = (kind & 16U) != 0;
       side.tension = (kind & 32U) != 0;
-      if (side.kind == limit::SideKind::loaded) side.shear = (kind & 64U) != 0 ? 0.1 : 0.0;
+      if (side.kind == limit::ground::SideKind::loaded) side.shear = (kind & 64U) != 0 ? 0.1 : 0.0;
     }
   }
 }
 
 GroundScene drawn(Pen pen) {
   GroundScene scene;
-  scene.load.sought = limit::Sought::gravity;
+  scene.load.sought = limit::ground::Sought::gravity;
   scene.materials.push_back({"soil", {1.0, 0.2, 1.0}, 0.2, true});
   const int regions = 1 + pen.byte() % 3;
   for (int r = 0; r < regions; ++r) {
-    limit::GroundRegion& region = scene.regions.emplace_back();
+    limit::ground::GroundRegion& region = scene.regions.emplace_back();
     region.name = std::to_string(r);
     const int points = 3 + pen.byte() % 6;
     for (int i = 0; i < points; ++i) region.outline.push_back(pen.point());
@@ -85,11 +85,11 @@ GroundScene drawn(Pen pen) {
 }
 
 // Conforms (or throws), and covers as much as the polygons.
-void check(const limit::Mesh& mesh, double area) {
-  (void)limit::edges_of(mesh);
+void check(const limit::mesh::Mesh& mesh, double area) {
+  (void)limit::mesh::edges_of(mesh);
   double covered = 0.0;
-  for (const limit::Triangle& triangle : mesh.triangles) {
-    covered += limit::twice_area(mesh, triangle) / 2.0;
+  for (const limit::mesh::Triangle& triangle : mesh.triangles) {
+    covered += limit::mesh::twice_area(mesh, triangle) / 2.0;
   }
   constexpr double of_area = 1e-6;  // what may lie between places that count as one
   if (!(std::abs(covered - area) <= of_area * area)) std::abort();
@@ -99,10 +99,10 @@ void check(const limit::Mesh& mesh, double area) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const GroundScene scene = drawn(Pen({data, size}));
-  wiring::Diagnosis diagnosis("drawn");
-  const limit::GroundOutline outline = limit::ground_outline(scene, diagnosis);
+  tables::Diagnosis diagnosis("drawn");
+  const limit::ground::GroundOutline outline = limit::ground::ground_outline(scene, diagnosis);
   if (!diagnosis.errors().empty()) return 0;
-  const auto made = limit::ground_case(scene, diagnosis);
+  const auto made = limit::ground::ground_case(scene, diagnosis);
   if (!made) {
     if (diagnosis.errors().empty()) std::abort();  // refused without a reason
     return 0;

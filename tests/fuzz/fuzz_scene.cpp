@@ -7,20 +7,20 @@
 #include <string_view>
 #include <vector>
 
-#include "wiring/scene_print.hpp"
-#include "wiring/scene_reader.hpp"
+#include "scene/print.hpp"
+#include "scene/reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view whole(reinterpret_cast<const char*>(data), size);
   const std::size_t end = std::min(whole.find('\0'), size);
   std::vector<std::string> settings;
   if (end < size) settings.emplace_back(whole.substr(end + 1));
-  const auto reading = wiring::parse_scene(whole.substr(0, end), "scene.toml", settings);
+  const auto reading = scene::parse_scene(whole.substr(0, end), "scene.toml", settings);
   if (!reading.scene) {
     if (reading.errors.empty()) std::abort();  // refused without a reason
     return 0;
   }
-  const auto again = wiring::parse_scene(wiring::effective_toml(*reading.scene), "effective", {});
+  const auto again = scene::parse_scene(scene::effective_toml(*reading.scene), "effective", {});
   if (!again.scene || *again.scene != *reading.scene) std::abort();
   return 0;
 }

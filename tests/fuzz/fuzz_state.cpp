@@ -10,21 +10,21 @@
 #include <variant>
 #include <vector>
 
+#include "equilibrium/equilibrium.hpp"
+#include "files/file_seal.hpp"
 #include "memory_file.hpp"
-#include "wiring/checkpoint.hpp"
-#include "wiring/equilibrium.hpp"
-#include "wiring/file_seal.hpp"
-#include "wiring/state_file.hpp"
+#include "model/checkpoint.hpp"
+#include "model/state_file.hpp"
 
 namespace {
 
-using wiring::Hdf5File;
+using files::Hdf5File;
 using Values = std::variant<std::vector<double>, std::vector<std::int64_t>,
                             std::vector<std::int32_t>, std::string>;
 
 struct Dataset {
   std::string path;
-  wiring::Shape shape;
+  files::Shape shape;
   Values values;
 };
 
@@ -51,14 +51,14 @@ void add_datasets(std::vector<Dataset>& all, const Hdf5File& file, const std::st
 struct Sound {
   std::vector<Dataset> notes;
   std::vector<Dataset> state;
-  wiring::Model<2> model;
+  model::Model<2> model;
 };
 
 Sound read_sound() {
   const std::filesystem::path path = std::filesystem::path(FPM_STORED_CHECKPOINTS) / "schema-2.hdf";
-  wiring::CheckpointNotes notes;
-  const Hdf5File file = wiring::open_checkpoint(path, notes);
-  Sound sound{{}, {}, wiring::build_model<2>(wiring::scene_of(path, notes))};
+  record::CheckpointNotes notes;
+  const Hdf5File file = record::open_checkpoint(path, notes);
+  Sound sound{{}, {}, model::build_model<2>(model::scene_of(path, notes))};
   add_datasets(sound.notes, file, "/meta");
   add_datasets(sound.notes, file, "/history");
   add_datasets(sound.state, file, "/state");
@@ -110,18 +110,18 @@ void write(Hdf5File& file, const Dataset& dataset) {
 
 void write_file(const std::filesystem::path& path, const std::vector<Dataset>& notes,
                 const std::vector<Dataset>& state) {
-  auto file = Hdf5File::create(path, {.user_block = wiring::seal_size});
+  auto file = Hdf5File::create(path, {.user_block = files::seal_size});
   for (const Dataset& dataset : notes) write(file, dataset);
   for (const Dataset& dataset : state) write(file, dataset);
-  wiring::ContentDigest digest;
-  for (const char* group : {"/meta", "/history", "/state"}) wiring::add_group(digest, file, group);
-  wiring::write_digest(file, digest);
+  files::ContentDigest digest;
+  for (const char* group : {"/meta", "/history", "/state"}) files::add_group(digest, file, group);
+  record::write_digest(file, digest);
   file.close();
-  wiring::write_seal(path, wiring::checkpoint_schema, "fuzzer");
+  files::write_seal(path, record::checkpoint_schema, "fuzzer");
 }
 
-void evaluate(const wiring::Model<2>& model, wiring::State<2>& state) {
-  wiring::Equilibrium<2> equilibrium(model, state);
+void evaluate(const model::Model<2>& model, model::State<2>& state) {
+  equilibrium::Equilibrium<2> equilibrium(model, state);
   equilibrium.rebuild_operator();
   equilibrium.begin_step(state.programme.load);
   const Eigen::VectorXd increment = Eigen::VectorXd::Zero(2 * model.size());
@@ -145,11 +145,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fuzz::MemoryFile memory;
   write_file(memory.path(), sound.notes, state);
   try {
-    wiring::CheckpointNotes notes;
-    const Hdf5File file = wiring::open_checkpoint(memory.path(), notes);
-    auto read = wiring::read_state(file, sound.model);
+    record::CheckpointNotes notes;
+    const Hdf5File file = record::open_checkpoint(memory.path(), notes);
+    auto read = model::read_state(file, sound.model);
     evaluate(sound.model, read);
-  } catch (const wiring::FileError&) {
+  } catch (const files::FileError&) {
     // refused with its reason
   }
   return 0;

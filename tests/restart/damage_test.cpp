@@ -4,14 +4,14 @@
 
 #include <fstream>
 
+#include "files/content_digest.hpp"
+#include "files/file_seal.hpp"
+#include "files/hdf5_file.hpp"
+#include "files/unsealed_file.hpp"
+#include "record/checkpoint_file.hpp"
 #include "restart.hpp"
-#include "wiring/checkpoint_file.hpp"
-#include "wiring/content_digest.hpp"
-#include "wiring/file_seal.hpp"
-#include "wiring/hdf5_file.hpp"
-#include "wiring/unsealed_file.hpp"
 
-namespace wiring::test {
+namespace restart {
 namespace {
 
 using ::testing::HasSubstr;
@@ -31,7 +31,7 @@ void damage(const std::filesystem::path& file, const std::string& pattern) {
 
 /// The bytes of the stress of a checkpoint's first particles.
 std::string stress_bytes(const std::filesystem::path& checkpoint) {
-  const auto stress = Hdf5File::open(checkpoint).read_all<double>("/state/particles/stress");
+  const auto stress = files::Hdf5File::open(checkpoint).read_all<double>("/state/particles/stress");
   const auto bytes = std::as_bytes(std::span(stress).first(16));
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -40,10 +40,10 @@ class DamagedCheckpoint : public ::testing::Test {
  protected:
   void SetUp() override {
     run_ = folder_ / "run";
-    ASSERT_EQ(fpm_run_in(run_, block).code, ExitCode::done);
+    ASSERT_EQ(fpm_run_in(run_, block).code, program::ExitCode::done);
   }
 
-  TemporaryFolder folder_;
+  support::TemporaryFolder folder_;
   std::filesystem::path run_;
 };
 
@@ -52,7 +52,7 @@ TEST_F(DamagedCheckpoint, IsRefusedAndTheNextOlderUsableOneNamed) {
   damage(newest, stress_bytes(newest));
   overwrite(newer, bytes_of_file(newer).substr(0, 5000));
   const Outcome outcome = fpm_run_in(run_, block, {"--resume=" + newest.string()});
-  EXPECT_EQ(outcome.code, ExitCode::checkpoint_unusable);
+  EXPECT_EQ(outcome.code, program::ExitCode::checkpoint_unusable);
   EXPECT_THAT(outcome.err, HasSubstr("is damaged: its bytes are not those that were sealed"));
   EXPECT_THAT(outcome.err,
               HasSubstr("the next older usable one is " + checkpoint_of(run_, 4).string()));
@@ -62,7 +62,7 @@ TEST_F(DamagedCheckpoint, IsPassedOverWithAWarningWhenNoneIsNamed) {
   const std::string curve = bytes_of_file(run_ / "curve.csv");
   damage(checkpoint_of(run_, 6), stress_bytes(checkpoint_of(run_, 6)));
   const Outcome outcome = fpm_run_in(run_, block, {"--resume"});
-  EXPECT_EQ(outcome.code, ExitCode::done) << outcome.err;
+  EXPECT_EQ(outcome.code, program::ExitCode::done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("resuming from " + checkpoint_of(run_, 5).string()));
   EXPECT_THAT(bytes_of_file(run_ / "run.log"), HasSubstr("step-000006.hdf: is damaged"));
 }
@@ -71,23 +71,23 @@ TEST_F(DamagedCheckpoint, IsNeverReplacedByAStartFromZero) {
   for (int step = 0; step <= 6; ++step) overwrite(checkpoint_of(run_, step), "not HDF5");
   const std::string curve = bytes_of_file(run_ / "curve.csv");
   const Outcome outcome = fpm_run_in(run_, block, {"--resume"});
-  EXPECT_EQ(outcome.code, ExitCode::checkpoint_unusable);
+  EXPECT_EQ(outcome.code, program::ExitCode::checkpoint_unusable);
   EXPECT_THAT(outcome.err, HasSubstr("no checkpoint is usable"));
   EXPECT_EQ(bytes_of_file(run_ / "curve.csv"), curve);
 
   const Outcome nothing = fpm_run_in(folder_ / "nowhere", block, {"--resume"});
-  EXPECT_EQ(nothing.code, ExitCode::checkpoint_unusable);
+  EXPECT_EQ(nothing.code, program::ExitCode::checkpoint_unusable);
   EXPECT_THAT(nothing.err, HasSubstr("there is no checkpoint to resume from"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "nowhere"));
 }
 
 /// Why a file is refused, or "" if it opens.
 std::string refusal_of(const std::filesystem::path& file) {
-  CheckpointNotes notes;
+  record::CheckpointNotes notes;
   try {
-    (void)open_checkpoint(file, notes);
+    (void)record::open_checkpoint(file, notes);
     return "";
-  } catch (const FileError& failure) {
+  } catch (const files::FileError& failure) {
     return failure.reason();
   }
 }
@@ -123,7 +123,7 @@ TEST_F(DamagedCheckpoint, IsRefusedWhereverAByteIsFlipped) {
     }
   }
   // The four bytes after a chunk are its checksum.
-  const auto whole = Hdf5File::open(sound).read_all<double>("/state/particles/stress");
+  const auto whole = files::Hdf5File::open(sound).read_all<double>("/state/particles/stress");
   const std::string_view data(reinterpret_cast<const char*>(whole.data()),
                               whole.size() * sizeof(double));
   const std::size_t checksum = bytes.find(data) + data.size();
@@ -166,27 +166,27 @@ TEST_F(DamagedCheckpoint, CutAtAnyKilobyteIsRefused) {
 TEST_F(DamagedCheckpoint, BehindASoundSealIsRefusedByItsDataset) {
   const auto file = checkpoint_of(run_, 3);
   damage(file, stress_bytes(file));
-  write_seal(file, checkpoint_schema, "a seal that is sound");
+  files::write_seal(file, record::checkpoint_schema, "a seal that is sound");
   EXPECT_THAT(refusal_of(file), HasSubstr("/state/particles/stress cannot be read"));
 }
 
 TEST_F(DamagedCheckpoint, ThatLacksADatasetIsRefusedByItsDigest) {
   const auto file = checkpoint_of(run_, 3);
   damage(file, "subpoint_deviator");  // its name
-  write_seal(file, checkpoint_schema, "a seal that is sound");
+  files::write_seal(file, record::checkpoint_schema, "a seal that is sound");
   EXPECT_THAT(refusal_of(file), HasSubstr("its datasets are not those it was written with"));
 }
 
 TEST_F(DamagedCheckpoint, WithoutItsSealIsRefused) {
   const auto file = checkpoint_of(run_, 3);
-  overwrite(file, bytes_of_file(file).substr(seal_size));
+  overwrite(file, bytes_of_file(file).substr(files::seal_size));
   EXPECT_NE(refusal_of(file), "");
 }
 
 // The first schema had no seal: HDF5 and the digest alone stand for it. A byte that nothing covers
 // is one that nothing is read from.
 TEST(CheckpointOfTheFirstSchema, WithAFlippedByteIsRefusedOrIsWhatItWas) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto sound = std::filesystem::path(FPM_STORED_CHECKPOINTS) / "schema-1.hdf";
   const auto damaged = folder / "damaged.hdf";
   const std::string bytes = bytes_of_file(sound);
@@ -215,19 +215,19 @@ TEST(UnsealedFile, OnWhichHdf5GoesAstrayIsRefused) {
 
 // Whatever HDF5 does to its process, here the worst: a file that ends the one that reads it.
 TEST(UnsealedFile, ThatEndsItsReaderIsRefused) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto file = folder / "frame.hdf";
   {
-    Hdf5File made = Hdf5File::create(file);
+    files::Hdf5File made = files::Hdf5File::create(file);
     made.write_text("/a", "text");
     made.close();
   }
-  EXPECT_EQ(open_unsealed(file).read_text("/a"), "text");
-  EXPECT_EQ(open_unsealed(file).file(), file);
+  EXPECT_EQ(files::open_unsealed(file).read_text("/a"), "text");
+  EXPECT_EQ(files::open_unsealed(file).file(), file);
   std::string reason;
   try {
-    (void)open_unsealed(file, [](const auto&, const auto&) { std::abort(); });
-  } catch (const FileError& failure) {
+    (void)files::open_unsealed(file, [](const auto&, const auto&) { std::abort(); });
+  } catch (const files::FileError& failure) {
     reason = failure.reason();
   }
   EXPECT_EQ(reason, "is damaged: HDF5 falls on it (Aborted)");
@@ -235,7 +235,7 @@ TEST(UnsealedFile, ThatEndsItsReaderIsRefused) {
 
 TEST_F(DamagedCheckpoint, FromAnotherProgramIsRefused) {
   const auto file = run_ / "other.hdf";
-  Hdf5File::create(file).close();
+  files::Hdf5File::create(file).close();
   const std::string from = "--resume=" + file.string();
   EXPECT_THAT(fpm_run_in(run_, block, {from}).err, HasSubstr("is no checkpoint of this program"));
   overwrite(file, "step,load\n");
@@ -245,7 +245,7 @@ TEST_F(DamagedCheckpoint, FromAnotherProgramIsRefused) {
 TEST(ContentDigest, DependsOnNamesAndEveryBitButNotOnTheOrder) {
   const std::string a = "twelve bytes", b = "twelve bytez";
   const auto digest = [](std::vector<std::pair<std::string, std::string>> datasets) {
-    ContentDigest sum;
+    files::ContentDigest sum;
     for (const auto& [path, text] : datasets) sum.add(path, std::as_bytes(std::span(text)));
     return sum.value();
   };
@@ -257,4 +257,4 @@ TEST(ContentDigest, DependsOnNamesAndEveryBitButNotOnTheOrder) {
 }
 
 }  // namespace
-}  // namespace wiring::test
+}  // namespace restart

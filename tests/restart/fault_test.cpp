@@ -15,12 +15,12 @@
 #include <set>
 
 #include "faulty_system.hpp"
+#include "record/checkpoint_folder.hpp"
+#include "record/curve.hpp"
+#include "record/run_folder.hpp"
 #include "restart.hpp"
-#include "wiring/checkpoint_folder.hpp"
-#include "wiring/curve.hpp"
-#include "wiring/run_folder.hpp"
 
-namespace wiring::test {
+namespace restart {
 namespace {
 
 using ::testing::AnyOf;
@@ -41,8 +41,8 @@ enum class Extent { kinds, all };
 class Faults : public ::testing::Test {
  protected:
   void SetUp() override {
-    calls_ = calls_of([&](const SystemCalls& system) {
-      ASSERT_EQ(fpm_run_in(whole(), block, short_run, system).code, ExitCode::done);
+    calls_ = calls_of([&](const files::SystemCalls& system) {
+      ASSERT_EQ(fpm_run_in(whole(), block, short_run, system).code, program::ExitCode::done);
     });
     curve_ = curve_without_wall(whole());
   }
@@ -80,18 +80,18 @@ class Faults : public ::testing::Test {
   void expect_whole_after(const std::filesystem::path& run, const std::string& what) {
     // Before the first checkpoint there is nothing to go on from, and it is said so.
     Outcome outcome = fpm_run_in(run, block, resumed(short_run));
-    if (list_checkpoints(run / "checkpoints").empty()) {
-      ASSERT_EQ(outcome.code, ExitCode::checkpoint_unusable) << what;
+    if (record::list_checkpoints(run / "checkpoints").empty()) {
+      ASSERT_EQ(outcome.code, program::ExitCode::checkpoint_unusable) << what;
       ASSERT_THAT(outcome.err, HasSubstr("there is no checkpoint to resume from")) << what;
       outcome = fpm_run_in(run, block, short_run);
     }
-    ASSERT_EQ(outcome.code, ExitCode::done) << what << ": " << outcome.err;
+    ASSERT_EQ(outcome.code, program::ExitCode::done) << what << ": " << outcome.err;
     ASSERT_THAT(differing_fields(last_checkpoint(whole()), last_checkpoint(run)), IsEmpty())
         << what;
     ASSERT_EQ(curve_without_wall(run), curve_) << what;
   }
 
-  TemporaryFolder folder_;
+  support::TemporaryFolder folder_;
   std::vector<Call> calls_;
   std::vector<std::string> curve_;
 };
@@ -114,14 +114,14 @@ void Faults::expect_loss_of_nothing_when_one_fails(Extent extent) {
     const Call& call = calls_[static_cast<std::size_t>(at)];
     const int number = call.name == "pwrite" ? ENOSPC : EIO;
     const auto run = folder_ / "run";
-    const SystemCalls system = faulty_system([&](std::int64_t i, const Call&) {
+    const files::SystemCalls system = faulty_system([&](std::int64_t i, const Call&) {
       return i == at ? Fault{Fault::Kind::fails, number} : Fault{};
     });
     const Outcome outcome = fpm_run_in(run, block, short_run, system);
     const std::string what = text_of(at, call);
-    if (outcome.code != ExitCode::done) {
+    if (outcome.code != program::ExitCode::done) {
       ++stopped;
-      ASSERT_EQ(outcome.code, ExitCode::checkpoint_unusable) << what;
+      ASSERT_EQ(outcome.code, program::ExitCode::checkpoint_unusable) << what;
       ASSERT_THAT(outcome.err, HasSubstr(std::strerror(number))) << what;
       ASSERT_THAT(outcome.err, HasSubstr("fpm t\u00e9st")) << what;
       if (at > first_checkpoint_ends() + 2) {
@@ -148,13 +148,15 @@ TEST_F(Faults, OfEveryWriteEndTheRunWithAMessageAndLoseNothing) {
 TEST_F(Faults, ThatLastAsAFullDiskDoesLoseNothing) {
   for (std::int64_t from = 0; from < calls(); from += 43) {
     const auto run = folder_ / "run";
-    const SystemCalls system = faulty_system([&](std::int64_t i, const Call& call) {
+    const files::SystemCalls system = faulty_system([&](std::int64_t i, const Call& call) {
       const bool full = i >= from && call.name == "pwrite";
       return full ? Fault{Fault::Kind::fails, ENOSPC} : Fault{};
     });
     const Outcome outcome = fpm_run_in(run, block, short_run, system);
     const std::string what = "full from call " + std::to_string(from);
-    ASSERT_THAT(outcome.code, AnyOf(ExitCode::checkpoint_unusable, ExitCode::done)) << what;
+    ASSERT_THAT(outcome.code,
+                AnyOf(program::ExitCode::checkpoint_unusable, program::ExitCode::done))
+        << what;
     expect_whole_after(run, what);
     std::filesystem::remove_all(run);
   }
@@ -162,24 +164,24 @@ TEST_F(Faults, ThatLastAsAFullDiskDoesLoseNothing) {
 
 TEST_F(Faults, ThatAreShortWritesAreMadeUpFor) {
   const auto run = folder_ / "run";
-  const SystemCalls system = faulty_system([](std::int64_t, const Call&) {
+  const files::SystemCalls system = faulty_system([](std::int64_t, const Call&) {
     return Fault{Fault::Kind::falls_short, 0};
   });
-  ASSERT_EQ(fpm_run_in(run, block, short_run, system).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(run, block, short_run, system).code, program::ExitCode::done);
   EXPECT_THAT(differing_fields(last_checkpoint(whole()), last_checkpoint(run)), IsEmpty());
   EXPECT_EQ(curve_without_wall(run), curve_);
 }
 
 TEST_F(Faults, ThatAreAClockThatGoesBackwardsChangeNothing) {
   const auto run = folder_ / "run";
-  SystemCalls system = system_calls();
+  files::SystemCalls system = files::system_calls();
   std::time_t now = 1700000000;
   system.time = [&now] { return now -= 100000; };
   ASSERT_EQ(
       fpm_run_in(run, block, {"--max-wall", "0.000000001s", "--set", "programme.steps=2"}, system)
           .code,
-      ExitCode::interrupted);
-  ASSERT_EQ(fpm_run_in(run, block, resumed(short_run), system).code, ExitCode::done);
+      program::ExitCode::interrupted);
+  ASSERT_EQ(fpm_run_in(run, block, resumed(short_run), system).code, program::ExitCode::done);
   EXPECT_THAT(differing_fields(last_checkpoint(whole()), last_checkpoint(run)), IsEmpty());
   EXPECT_EQ(curve_without_wall(run), curve_);
 }
@@ -190,7 +192,7 @@ bool killed_at(const std::filesystem::path& run, std::int64_t at,
                const std::vector<std::string>& arguments) {
   const pid_t child = ::fork();
   if (child == 0) {
-    const SystemCalls system = faulty_system([at](std::int64_t i, const Call&) {
+    const files::SystemCalls system = faulty_system([at](std::int64_t i, const Call&) {
       if (i == at) ::kill(::getpid(), SIGKILL);
       return Fault{};
     });
@@ -257,9 +259,9 @@ TEST_F(Faults, CannotMeetAMomentWithoutACheckpoint) {
 }
 
 TEST(FileSizeLimit, IsAnErrorOfTheWriteAndNotTheEnd) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto whole = folder / "whole", run = folder / "run";
-  ASSERT_EQ(fpm_run_in(whole, block).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(whole, block).code, program::ExitCode::done);
   // The curve fits, and no checkpoint does.
   rlimit former{};
   ::getrlimit(RLIMIT_FSIZE, &former);
@@ -267,36 +269,36 @@ TEST(FileSizeLimit, IsAnErrorOfTheWriteAndNotTheEnd) {
   ::setrlimit(RLIMIT_FSIZE, &tight);
   const Outcome outcome = fpm_run_in(run, block);
   ::setrlimit(RLIMIT_FSIZE, &former);
-  EXPECT_EQ(outcome.code, ExitCode::checkpoint_unusable);
+  EXPECT_EQ(outcome.code, program::ExitCode::checkpoint_unusable);
   EXPECT_THAT(outcome.err, HasSubstr("step-000000.hdf.tmp-"));
   EXPECT_THAT(outcome.err, HasSubstr(std::strerror(EFBIG)));
-  ASSERT_EQ(fpm_run_in(run, block).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(run, block).code, program::ExitCode::done);
   EXPECT_THAT(differing_fields(last_checkpoint(whole), last_checkpoint(run)), IsEmpty());
 }
 
 // As a disk that fills up in the middle: the newest checkpoint stays and is named.
 TEST(FileSizeLimit, ThatComesLaterLeavesTheLastCheckpoint) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto run = folder / "run";
-  const SystemCalls system = faulty_system([](std::int64_t, const Call& call) {
+  const files::SystemCalls system = faulty_system([](std::int64_t, const Call& call) {
     const bool full = call.path.find("step-000004.hdf") != std::string::npos;
     return full && call.name == "pwrite" ? Fault{Fault::Kind::fails, EFBIG} : Fault{};
   });
   const Outcome outcome = fpm_run_in(run, block, {}, system);
-  EXPECT_EQ(outcome.code, ExitCode::checkpoint_unusable);
+  EXPECT_EQ(outcome.code, program::ExitCode::checkpoint_unusable);
   EXPECT_THAT(outcome.err, HasSubstr("cannot be written: File too large"));
   EXPECT_THAT(outcome.err,
               HasSubstr("the last good checkpoint is " + checkpoint_of(run, 3).string()));
 }
 
 TEST(Folder, ThatIsAFileOrBelowOneIsRefused) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   std::ofstream(folder / "file") << "x";
   for (const auto& run : {folder / "file", folder.path() / "file" / "run"}) {
     try {
-      const RunFolder made(run);
+      const record::RunFolder made(run);
       FAIL() << "made " << run;
-    } catch (const FileError& failure) {
+    } catch (const files::FileError& failure) {
       EXPECT_THAT(failure.what(), HasSubstr((folder / "file").string() + ": cannot be created: "));
     }
   }
@@ -304,50 +306,50 @@ TEST(Folder, ThatIsAFileOrBelowOneIsRefused) {
 
 // Root may write where others may not, so that the refusal comes from the calls.
 TEST(Folder, ThatIsReadOnlyIsRefused) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "run");
-  const SystemCalls system = faulty_system([](std::int64_t, const Call& call) {
+  const files::SystemCalls system = faulty_system([](std::int64_t, const Call& call) {
     return call.name == "open" ? Fault{Fault::Kind::fails, EROFS} : Fault{};
   });
   const Outcome outcome = fpm_run_in(folder / "run", block, {}, system);
-  EXPECT_EQ(outcome.code, ExitCode::checkpoint_unusable);
+  EXPECT_EQ(outcome.code, program::ExitCode::checkpoint_unusable);
   EXPECT_THAT(outcome.err, HasSubstr("run.lock: cannot be opened: Read-only file system"));
 }
 
 TEST(Folder, ThatTurnsReadOnlyLeavesTheLastCheckpoint) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto whole = folder / "whole", run = folder / "run";
-  ASSERT_EQ(fpm_run_in(whole, block).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(whole, block).code, program::ExitCode::done);
   bool read_only = false;
-  const SystemCalls system = faulty_system([&](std::int64_t, const Call& call) {
+  const files::SystemCalls system = faulty_system([&](std::int64_t, const Call& call) {
     read_only |= call.path.find("step-000004.hdf") != std::string::npos;
     return read_only && call.name != "close" ? Fault{Fault::Kind::fails, EROFS} : Fault{};
   });
   const Outcome outcome = fpm_run_in(run, block, {}, system);
-  EXPECT_EQ(outcome.code, ExitCode::checkpoint_unusable);
+  EXPECT_EQ(outcome.code, program::ExitCode::checkpoint_unusable);
   EXPECT_THAT(outcome.err, HasSubstr("Read-only file system"));
   EXPECT_THAT(outcome.err,
               HasSubstr("the last good checkpoint is " + checkpoint_of(run, 3).string()));
-  ASSERT_EQ(fpm_run_in(run, block, {"--resume"}).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(run, block, {"--resume"}).code, program::ExitCode::done);
   EXPECT_THAT(differing_fields(last_checkpoint(whole), last_checkpoint(run)), IsEmpty());
   EXPECT_EQ(curve_without_wall(run), curve_without_wall(whole));
 }
 
 TEST(Folder, ThatVanishesIsSaidToBeGone) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto run = folder / "run";
-  const SystemCalls system = faulty_system([&](std::int64_t, const Call& call) {
+  const files::SystemCalls system = faulty_system([&](std::int64_t, const Call& call) {
     const bool now = call.path.find("step-000004.hdf") != std::string::npos;
     if (now) std::filesystem::remove_all(run / "checkpoints");
     return Fault{};
   });
   const Outcome outcome = fpm_run_in(run, block, {}, system);
-  EXPECT_EQ(outcome.code, ExitCode::checkpoint_unusable);
+  EXPECT_EQ(outcome.code, program::ExitCode::checkpoint_unusable);
   EXPECT_THAT(outcome.err, HasSubstr("No such file or directory"));
   EXPECT_THAT(outcome.err,
               HasSubstr("gone is the last checkpoint, " + checkpoint_of(run, 3).string()));
-  EXPECT_EQ(read_curve(run / "curve.csv").size(), 5U);  // with the start
+  EXPECT_EQ(record::read_curve(run / "curve.csv").size(), 5U);  // with the start
 }
 
 }  // namespace
-}  // namespace wiring::test
+}  // namespace restart

@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-namespace wiring::test {
+namespace restart {
 
 namespace {
 
@@ -27,10 +27,10 @@ struct Ledger {
 
 }  // namespace
 
-SystemCalls faulty_system(Fate fate) {
+files::SystemCalls faulty_system(Fate fate) {
   const auto ledger = std::make_shared<Ledger>(Ledger{std::move(fate), 0, {}});
-  const SystemCalls& real = system_calls();
-  SystemCalls faulty = real;
+  const files::SystemCalls& real = files::system_calls();
+  files::SystemCalls faulty = real;
   faulty.open = [=, &real](const char* path, int flags, mode_t mode) {
     if (ledger->fails("open", path)) return -1;
     const int file = real.open(path, flags, mode);
@@ -64,7 +64,7 @@ SystemCalls faulty_system(Fate fate) {
   return faulty;
 }
 
-std::vector<Call> calls_of(const std::function<void(const SystemCalls&)>& work) {
+std::vector<Call> calls_of(const std::function<void(const files::SystemCalls&)>& work) {
   std::vector<Call> calls;
   work(faulty_system([&](std::int64_t, const Call& call) {
     calls.push_back(call);
@@ -73,4 +73,4 @@ std::vector<Call> calls_of(const std::function<void(const SystemCalls&)>& work) 
   return calls;
 }
 
-}  // namespace wiring::test
+}  // namespace restart

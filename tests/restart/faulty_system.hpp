@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "wiring/system_calls.hpp"
+#include "files/system_calls.hpp"
 
-namespace wiring::test {
+namespace restart {
 
 /// A call as a fault sees it, before it is made.
 struct Call {
@@ -25,9 +25,10 @@ using Fate = std::function<Fault(std::int64_t number, const Call& call)>;
 
 /// System calls that end as `fate` says; those it lets be are the real ones. What it does before it
 /// returns (kill the process, say) it does before the call.
-[[nodiscard]] SystemCalls faulty_system(Fate fate);
+[[nodiscard]] files::SystemCalls faulty_system(Fate fate);
 
 /// All the calls that `work` makes.
-[[nodiscard]] std::vector<Call> calls_of(const std::function<void(const SystemCalls&)>& work);
+[[nodiscard]] std::vector<Call> calls_of(
+    const std::function<void(const files::SystemCalls&)>& work);
 
-}  // namespace wiring::test
+}  // namespace restart

@@ -9,14 +9,14 @@
 #include <csignal>
 #include <fstream>
 
+#include "files/durable_file.hpp"
+#include "files/vtkhdf.hpp"
+#include "record/checkpoint_folder.hpp"
+#include "record/curve.hpp"
+#include "record/run_folder.hpp"
 #include "restart.hpp"
-#include "wiring/checkpoint_folder.hpp"
-#include "wiring/curve.hpp"
-#include "wiring/durable_file.hpp"
-#include "wiring/run_folder.hpp"
-#include "wiring/vtkhdf.hpp"
 
-namespace wiring::test {
+namespace restart {
 namespace {
 
 using ::testing::ContainsRegex;
@@ -35,7 +35,7 @@ std::vector<std::string> names_in(const std::filesystem::path& folder) {
 std::vector<std::string> frames_listed(const std::filesystem::path& folder) {
   std::vector<std::string> names;
   const double all = 1e300;
-  const FrameSeries series = FrameSeries::resume(folder / "run.hdf.series", all);
+  const files::FrameSeries series = files::FrameSeries::resume(folder / "run.hdf.series", all);
   for (const auto& entry : series.entries()) {
     names.push_back(std::filesystem::path(entry.name).filename().string());
   }
@@ -43,27 +43,27 @@ std::vector<std::string> frames_listed(const std::filesystem::path& folder) {
 }
 
 TEST(OutputFolder, OfAResumedRunHoldsEveryStepAndFrameOnce) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto run = folder / "run";
-  ASSERT_EQ(fpm_run_in(run, footing).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(run, footing).code, program::ExitCode::done);
   const auto curve = curve_without_wall(run);
   const auto frames = frames_listed(run);
   EXPECT_EQ(names_in(run / "frames"), frames);
   ASSERT_GE(frames.size(), 6U);
   ASSERT_EQ(fpm_run_in(run, footing, {"--resume=" + checkpoint_of(run, 9).string()}).code,
-            ExitCode::done);
+            program::ExitCode::done);
   EXPECT_EQ(curve_without_wall(run), curve);
   EXPECT_EQ(frames_listed(run), frames);
   EXPECT_EQ(names_in(run / "frames"), frames);
 }
 
 TEST(OutputFolder, KeepsLaterCheckpointsOfACourseThatIsGivenUpUnderAnotherName) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto run = folder / "run";
-  ASSERT_EQ(fpm_run_in(run, block).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(run, block).code, program::ExitCode::done);
   const std::string from = "--resume=" + checkpoint_of(run, 2).string();
   ASSERT_EQ(fpm_run_in(run, block, {from, "--max-wall", "0.000000001s"}).code,
-            ExitCode::interrupted);
+            program::ExitCode::interrupted);
   EXPECT_EQ(last_checkpoint(run), checkpoint_of(run, 2));
   EXPECT_THAT(names_in(run / "checkpoints"),
               ElementsAre("step-000000.hdf", "step-000001.hdf", "step-000002.hdf",
@@ -72,51 +72,51 @@ TEST(OutputFolder, KeepsLaterCheckpointsOfACourseThatIsGivenUpUnderAnotherName) 
 }
 
 TEST(OutputFolder, ThatLostItsCurveGetsItBackFromTheCheckpoint) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto run = folder / "run";
-  ASSERT_EQ(fpm_run_in(run, footing).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(run, footing).code, program::ExitCode::done);
   const auto curve = curve_without_wall(run);
   std::filesystem::remove(run / "curve.csv");
   std::filesystem::remove_all(run / "frames");
   ASSERT_EQ(fpm_run_in(run, footing, {"--resume=" + checkpoint_of(run, 15).string()}).code,
-            ExitCode::done);
+            program::ExitCode::done);
   EXPECT_EQ(curve_without_wall(run), curve);
 }
 
 TEST(OutputFolder, KeepsResultsOfAnEarlierRunWhenResumeWasForgotten) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto run = folder / "run";
-  ASSERT_EQ(fpm_run_in(run, block).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(run, block).code, program::ExitCode::done);
   const std::string checkpoint = bytes_of_file(last_checkpoint(run));
   const std::string curve = bytes_of_file(run / "curve.csv");
   const Outcome again = fpm_run_in(run, block);
-  ASSERT_EQ(again.code, ExitCode::done);
+  ASSERT_EQ(again.code, program::ExitCode::done);
   EXPECT_THAT(again.out, HasSubstr("results of an earlier run are now in "));
   EXPECT_EQ(bytes_of_file(last_checkpoint(run / "previous-1")), checkpoint);
   EXPECT_EQ(bytes_of_file(run / "previous-1" / "curve.csv"), curve);
 }
 
 TEST(OutputFolder, KeepsTheNewestCheckpointsOnly) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto run = folder / "run";
   ASSERT_EQ(
       fpm_run_in(run, block,
                  {"--set", "output.checkpoints_every=2", "--set", "output.checkpoints_kept=2"})
           .code,
-      ExitCode::done);
+      program::ExitCode::done);
   EXPECT_THAT(names_in(run / "checkpoints"), ElementsAre("step-000004.hdf", "step-000006.hdf"));
 }
 
 TEST(OutputFolder, KeepsTheFirstCheckpointOfEveryStretchForGood) {
-  const TemporaryFolder folder;
-  const auto stays = [&](std::vector<int> steps, const Retention& retention) {
+  const support::TemporaryFolder folder;
+  const auto stays = [&](std::vector<int> steps, const record::Retention& retention) {
     std::vector<int> left;
     for (const int step : steps) {
-      std::ofstream(folder / checkpoint_name(step)) << "x";
-      remove_older(folder.path(), step, retention);
+      std::ofstream(folder / record::checkpoint_name(step)) << "x";
+      record::remove_older(folder.path(), step, retention);
     }
-    for (const auto& path : list_checkpoints(folder.path())) {
-      left.insert(left.begin(), static_cast<int>(*step_of(path)));
+    for (const auto& path : record::list_checkpoints(folder.path())) {
+      left.insert(left.begin(), static_cast<int>(*record::step_of(path)));
       std::filesystem::remove(path);
     }
     return left;
@@ -130,27 +130,27 @@ TEST(OutputFolder, KeepsTheFirstCheckpointOfEveryStretchForGood) {
 }
 
 TEST(OutputFolder, HasACheckpointBeforeTheFirstStep) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(fpm_run_in(folder / "run", block).code, ExitCode::done);
+  const support::TemporaryFolder folder;
+  ASSERT_EQ(fpm_run_in(folder / "run", block).code, program::ExitCode::done);
   EXPECT_TRUE(std::filesystem::exists(checkpoint_of(folder / "run", 0)));
 }
 
 TEST(OutputFolder, HasCheckpointsByTimeToo) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto run = folder / "run";
   const std::string at_once = "output.checkpoints_every_minutes=1e-9";
   ASSERT_EQ(fpm_run_in(run, block, {"--set", "output.checkpoints_every=0", "--set", at_once}).code,
-            ExitCode::done);
+            program::ExitCode::done);
   for (int step = 0; step <= 6; ++step) {
     EXPECT_TRUE(std::filesystem::exists(checkpoint_of(run, step))) << step;
   }
 }
 
 TEST(OutputFolder, IsRefusedToASecondRun) {
-  const TemporaryFolder folder;
-  const RunFolder held(folder / "run");
+  const support::TemporaryFolder folder;
+  const record::RunFolder held(folder / "run");
   const Outcome second = fpm_run_in(folder / "run", block);
-  EXPECT_EQ(second.code, ExitCode::checkpoint_unusable);
+  EXPECT_EQ(second.code, program::ExitCode::checkpoint_unusable);
   EXPECT_THAT(second.err, HasSubstr("another run is writing here (process " +
                                     std::to_string(::getpid()) + " on "));
   EXPECT_EQ(fpm_run_in(folder / "run", block, {"--resume"}).err, second.err);
@@ -160,7 +160,7 @@ TEST(OutputFolder, IsRefusedToASecondRun) {
 void die_in(const std::filesystem::path& folder) {
   const pid_t child = ::fork();
   if (child == 0) {
-    const RunFolder held(folder);
+    const record::RunFolder held(folder);
     ::kill(::getpid(), SIGKILL);
   }
   int status = 0;
@@ -169,12 +169,12 @@ void die_in(const std::filesystem::path& folder) {
 }
 
 TEST(OutputFolder, OfADeadOwnerIsTakenAndTheOwnerNamed) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   die_in(folder / "run");
   const std::string owner = bytes_of_file(folder / "run" / "run.lock");
   EXPECT_THAT(owner, ContainsRegex("^process [0-9]+ on .* since 2[0-9-]*T[0-9:]*Z\n$"));
   const Outcome outcome = fpm_run_in(folder / "run", block);
-  EXPECT_EQ(outcome.code, ExitCode::done) << outcome.err;
+  EXPECT_EQ(outcome.code, program::ExitCode::done) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("the last run here (" + owner.substr(0, owner.size() - 1) +
                                      ") ended without a word"));
   // Whoever ends in good order leaves no such trace.
@@ -183,19 +183,19 @@ TEST(OutputFolder, OfADeadOwnerIsTakenAndTheOwnerNamed) {
 
 // Some network disks have no locks.
 TEST(OutputFolder, WithoutLocksIsHeldByTheWordOfAnOwnerWhoMayLive) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto run = folder / "run";
-  SystemCalls without = system_calls();
+  files::SystemCalls without = files::system_calls();
   without.flock = [](int, int) {
     errno = ENOLCK;
     return -1;
   };
-  create_folder(run);
+  files::create_folder(run);
   const auto refused = [&] {
     try {
-      const RunFolder held(run, without);
+      const record::RunFolder held(run, without);
       return std::string();
-    } catch (const FileError& failure) {
+    } catch (const files::FileError& failure) {
       return failure.reason();
     }
   };
@@ -208,35 +208,35 @@ TEST(OutputFolder, WithoutLocksIsHeldByTheWordOfAnOwnerWhoMayLive) {
 }
 
 TEST(OutputFolder, LosesTemporaryFilesOfAKilledRun) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto run = folder / "run";
-  create_folder(run / "checkpoints");
+  files::create_folder(run / "checkpoints");
   const auto left = run / "checkpoints" / "step-000007.hdf.tmp-123";
   std::ofstream(left) << "half";
-  ASSERT_EQ(fpm_run_in(run, block).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(run, block).code, program::ExitCode::done);
   EXPECT_FALSE(std::filesystem::exists(left));
 }
 
 TEST(CheckpointName, IsReadBackAndOthersAreNot) {
-  EXPECT_EQ(checkpoint_name(120), "step-000120.hdf");
-  EXPECT_EQ(step_of("a/step-000120.hdf"), 120);
-  EXPECT_EQ(step_of(checkpoint_name(12345678)), 12345678);
+  EXPECT_EQ(record::checkpoint_name(120), "step-000120.hdf");
+  EXPECT_EQ(record::step_of("a/step-000120.hdf"), 120);
+  EXPECT_EQ(record::step_of(record::checkpoint_name(12345678)), 12345678);
   for (const char* other : {"step-.hdf", "step-1x.hdf", "step-000120.hdf.set-aside",
                             "step--00001.hdf", "frame-000120.hdf"}) {
-    EXPECT_EQ(step_of(other), std::nullopt) << other;
+    EXPECT_EQ(record::step_of(other), std::nullopt) << other;
   }
 }
 
 TEST(Checkpoint, OfAStepComesBeforeThatOfTenTimesTheStep) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   for (const int step : {999999, 1000000, 20}) {
-    std::ofstream(folder / checkpoint_name(step)) << "x";
+    std::ofstream(folder / record::checkpoint_name(step)) << "x";
   }
-  const auto found = list_checkpoints(folder.path());
+  const auto found = record::list_checkpoints(folder.path());
   ASSERT_EQ(found.size(), 3U);
-  EXPECT_EQ(step_of(found[0]), 1000000);
-  EXPECT_EQ(step_of(found[2]), 20);
+  EXPECT_EQ(record::step_of(found[0]), 1000000);
+  EXPECT_EQ(record::step_of(found[2]), 20);
 }
 
 }  // namespace
-}  // namespace wiring::test
+}  // namespace restart

@@ -4,7 +4,7 @@
 
 #include "restart.hpp"
 
-namespace wiring::test {
+namespace restart {
 namespace {
 
 using ::testing::IsEmpty;
@@ -55,9 +55,9 @@ class Resume : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Resume, IsBitIdenticalToTheUninterruptedRunFromEveryCheckpoint) {
   const Case& c = GetParam();
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto whole = folder / "whole";
-  ASSERT_EQ(fpm_run_in(whole, *c.scene, c.arguments()).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(whole, *c.scene, c.arguments()).code, program::ExitCode::done);
   const auto curve = curve_without_wall(whole);
   const int steps = static_cast<int>(curve.size()) - 2;  // header and row 0
   ASSERT_GE(steps, c.steps_at_least);
@@ -73,7 +73,7 @@ TEST_P(Resume, IsBitIdenticalToTheUninterruptedRunFromEveryCheckpoint) {
     const auto outcome = fpm_run_in(
         resumed, *c.scene,
         c.arguments({"--resume=" + checkpoint_of(whole, step).string(), "--set", at_end_only}));
-    ASSERT_EQ(outcome.code, ExitCode::done) << outcome.err;
+    ASSERT_EQ(outcome.code, program::ExitCode::done) << outcome.err;
     EXPECT_THAT(differing_fields(last_checkpoint(whole), last_checkpoint(resumed)), IsEmpty())
         << "resumed from step " << step;
     EXPECT_EQ(curve_without_wall(resumed), curve) << "resumed from step " << step;
@@ -82,18 +82,18 @@ TEST_P(Resume, IsBitIdenticalToTheUninterruptedRunFromEveryCheckpoint) {
 
 TEST_P(Resume, OfAResumedRunIsBitIdenticalToo) {
   const Case& c = GetParam();
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto whole = folder / "whole", second = folder / "second", third = folder / "third";
-  ASSERT_EQ(fpm_run_in(whole, *c.scene, c.arguments()).code, ExitCode::done);
+  ASSERT_EQ(fpm_run_in(whole, *c.scene, c.arguments()).code, program::ExitCode::done);
   ASSERT_EQ(
       fpm_run_in(second, *c.scene, c.arguments({"--resume=" + checkpoint_of(whole, 1).string()}))
           .code,
-      ExitCode::done);
+      program::ExitCode::done);
   ASSERT_EQ(fpm_run_in(third, *c.scene,
                        c.arguments(
                            {"--resume=" + checkpoint_of(second, 3).string(), "--set", at_end_only}))
                 .code,
-            ExitCode::done);
+            program::ExitCode::done);
   EXPECT_THAT(differing_fields(last_checkpoint(whole), last_checkpoint(third)), IsEmpty());
   EXPECT_EQ(curve_without_wall(third), curve_without_wall(whole));
 }
@@ -103,12 +103,12 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Resume, ::testing::ValuesIn(cases),
 
 TEST(Threads, ChangeNoBitOfARunNorOfItsResumption) {
   for (const std::string* scene : {&footing, &block}) {
-    const TemporaryFolder folder;
+    const support::TemporaryFolder folder;
     const auto one = folder / "one", two = folder / "two", mixed = folder / "mixed";
-    ASSERT_EQ(fpm_run_in(one, *scene, {"--threads", "1"}).code, ExitCode::done);
-    ASSERT_EQ(fpm_run_in(two, *scene, {"--threads", "2"}).code, ExitCode::done);
+    ASSERT_EQ(fpm_run_in(one, *scene, {"--threads", "1"}).code, program::ExitCode::done);
+    ASSERT_EQ(fpm_run_in(two, *scene, {"--threads", "2"}).code, program::ExitCode::done);
     const std::string from = "--resume=" + checkpoint_of(two, 3).string();
-    ASSERT_EQ(fpm_run_in(mixed, *scene, {"--threads", "1", from}).code, ExitCode::done);
+    ASSERT_EQ(fpm_run_in(mixed, *scene, {"--threads", "1", from}).code, program::ExitCode::done);
     EXPECT_THAT(differing_fields(last_checkpoint(one), last_checkpoint(two)), IsEmpty());
     EXPECT_THAT(differing_fields(last_checkpoint(one), last_checkpoint(mixed)), IsEmpty());
     EXPECT_EQ(curve_without_wall(one), curve_without_wall(two));
@@ -117,4 +117,4 @@ TEST(Threads, ChangeNoBitOfARunNorOfItsResumption) {
 }
 
 }  // namespace
-}  // namespace wiring::test
+}  // namespace restart

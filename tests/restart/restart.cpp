@@ -5,13 +5,13 @@
 #include <set>
 #include <sstream>
 
-#include "wiring/checkpoint_folder.hpp"
-#include "wiring/cli.hpp"
-#include "wiring/curve.hpp"
-#include "wiring/hdf5_file.hpp"
-#include "wiring/run_loop.hpp"
+#include "files/hdf5_file.hpp"
+#include "record/checkpoint_folder.hpp"
+#include "record/curve.hpp"
+#include "run/command_line.hpp"
+#include "run/run_loop.hpp"
 
-namespace wiring::test {
+namespace restart {
 
 const std::string footing = R"(
 title = "small footing"
@@ -96,32 +96,33 @@ checkpoints_kept = 100
 )";
 
 Outcome fpm_run_in(const std::filesystem::path& folder, const std::string& scene,
-                   const std::vector<std::string>& arguments, const SystemCalls& system) {
+                   const std::vector<std::string>& arguments, const files::SystemCalls& system) {
   std::filesystem::path file = folder;
   file += ".toml";
   std::ofstream(file) << scene;
   std::vector<std::string> all{file.string(), "--out", folder.string()};
   all.insert(all.end(), arguments.begin(), arguments.end());
   std::ostringstream out, err;
-  const auto run = [&](const RunRequest& request) {
-    return run_programme(request, out, err, system);
+  const auto run = [&](const run::RunRequest& request) {
+    return run::run_programme(request, out, err, system);
   };
-  const ExitCode code = fpm_run(all, out, err, run);
+  const program::ExitCode code = run::fpm_run(all, out, err, run);
   return {code, out.str(), err.str()};
 }
 
 std::filesystem::path last_checkpoint(const std::filesystem::path& folder) {
-  const auto all = list_checkpoints(folder / "checkpoints");
+  const auto all = record::list_checkpoints(folder / "checkpoints");
   return all.empty() ? std::filesystem::path() : all.front();
 }
 
 std::filesystem::path checkpoint_of(const std::filesystem::path& folder, int step) {
-  return folder / "checkpoints" / checkpoint_name(step);
+  return folder / "checkpoints" / record::checkpoint_name(step);
 }
 
 namespace {
 
-void collect(const Hdf5File& file, const std::string& group, std::set<std::string>& datasets) {
+void collect(const files::Hdf5File& file, const std::string& group,
+             std::set<std::string>& datasets) {
   for (const std::string& name : file.list(group)) {
     const std::string path = group + "/" + name;
     if (file.is_group(path)) {
@@ -133,14 +134,14 @@ void collect(const Hdf5File& file, const std::string& group, std::set<std::strin
 }
 
 template <class T>
-std::string bits(const Hdf5File& file, const std::string& path) {
+std::string bits(const files::Hdf5File& file, const std::string& path) {
   const std::vector<T> values = file.read_all<T>(path);
   std::string bytes(values.size() * sizeof(T), '\0');
   if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
   return bytes;
 }
 
-std::string content(const Hdf5File& file, const std::string& path) {
+std::string content(const files::Hdf5File& file, const std::string& path) {
   if (!file.has(path)) return "absent";
   const std::string type = file.info(path).type;
   if (type == "float64") return type + bits<double>(file, path);
@@ -153,8 +154,8 @@ std::string content(const Hdf5File& file, const std::string& path) {
 
 std::vector<std::string> differing_fields(const std::filesystem::path& a,
                                           const std::filesystem::path& b) {
-  const Hdf5File first = Hdf5File::open(a);
-  const Hdf5File second = Hdf5File::open(b);
+  const files::Hdf5File first = files::Hdf5File::open(a);
+  const files::Hdf5File second = files::Hdf5File::open(b);
   std::set<std::string> datasets;
   collect(first, "/state", datasets);
   collect(second, "/state", datasets);
@@ -177,9 +178,9 @@ std::vector<std::string> curve_without_wall(const std::filesystem::path& folder)
 
 double column_sum_after(const std::filesystem::path& folder, const std::string& column, int step) {
   double sum = 0.0;
-  for (const CurveColumn& known : curve_columns()) {
+  for (const record::CurveColumn& known : record::curve_columns()) {
     if (known.name != column) continue;
-    for (const CurveRow& row : read_curve(folder / "curve.csv")) {
+    for (const record::CurveRow& row : record::read_curve(folder / "curve.csv")) {
       if (row.step <= step) continue;
       sum +=
           std::visit([&](auto member) { return static_cast<double>(row.*member); }, known.member);
@@ -194,4 +195,4 @@ std::string bytes_of_file(const std::filesystem::path& file) {
   return bytes.str();
 }
 
-}  // namespace wiring::test
+}  // namespace restart

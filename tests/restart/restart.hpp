@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "wiring/exit_code.hpp"
-#include "wiring/system_calls.hpp"
-#include "wiring/temporary_folder.hpp"
+#include "files/system_calls.hpp"
+#include "program/exit_code.hpp"
+#include "support/temporary_folder.hpp"
 
-namespace wiring::test {
+namespace restart {
 
 /// What a call of fpm-run came to.
 struct Outcome {
-  ExitCode code = ExitCode::bug;
+  program::ExitCode code = program::ExitCode::bug;
   std::string out;
   std::string err;
 };
@@ -25,7 +25,7 @@ extern const std::string block;
 /// The program fpm-run with a scene that is written beside the output folder.
 Outcome fpm_run_in(const std::filesystem::path& folder, const std::string& scene,
                    const std::vector<std::string>& arguments = {},
-                   const SystemCalls& system = system_calls());
+                   const files::SystemCalls& system = files::system_calls());
 
 /// The checkpoint of the largest step in an output folder.
 std::filesystem::path last_checkpoint(const std::filesystem::path& folder);
@@ -45,4 +45,4 @@ double column_sum_after(const std::filesystem::path& folder, const std::string& 
 /// Content of a whole file.
 std::string bytes_of_file(const std::filesystem::path& file);
 
-}  // namespace wiring::test
+}  // namespace restart

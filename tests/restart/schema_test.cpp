@@ -4,13 +4,13 @@
 
 #include <fstream>
 
+#include "files/file_seal.hpp"
+#include "files/hdf5_file.hpp"
+#include "model/checkpoint.hpp"
+#include "model/state_file.hpp"
 #include "restart.hpp"
-#include "wiring/checkpoint.hpp"
-#include "wiring/file_seal.hpp"
-#include "wiring/hdf5_file.hpp"
-#include "wiring/state_file.hpp"
 
-namespace wiring::test {
+namespace restart {
 namespace {
 
 using ::testing::HasSubstr;
@@ -27,15 +27,15 @@ constexpr double pressure_of_step_10 = 44915.2;
 class Schema : public ::testing::TestWithParam<std::int64_t> {};
 
 TEST_P(Schema, IsReadWithItsNotesAndItsState) {
-  CheckpointNotes notes;
-  const Hdf5File file = open_checkpoint(stored(GetParam()), notes);
+  record::CheckpointNotes notes;
+  const files::Hdf5File file = record::open_checkpoint(stored(GetParam()), notes);
   EXPECT_EQ(notes.schema, GetParam());
   EXPECT_EQ(notes.title, "small footing");
   EXPECT_EQ(notes.history.size(), 7U);
   EXPECT_EQ(notes.history.back().mean_pressure, pressure_of_step_6);
-  const Scene scene = scene_of(stored(GetParam()), notes);
-  const Model<2> model = build_model<2>(scene);
-  const State<2> state = read_state(file, model);
+  const scene::Scene scene = model::scene_of(stored(GetParam()), notes);
+  const model::Model<2> model = model::build_model<2>(scene);
+  const model::State<2> state = model::read_state(file, model);
   EXPECT_EQ(state.programme.step, 6);
   EXPECT_EQ(state.plastic_strain.maxCoeff(), notes.history.back().max_plastic_strain);
 }
@@ -43,75 +43,77 @@ TEST_P(Schema, IsReadWithItsNotesAndItsState) {
 // Not bit by bit: the numerics have gone on since. The solver's tolerance is 1e-3 of the residual;
 // a percent of the pressure is ten times what it leaves open in a step.
 TEST_P(Schema, IsResumedToItsEnd) {
-  CheckpointNotes notes;
-  (void)open_checkpoint(stored(GetParam()), notes);
-  const TemporaryFolder folder;
+  record::CheckpointNotes notes;
+  (void)record::open_checkpoint(stored(GetParam()), notes);
+  const support::TemporaryFolder folder;
   const Outcome outcome =
       fpm_run_in(folder / "run", notes.scene, {"--resume=" + stored(GetParam()).string()});
-  ASSERT_EQ(outcome.code, ExitCode::done) << outcome.err;
-  const auto rows = read_curve(folder / "run" / "curve.csv");
+  ASSERT_EQ(outcome.code, program::ExitCode::done) << outcome.err;
+  const auto rows = record::read_curve(folder / "run" / "curve.csv");
   EXPECT_EQ(rows.back().load_parameter, 1.0);
   EXPECT_NEAR(rows.back().mean_pressure, pressure_of_step_10, 0.01 * pressure_of_step_10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Versions, Schema, ::testing::Range<std::int64_t>(1, checkpoint_schema + 1),
+INSTANTIATE_TEST_SUITE_P(Versions, Schema,
+                         ::testing::Range<std::int64_t>(1, record::checkpoint_schema + 1),
                          [](const auto& info) { return std::to_string(info.param); });
 
 TEST(SchemaOfTheFuture, IsRefusedByName) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto run = folder / "run", file = folder / "newer.hdf";
-  ASSERT_EQ(fpm_run_in(run, block, {"--max-wall", "0.000000001s"}).code, ExitCode::interrupted);
+  ASSERT_EQ(fpm_run_in(run, block, {"--max-wall", "0.000000001s"}).code,
+            program::ExitCode::interrupted);
   std::filesystem::copy_file(checkpoint_of(run, 0), file);
-  write_seal(file, checkpoint_schema + 1, "fpm-run 9.8.7");
+  files::write_seal(file, record::checkpoint_schema + 1, "fpm-run 9.8.7");
   const Outcome outcome = fpm_run_in(run, block, {"--resume=" + file.string()});
-  EXPECT_EQ(outcome.code, ExitCode::checkpoint_unusable);
+  EXPECT_EQ(outcome.code, program::ExitCode::checkpoint_unusable);
   EXPECT_THAT(outcome.err, HasSubstr("has checkpoint schema 3 (written by fpm-run 9.8.7); this "
                                      "program reads schemas 1 to 2"));
 }
 
 // What is in the file counts, though its seal were of an older program.
 TEST(SchemaOfTheFuture, IsRefusedByNameBehindASealToo) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto file = folder / "newer.hdf";
   {
-    Hdf5File newer = Hdf5File::create(file, {.user_block = seal_size});
-    const std::int64_t schema = checkpoint_schema + 1;
+    files::Hdf5File newer = files::Hdf5File::create(file, {.user_block = files::seal_size});
+    const std::int64_t schema = record::checkpoint_schema + 1;
     newer.write<std::int64_t>("/meta/schema", std::span(&schema, 1), {1});
     newer.write_text("/meta/versions", "fpm-run 9.8.7");
     newer.close();
   }
-  write_seal(file, checkpoint_schema, "fpm-run 0.1.0");
-  CheckpointNotes notes;
+  files::write_seal(file, record::checkpoint_schema, "fpm-run 0.1.0");
+  record::CheckpointNotes notes;
   try {
-    (void)open_checkpoint(file, notes);
+    (void)record::open_checkpoint(file, notes);
     FAIL() << "opened";
-  } catch (const FileError& failure) {
+  } catch (const files::FileError& failure) {
     EXPECT_THAT(failure.reason(), HasSubstr("has checkpoint schema 3 (written by fpm-run 9.8.7)"));
   }
 }
 
 TEST(FileSeal, IsTextThatReadsBack) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto file = folder / "sealed";
-  std::string content(3 * seal_size + 7, 'x');
+  std::string content(3 * files::seal_size + 7, 'x');
   std::ofstream(file, std::ios::binary) << content;
-  write_seal(file, 2, "fpm-run 1.2.3,\nfpm 4.5.6");
+  files::write_seal(file, 2, "fpm-run 1.2.3,\nfpm 4.5.6");
   EXPECT_THAT(bytes_of_file(file),
               ::testing::StartsWith("fpm checkpoint\nschema 2\nwriter fpm-run 1.2.3, fpm 4.5.6\n"
                                     "bytes 1031\nsum "));
   EXPECT_EQ(std::filesystem::file_size(file), content.size());
-  const auto seal = read_seal(file);
+  const auto seal = files::read_seal(file);
   ASSERT_TRUE(seal);
   EXPECT_EQ(seal->schema, 2);
-  EXPECT_EQ(seal->bytes, 2 * seal_size + 7);
-  EXPECT_NO_THROW(require_unbroken(file, *seal));
+  EXPECT_EQ(seal->bytes, 2 * files::seal_size + 7);
+  EXPECT_NO_THROW(files::require_unbroken(file, *seal));
 }
 
 TEST(FileSeal, IsBrokenByAnyByteThatChanges) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   const auto file = folder / "sealed";
-  std::ofstream(file, std::ios::binary) << std::string(2 * seal_size, 'x');
-  write_seal(file, 2, "fpm-run 1.2.3");
+  std::ofstream(file, std::ios::binary) << std::string(2 * files::seal_size, 'x');
+  files::write_seal(file, 2, "fpm-run 1.2.3");
   const std::string sound = bytes_of_file(file);
   for (std::size_t at = 0; at < sound.size(); ++at) {
     std::string bytes = sound;
@@ -119,16 +121,16 @@ TEST(FileSeal, IsBrokenByAnyByteThatChanges) {
     std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
     bool held = false;
     try {
-      const auto seal = read_seal(file);
+      const auto seal = files::read_seal(file);
       if (seal && seal->schema == 2) {
-        require_unbroken(file, *seal);
+        files::require_unbroken(file, *seal);
         held = true;
       }
-    } catch (const FileError&) {
+    } catch (const files::FileError&) {
     }
     EXPECT_FALSE(held) << "byte " << at;
   }
 }
 
 }  // namespace
-}  // namespace wiring::test
+}  // namespace restart

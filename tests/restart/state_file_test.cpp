@@ -3,25 +3,25 @@
 
 #include <limits>
 
+#include "model/checkpoint.hpp"
+#include "model/state_file.hpp"
 #include "restart.hpp"
-#include "wiring/checkpoint.hpp"
-#include "wiring/scene_reader.hpp"
-#include "wiring/state_file.hpp"
+#include "scene/reader.hpp"
 
-namespace wiring::test {
+namespace restart {
 namespace {
 
 struct Plane {
-  Scene scene = *parse_scene(footing, "footing").scene;
-  Model<2> model = build_model<2>(scene);
-  State<2> state = initial_state(model, scene);
-  CheckpointNotes notes = notes_for(scene);
+  scene::Scene scene = *scene::parse_scene(footing, "footing").scene;
+  model::Model<2> model = model::build_model<2>(scene);
+  model::State<2> state = model::initial_state(model, scene);
+  record::CheckpointNotes notes = model::notes_for(scene);
 
   Plane() { notes.history.resize(1); }
 };
 
 TEST(StateFile, GivesBackEveryNumberItWasGiven) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   Plane plane;
   double value = 0.0;
   // Every number another one, so that no two fields or components can be exchanged unseen.
@@ -33,49 +33,49 @@ TEST(StateFile, GivesBackEveryNumberItWasGiven) {
   });
   plane.notes.history.back().step = plane.state.programme.step;
   const auto path = folder / "step-000001.hdf";
-  write_checkpoint(path, plane.model, plane.state, plane.notes, {});
+  model::write_checkpoint(path, plane.model, plane.state, plane.notes, {});
 
-  CheckpointNotes notes;
-  const Hdf5File file = open_checkpoint(path, notes);
-  State<2> read = read_state(file, plane.model);
+  record::CheckpointNotes notes;
+  const files::Hdf5File file = record::open_checkpoint(path, notes);
+  model::State<2> read = model::read_state(file, plane.model);
   const auto again = folder / "step-000002.hdf";
-  write_checkpoint(again, plane.model, read, plane.notes, {});
+  model::write_checkpoint(again, plane.model, read, plane.notes, {});
   EXPECT_TRUE(differing_fields(path, again).empty());
   EXPECT_EQ(read.displacement, plane.state.displacement);
   EXPECT_EQ(read.stress, plane.state.stress);
   EXPECT_EQ(read.released, plane.state.released);
   EXPECT_EQ(read.programme.external_work, plane.state.programme.external_work);
   EXPECT_EQ(notes.scene, plane.notes.scene);
-  EXPECT_EQ(scene_of(path, notes), plane.scene);
+  EXPECT_EQ(model::scene_of(path, notes), plane.scene);
 }
 
 TEST(StateFile, IsNotWrittenOfAStateThatIsNotFinite) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Plane plane;
     plane.state.stress(1, 17) = bad;
-    EXPECT_THROW(
-        write_checkpoint(folder / "step-000001.hdf", plane.model, plane.state, plane.notes, {}),
-        std::logic_error);
+    EXPECT_THROW(model::write_checkpoint(folder / "step-000001.hdf", plane.model, plane.state,
+                                         plane.notes, {}),
+                 std::logic_error);
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   }
 }
 
 TEST(StateFile, OfAnotherModelIsRefusedByTheDatasetThatDoesNotFit) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   Plane plane;
   const auto path = folder / "step-000000.hdf";
-  write_checkpoint(path, plane.model, plane.state, plane.notes, {});
-  Scene finer = plane.scene;
+  model::write_checkpoint(path, plane.model, plane.state, plane.notes, {});
+  scene::Scene finer = plane.scene;
   finer.geometry.spacing = 0.125;
-  const Model<2> other = build_model<2>(finer);
-  CheckpointNotes notes;
-  const Hdf5File file = open_checkpoint(path, notes);
+  const model::Model<2> other = model::build_model<2>(finer);
+  record::CheckpointNotes notes;
+  const files::Hdf5File file = record::open_checkpoint(path, notes);
   try {
-    (void)read_state(file, other);
+    (void)model::read_state(file, other);
     FAIL() << "read into a model of another size";
-  } catch (const FileError& failure) {
+  } catch (const files::FileError& failure) {
     EXPECT_NE(failure.reason().find("/state/particles/displacement has the shape 96 x 2"),
               std::string::npos)
         << failure.reason();
@@ -83,42 +83,43 @@ TEST(StateFile, OfAnotherModelIsRefusedByTheDatasetThatDoesNotFit) {
 }
 
 TEST(StateFile, HoldsAsManyBytesAsItSays) {
-  const TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   Plane plane;
   const auto path = folder / "step-000000.hdf";
-  write_checkpoint(path, plane.model, plane.state, plane.notes, {});
-  EXPECT_GT(std::filesystem::file_size(path), bytes_of(plane.state));
+  model::write_checkpoint(path, plane.model, plane.state, plane.notes, {});
+  EXPECT_GT(std::filesystem::file_size(path), model::bytes_of(plane.state));
 }
 
 TEST(Programme, OfAnUnchangedSceneIsNotTouched) {
-  const Scene scene = *parse_scene(footing, "footing").scene;
-  ProgrammeState programme{.step = 3, .load = 0.1, .next_increment = 0.05, .last_increment = 0.04};
-  EXPECT_TRUE(adapt_programme(scene, scene, programme));
+  const scene::Scene scene = *scene::parse_scene(footing, "footing").scene;
+  model::ProgrammeState programme{
+      .step = 3, .load = 0.1, .next_increment = 0.05, .last_increment = 0.04};
+  EXPECT_TRUE(model::adapt_programme(scene, scene, programme));
   EXPECT_EQ(programme.load, 0.1);
   EXPECT_EQ(programme.next_increment, 0.05);
   EXPECT_EQ(programme.last_increment, 0.04);
 }
 
 TEST(Programme, OfATargetTwiceAsFarHasHalfTheLoadAndTheSameSteps) {
-  const Scene scene = *parse_scene(footing, "footing").scene;
-  Scene further = scene;
+  const scene::Scene scene = *scene::parse_scene(footing, "footing").scene;
+  scene::Scene further = scene;
   further.drive.target = 2.0 * scene.drive.target;
-  ProgrammeState programme{.load = 0.5, .next_increment = 0.25, .last_increment = 0.125};
-  EXPECT_TRUE(adapt_programme(scene, further, programme));
+  model::ProgrammeState programme{.load = 0.5, .next_increment = 0.25, .last_increment = 0.125};
+  EXPECT_TRUE(model::adapt_programme(scene, further, programme));
   EXPECT_EQ(programme.load, 0.25);
   EXPECT_EQ(programme.next_increment, 0.125);
   EXPECT_EQ(programme.last_increment, 0.0625);
 }
 
 TEST(Programme, UnderOtherRulesBeginsWithTheNominalStep) {
-  const Scene scene = *parse_scene(footing, "footing").scene;
-  Scene other = scene;
+  const scene::Scene scene = *scene::parse_scene(footing, "footing").scene;
+  scene::Scene other = scene;
   other.programme.steps = 40;
-  ProgrammeState programme{.load = 0.5, .next_increment = 0.25, .easy_steps = 3};
-  EXPECT_TRUE(adapt_programme(scene, other, programme));
+  model::ProgrammeState programme{.load = 0.5, .next_increment = 0.25, .easy_steps = 3};
+  EXPECT_TRUE(model::adapt_programme(scene, other, programme));
   EXPECT_EQ(programme.next_increment, 0.0);
   EXPECT_EQ(programme.easy_steps, 0);
 }
 
 }  // namespace
-}  // namespace wiring::test
+}  // namespace restart

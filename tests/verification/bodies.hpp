@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "wiring/equilibrium.hpp"
+#include "equilibrium/equilibrium.hpp"
 
 namespace verification {
 
@@ -60,7 +60,7 @@ class Noise {
 
 /// An increment field du(x) of the current configuration as a vector of unknowns.
 template <int Dim, class Motion>
-Eigen::VectorXd increment_field(const wiring::Model<Dim>& model, const wiring::State<Dim>& state,
+Eigen::VectorXd increment_field(const model::Model<Dim>& model, const model::State<Dim>& state,
                                 Motion&& motion) {
   Eigen::VectorXd u(model.unknowns());
   for (Eigen::Index a = 0; a < model.size(); ++a) {
@@ -74,7 +74,7 @@ Eigen::VectorXd increment_field(const wiring::Model<Dim>& model, const wiring::S
 
 /// Evaluates and commits one increment without solving.
 template <int Dim>
-void move(wiring::Equilibrium<Dim>& equilibrium, const Eigen::VectorXd& increment) {
+void move(equilibrium::Equilibrium<Dim>& equilibrium, const Eigen::VectorXd& increment) {
   equilibrium.begin_step(0.0);
   Eigen::VectorXd residual(increment.size());
   if (equilibrium(increment, residual) != jfnk::Evaluation::ok) {

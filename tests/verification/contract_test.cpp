@@ -20,10 +20,10 @@ long allocations(Call&& call) {
 
 template <int Dim>
 void expect_no_allocation(const BodyOptions& body) {
-  const wiring::Scene scene = scene_of(body_scene(body));
-  const auto model = wiring::build_model<Dim>(scene);
-  auto state = wiring::initial_state(model, scene);
-  wiring::Equilibrium<Dim> equilibrium(model, state);
+  const scene::Scene scene = scene_of(body_scene(body));
+  const auto model = model::build_model<Dim>(scene);
+  auto state = model::initial_state(model, scene);
+  equilibrium::Equilibrium<Dim> equilibrium(model, state);
   const Eigen::VectorXd u = increment_field(
       model, state, [](const fpm::Vector<Dim>& x) { return bending<Dim>(x, 0.01); });
   Noise noise(1);
@@ -128,7 +128,7 @@ TEST(Research, KeepsStressPositionsVolumeAndMomentum) {
   EXPECT_NEAR(current_volume(with) / current_volume(without), 1.0, round_off);
 
   // Internal forces on the new neighbours still sum to nothing: reactions carry the loads.
-  wiring::Equilibrium<2> equilibrium(with.model, with.state);
+  equilibrium::Equilibrium<2> equilibrium(with.model, with.state);
   equilibrium.begin_step(with.state.programme.load);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(with.model.unknowns()), r(u.size());
   ASSERT_EQ(equilibrium(u, r), jfnk::Evaluation::ok);

@@ -34,9 +34,9 @@ inline Footing pushed_footing(const Settings& settings) {
   Footing footing;
   footing.curve.push_back({0.0, 0.0});
   while (!run.stepper.finished()) {
-    const wiring::StepResult result = run.stepper.advance();
+    const stepping::StepResult result = run.stepper.advance();
     footing.cuts += result.record.cuts;
-    if (result.outcome != wiring::StepOutcome::converged) break;
+    if (result.outcome != stepping::StepOutcome::converged) break;
     footing.settlement = result.record.settlement / B;
     footing.raw = result.record.mean_pressure;
     footing.corrected = result.record.corrected_pressure;

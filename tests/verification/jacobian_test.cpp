@@ -21,10 +21,10 @@ struct Case {
 
 template <int Dim>
 double jacobian_error(const BodyOptions& body) {
-  const wiring::Scene scene = scene_of(body_scene(body));
-  const auto model = wiring::build_model<Dim>(scene);
-  auto state = wiring::initial_state(model, scene);
-  wiring::Equilibrium<Dim> equilibrium(model, state);
+  const scene::Scene scene = scene_of(body_scene(body));
+  const auto model = model::build_model<Dim>(scene);
+  auto state = model::initial_state(model, scene);
+  equilibrium::Equilibrium<Dim> equilibrium(model, state);
   Noise noise(7);
   move(equilibrium, increment_field(model, state, [](const fpm::Vector<Dim>& x) {
          return bending<Dim>(x, 0.01);

@@ -26,7 +26,7 @@ inline LimitLoad limit_load(const std::string& scene, double exact, int particle
   Settings settings = {"geometry.spacing=" + std::to_string(1.0 / particles)};
   settings.insert(settings.end(), more.begin(), more.end());
   Run<2> run(shipped_scene(scene, settings));
-  const wiring::StepRecord last = run.complete().back();
+  const stepping::StepRecord last = run.complete().back();
   const LimitLoad load = {last.mean_pressure / exact - 1.0, last.corrected_pressure / exact - 1.0};
   report("raw_error_at_" + std::to_string(particles), load.raw);
   report("corrected_error_at_" + std::to_string(particles), load.corrected);

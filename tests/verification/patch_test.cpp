@@ -13,10 +13,10 @@ constexpr double round_off = 1e-11;  // some hundred operations of relative erro
 // boundary; relative to the force of the stress on one particle's face.
 template <int Dim>
 void expect_linear_field_is_exact(BodyOptions body) {
-  const wiring::Scene scene = scene_of(body_scene(body));
-  const auto model = wiring::build_model<Dim>(scene);
-  auto state = wiring::initial_state(model, scene);
-  wiring::Equilibrium<Dim> equilibrium(model, state);
+  const scene::Scene scene = scene_of(body_scene(body));
+  const auto model = model::build_model<Dim>(scene);
+  auto state = model::initial_state(model, scene);
+  equilibrium::Equilibrium<Dim> equilibrium(model, state);
   fpm::Tensor<Dim> gradient = fpm::Tensor<Dim>::Zero();
   gradient(0, 0) = 2e-3;
   gradient(0, 1) = 1e-3;
@@ -98,10 +98,10 @@ TEST(TractionPatch, IsExactOnVertexLatticeInThreeDimensions) {
 // round-off whatever the control.
 template <int Dim>
 void expect_momentum(const BodyOptions& body, bool angular) {
-  const wiring::Scene scene = scene_of(body_scene(body));
-  const auto model = wiring::build_model<Dim>(scene);
-  auto state = wiring::initial_state(model, scene);
-  wiring::Equilibrium<Dim> equilibrium(model, state);
+  const scene::Scene scene = scene_of(body_scene(body));
+  const auto model = model::build_model<Dim>(scene);
+  auto state = model::initial_state(model, scene);
+  equilibrium::Equilibrium<Dim> equilibrium(model, state);
   Noise noise(3);
   for (int step = 0; step < 3; ++step) {
     const Eigen::VectorXd u =

@@ -16,8 +16,8 @@ constexpr double drift_tolerance = 2e-10;
 // Hughes-Winget takes the chord of a rotation: its Cayley angle is 2 tan(angle / 2), and the
 // midpoint rule of the gradient makes the rotation exact.
 template <int Dim>
-void rotate_once(const wiring::Model<Dim>& model, wiring::State<Dim>& state,
-                 wiring::Equilibrium<Dim>& equilibrium, double angle) {
+void rotate_once(const model::Model<Dim>& model, model::State<Dim>& state,
+                 equilibrium::Equilibrium<Dim>& equilibrium, double angle) {
   fpm::Tensor<Dim> turn = fpm::Tensor<Dim>::Identity();
   turn(0, 0) = turn(1, 1) = std::cos(angle);
   turn(0, 1) = -std::sin(angle);
@@ -30,10 +30,10 @@ void rotate_once(const wiring::Model<Dim>& model, wiring::State<Dim>& state,
 
 template <int Dim>
 void expect_full_turn_changes_nothing(const BodyOptions& body) {
-  const wiring::Scene scene = scene_of(body_scene(body));
-  const auto model = wiring::build_model<Dim>(scene);
-  auto state = wiring::initial_state(model, scene);
-  wiring::Equilibrium<Dim> equilibrium(model, state);
+  const scene::Scene scene = scene_of(body_scene(body));
+  const auto model = model::build_model<Dim>(scene);
+  auto state = model::initial_state(model, scene);
+  equilibrium::Equilibrium<Dim> equilibrium(model, state);
   move(equilibrium, increment_field(model, state, [](const fpm::Vector<Dim>& x) {
          return bending<Dim>(x, 0.02);
        }));
@@ -74,10 +74,10 @@ TEST(RigidRotation, FullTurnInThreeDimensionsDriftsByRoundOff) {
 
 // The internal forces of a body that was bent and yielded turn with it.
 TEST(RigidRotation, TurnsTheForcesOfBentYieldedBody) {
-  const wiring::Scene scene = scene_of(body_scene({}));
-  const auto model = wiring::build_model<2>(scene);
-  auto state = wiring::initial_state(model, scene);
-  wiring::Equilibrium<2> equilibrium(model, state);
+  const scene::Scene scene = scene_of(body_scene({}));
+  const auto model = model::build_model<2>(scene);
+  auto state = model::initial_state(model, scene);
+  equilibrium::Equilibrium<2> equilibrium(model, state);
   move(equilibrium,
        increment_field(model, state, [](const fpm::Vector<2>& x) { return bending<2>(x, 0.02); }));
   move(equilibrium, Eigen::VectorXd::Zero(model.unknowns()));

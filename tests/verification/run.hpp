@@ -6,45 +6,45 @@
 #include <string>
 #include <vector>
 
-#include "wiring/scene_reader.hpp"
-#include "wiring/stepper.hpp"
+#include "scene/reader.hpp"
+#include "stepping/stepper.hpp"
 
 namespace verification {
 
 using Settings = std::vector<std::string>;
 
-inline wiring::Scene checked(const wiring::SceneReading& reading) {
+inline scene::Scene checked(const scene::SceneReading& reading) {
   for (const auto& problem : reading.errors) ADD_FAILURE() << problem.text();
   if (!reading.scene) throw std::runtime_error("the scene of this test is refused");
   return *reading.scene;
 }
 
 /// A scene of share/scenes, with settings as --set takes them.
-inline wiring::Scene shipped_scene(const std::string& name, const Settings& settings = {}) {
-  return checked(wiring::read_scene(std::filesystem::path(FPM_SCENES) / name, settings));
+inline scene::Scene shipped_scene(const std::string& name, const Settings& settings = {}) {
+  return checked(scene::read_scene(std::filesystem::path(FPM_SCENES) / name, settings));
 }
 
-inline wiring::Scene scene_of(const std::string& text, const Settings& settings = {}) {
-  return checked(wiring::parse_scene(text, "test scene", settings));
+inline scene::Scene scene_of(const std::string& text, const Settings& settings = {}) {
+  return checked(scene::parse_scene(text, "test scene", settings));
 }
 
 /// A scene with its model, state and stepper, which refer to one another.
 template <int Dim>
 struct Run {
-  explicit Run(const wiring::Scene& s)
+  explicit Run(const scene::Scene& s)
       : scene(s),
-        model(wiring::build_model<Dim>(scene)),
-        state(wiring::initial_state(model, scene)),
+        model(model::build_model<Dim>(scene)),
+        state(model::initial_state(model, scene)),
         stepper(scene, model, state) {}
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
   /// Advances until the load parameter reaches `load`; fails the test if a step does not converge.
-  std::vector<wiring::StepRecord> advance_to(double load) {
-    std::vector<wiring::StepRecord> records;
+  std::vector<stepping::StepRecord> advance_to(double load) {
+    std::vector<stepping::StepRecord> records;
     while (state.programme.load < load * (1.0 - 1e-12)) {
-      const wiring::StepResult result = stepper.advance();
-      if (result.outcome != wiring::StepOutcome::converged) {
+      const stepping::StepResult result = stepper.advance();
+      if (result.outcome != stepping::StepOutcome::converged) {
         ADD_FAILURE() << "stopped at load " << state.programme.load << ": " << result.reason;
         break;
       }
@@ -52,7 +52,7 @@ struct Run {
     }
     return records;
   }
-  std::vector<wiring::StepRecord> complete() { return advance_to(1.0); }
+  std::vector<stepping::StepRecord> complete() { return advance_to(1.0); }
 
   /// The particle nearest to a point of the initial configuration.
   Eigen::Index nearest(const fpm::Vector<Dim>& point) const {
@@ -64,10 +64,10 @@ struct Run {
     return best;
   }
 
-  wiring::Scene scene;
-  wiring::Model<Dim> model;
-  wiring::State<Dim> state;
-  wiring::LoadStepper<Dim> stepper;
+  scene::Scene scene;
+  model::Model<Dim> model;
+  model::State<Dim> state;
+  stepping::LoadStepper<Dim> stepper;
 };
 
 }  // namespace verification

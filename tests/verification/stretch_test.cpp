@@ -46,8 +46,8 @@ struct Stretched {
 // A patch whose rim moves affinely; what is inside it is free and must follow.
 template <int Dim>
 Stretched stretched(const Patch& patch) {
-  const wiring::Scene scene = scene_of(patch_scene(patch));
-  auto model = wiring::build_model<Dim>(scene);
+  const scene::Scene scene = scene_of(patch_scene(patch));
+  auto model = model::build_model<Dim>(scene);
   const Eigen::Index n = model.size();
   Eigen::VectorXd affine(model.unknowns());
   std::vector<Eigen::Index> free;
@@ -64,16 +64,16 @@ Stretched stretched(const Patch& patch) {
       if (inside) free.push_back(k);
     }
   }
-  auto state = wiring::initial_state(model, scene);
-  wiring::LoadStepper<Dim> stepper(scene, model, state);
+  auto state = model::initial_state(model, scene);
+  stepping::LoadStepper<Dim> stepper(scene, model, state);
   while (!stepper.finished()) {
     const auto result = stepper.advance();
-    if (result.outcome != wiring::StepOutcome::converged) {
+    if (result.outcome != stepping::StepOutcome::converged) {
       ADD_FAILURE() << result.reason;
       break;
     }
   }
-  wiring::Equilibrium<Dim> equilibrium(model, state);
+  equilibrium::Equilibrium<Dim> equilibrium(model, state);
   equilibrium.begin_step(1.0);
   Eigen::VectorXd v = Eigen::VectorXd::Zero(model.unknowns()), action(model.unknowns());
   equilibrium(v, action);

@@ -8,8 +8,13 @@
 #include <numbers>
 #include <string>
 
-#include "limit/case.hpp"
-#include "limit/scaled_program.hpp"
+#include "limit/certificate/lower_certificate.hpp"
+#include "limit/certificate/upper_certificate.hpp"
+#include "limit/problem/case.hpp"
+#include "limit/programme/lower_bound.hpp"
+#include "limit/programme/upper_bound.hpp"
+#include "limit/solver/cone_solver.hpp"
+#include "limit/solver/scaled_program.hpp"
 
 namespace {
 
@@ -17,42 +22,43 @@ using namespace limit;
 
 constexpr double exact = 14.834712;  // N_c of 20 degrees
 
-double off(double multiplier, const Units& units) {
+double off(double multiplier, const problem::Units& units) {
   return 100.0 * (multiplier * units.stress / exact - 1.0);
 }
 
-void solve_and_certify(const Problem& problem, const Units& units, bool is_lower, ConeForm form) {
-  const ConeProgram program =
-      is_lower ? lower_bound_program(problem) : upper_bound_program(problem);
-  SolverOptions options;
+void solve_and_certify(const problem::Problem& problem, const problem::Units& units, bool is_lower,
+                       solver::ConeForm form) {
+  const programme::ConeProgram program =
+      is_lower ? programme::lower_bound_program(problem) : programme::upper_bound_program(problem);
+  solver::SolverOptions options;
   options.form = form;
   const std::clock_t began = std::clock();
-  const ConeSolution found = solve(program, options);
+  const solver::ConeSolution found = solver::solve(program, options);
   const double seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
   double multiplier = 0.0;
   bool holds = false;
   if (is_lower) {
-    const LowerCertificate certificate =
-        certify_lower(problem, stress_field(problem, found.variables), found.variables.tail(1)[0]);
+    const certificate::LowerCertificate certificate = certificate::certify_lower(
+        problem, programme::stress_field(problem, found.variables), found.variables.tail(1)[0]);
     multiplier = certificate.multiplier;
     holds = certificate.holds;
   } else {
-    const UpperCertificate certificate =
-        certify_upper(problem, velocity_field(problem, found.multipliers),
-                      velocity_field(problem, found.interior_multipliers));
+    const certificate::UpperCertificate certificate =
+        certificate::certify_upper(problem, programme::velocity_field(problem, found.multipliers),
+                                   programme::velocity_field(problem, found.interior_multipliers));
     multiplier = certificate.multiplier;
     holds = certificate.holds;
   }
   fmt::print("| {} | {} | {} | {:+.3f} % | {}{} | {} | {:.2f} |\n", is_lower ? "lower" : "upper",
-             problem.mesh.triangles.size(), form == ConeForm::cones ? "interior point" : "Ipopt",
-             off(multiplier, units), found.message, holds ? ", certified" : "", found.iterations,
-             seconds);
+             problem.mesh.triangles.size(),
+             form == solver::ConeForm::cones ? "interior point" : "Ipopt", off(multiplier, units),
+             found.message, holds ? ", certified" : "", found.iterations, seconds);
 }
 
 // SDPA's dual: maximise F0.Y subject to Fi.Y = ci, with Y >= 0 made of a 2 x 2 block
 // [s + d, t; t, s - d] per cone and a number for the multiplier. p = (strength - s) / slope.
-void print_sdpa(const ConeProgram& program) {
-  const ScaledProgram scaled(program);
+void print_sdpa(const programme::ConeProgram& program) {
+  const solver::ScaledProgram scaled(program);
   const auto cones = static_cast<Eigen::Index>(scaled.cones.size());
   fmt::print("{}\n{}\n", scaled.equations.rows(), cones + 1);
   for (Eigen::Index k = 0; k < cones; ++k) fmt::print("2 ");
@@ -68,7 +74,7 @@ void print_sdpa(const ConeProgram& program) {
         entries += fmt::format("{} {} 1 1 {:.17g}\n", i + 1, k + 1, at.value());
         continue;
       }
-      const YieldCone& cone = scaled.cones[static_cast<std::size_t>(k)];
+      const programme::YieldCone& cone = scaled.cones[static_cast<std::size_t>(k)];
       const Eigen::Vector3d form = row.segment<3>(3 * k);
       if (form.isZero(0.0)) continue;
       right_side[i] -= form[0] * cone.strength / cone.slope;
@@ -91,20 +97,22 @@ int main(int count, char** words) {
     return 2;
   }
   const bool is_lower = std::string(words[3]) == "lower";
-  Strip strip;
+  problem::Strip strip;
   strip.soil = {1.0, 20.0 * std::numbers::pi / 180.0, 0.0};
   strip.rough = false;
-  const Box box = box_of(strip);
-  const Units units = units_of(strip);
-  const Problem problem =
-      in_units(strip_problem(strip, even_fan(box.width, box.depth, std::atoi(words[1]),
-                                             std::atoi(words[2]), is_lower ? 1.5 : 2.0)),
-               units);
+  const problem::Box box = problem::box_of(strip);
+  const problem::Units units = problem::units_of(strip);
+  const problem::Problem problem = problem::in_units(
+      problem::strip_problem(strip, mesh::even_fan(box.width, box.depth, std::atoi(words[1]),
+                                                   std::atoi(words[2]), is_lower ? 1.5 : 2.0)),
+      units);
   if (std::string(words[4]) == "sdpa") {
-    print_sdpa(is_lower ? lower_bound_program(problem) : upper_bound_program(problem));
+    print_sdpa(is_lower ? programme::lower_bound_program(problem)
+                        : programme::upper_bound_program(problem));
     return 0;
   }
-  solve_and_certify(problem, units, is_lower, ConeForm::cones);
-  solve_and_certify(problem, units, is_lower, is_lower ? ConeForm::inequality : ConeForm::barrier);
+  solve_and_certify(problem, units, is_lower, solver::ConeForm::cones);
+  solve_and_certify(problem, units, is_lower,
+                    is_lower ? solver::ConeForm::inequality : solver::ConeForm::barrier);
   return 0;
 }

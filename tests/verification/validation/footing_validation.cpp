@@ -46,13 +46,13 @@ TEST(FootingTo15PerCent, IsResumedWithResearchFromARunWithout) {
   verification::Run<2> before(shipped_scene(scene, {"research.enabled=false"}));
   before.advance_to(1.0 / 3.0);
   const double early = before.state.programme.load;
-  const wiring::Scene with = shipped_scene(scene);
-  wiring::State<2> state = before.state;
-  wiring::LoadStepper<2> stepper(with, before.model, state);
+  const scene::Scene with = shipped_scene(scene);
+  model::State<2> state = before.state;
+  stepping::LoadStepper<2> stepper(with, before.model, state);
   double pressure = 0.0;
   while (!stepper.finished()) {
     const auto result = stepper.advance();
-    ASSERT_EQ(result.outcome, wiring::StepOutcome::converged) << result.reason;
+    ASSERT_EQ(result.outcome, stepping::StepOutcome::converged) << result.reason;
     pressure = result.record.mean_pressure;
   }
   report("resumed_at_settlement_over_B", end * early);

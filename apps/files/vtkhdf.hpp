@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "files/hdf5_file.hpp"
+
+namespace files {
+
+/// One field at the particles as ParaView wants it: 1, 3 (vector) or 6 (symmetric tensor xx yy zz
+/// xy yz zx) components, particle by particle.
+struct PointField {
+  std::string name;
+  std::string unit;
+  int components = 1;
+  std::vector<double> values;  // components x particles
+};
+
+/// A scalar field from `at(particle)`.
+template <class At>
+PointField scalar_field(std::string name, std::string unit, std::size_t particles, At&& at) {
+  PointField field{std::move(name), std::move(unit), 1, {}};
+  field.values.reserve(particles);
+  for (std::size_t i = 0; i < particles; ++i) field.values.push_back(static_cast<double>(at(i)));
+  return field;
+}
+
+/// A vector field from `at(particle, component)` with `dimension` components; the rest is 0.
+template <class At>
+PointField vector_field(std::string name, std::string unit, std::size_t particles, int dimension,
+                        At&& at) {
+  PointField field{std::move(name), std::move(unit), 3, std::vector<double>(3 * particles, 0.0)};
+  for (std::size_t i = 0; i < particles; ++i) {
+    for (int c = 0; c < dimension; ++c) {
+      field.values[3 * i + static_cast<std::size_t>(c)] = at(i, c);
+    }
+  }
+  return field;
+}
+
+/// A symmetric tensor field from `at(particle, row)` with 4 rows (xx yy zz xy) or 6 (then yz zx,
+/// which is ParaView's order, too).
+template <class At>
+PointField tensor_field(std::string name, std::string unit, std::size_t particles, int rows,
+                        At&& at) {
+  PointField field{std::move(name), std::move(unit), 6, std::vector<double>(6 * particles, 0.0)};
+  for (std::size_t i = 0; i < particles; ++i) {
+    for (int r = 0; r < rows; ++r) field.values[6 * i + static_cast<std::size_t>(r)] = at(i, r);
+  }
+  return field;
+}
+
+/// Writes the group /VTKHDF (UnstructuredGrid 1.0, one vertex cell per particle) beside whatever
+/// else the file holds; VTK 9.1 and ParaView 5.11 open a file named *.hdf by it.
+/// @param points  [m] x0 y0 z0 x1 ..., 3 per particle
+/// @throws std::invalid_argument if a field's size does not fit; FileError.
+void write_vtkhdf(Hdf5File& file, std::span<const double> points,
+                  std::span<const PointField> fields);
+
+/// Writes one frame file durably: /VTKHDF and the attributes step and time of "/".
+/// @param deflate  compression, see Hdf5Layout
+void write_frame(const std::filesystem::path& file, std::int64_t step, double time,
+                 std::span<const double> points, std::span<const PointField> fields,
+                 int deflate = 0, const SystemCalls& system = system_calls());
+
+/// The list of a run's frames with their times, `run.hdf.series`, which ParaView opens as one
+/// animated data set. Every change is written durably at once.
+class FrameSeries {
+ public:
+  struct Entry {
+    std::string name;  // relative to the series file
+    double time = 0.0;
+    bool operator==(const Entry&) const = default;
+  };
+
+  /// Starts an empty list (the file appears with the first frame).
+  explicit FrameSeries(std::filesystem::path file, const SystemCalls& system = system_calls())
+      : file_(std::move(file)), system_(&system) {}
+
+  /// Takes up an existing list and drops frames later than `time`; a file that does not exist is an
+  /// empty list.
+  /// @throws FileError if the file is not such a list.
+  [[nodiscard]] static FrameSeries resume(std::filesystem::path file, double time,
+                                          const SystemCalls& system = system_calls());
+
+  void append(std::string name, double time);
+  [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+
+ private:
+  void write() const;
+
+  std::filesystem::path file_;
+  const SystemCalls* system_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace files

@@ -1,0 +1,18 @@
+#include "limit/bracket/solve.hpp"
+
+#include "limit/bracket/strength_reduction.hpp"
+
+namespace limit::bracket {
+
+Solution solution_of(const problem::Case& problem, const BracketOptions& options,
+                     const std::function<void(const Attempt&)>& watch) {
+  if (problem.seeks_strength) return reduce_strength(problem, options, watch);
+  Solution solution;
+  solution.bracket = bracket(problem, options, watch);
+  const double unit = problem.units.multiplier();
+  if (solution.bracket.lower) solution.lower = solution.bracket.lower_bound() * unit;
+  if (solution.bracket.upper) solution.upper = solution.bracket.upper_bound() * unit;
+  return solution;
+}
+
+}  // namespace limit::bracket

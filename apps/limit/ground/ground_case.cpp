@@ -1,0 +1,382 @@
+#include "limit/ground/ground_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "limit/ground/ground_mesh.hpp"
+#include "limit/ground/ground_outline.hpp"
+
+namespace limit::ground {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+std::string side_key(std::size_t side, const char* key) {
+  return fmt::format("side.{}.{}", side, key);
+}
+
+// The scene's one footing: a straight base.
+struct Base {
+  std::size_t side = 0;
+  mesh::Point first, second;  // its ends
+  mesh::Point inward;         // unit normal
+  mesh::Point along;          // unit tangent towards +x, or +y if it is upright
+  double width = 0.0;
+};
+
+std::optional<Base> find_base(const GroundScene& scene, const GroundOutline& outline,
+                              tables::Diagnosis& diagnosis) {
+  std::optional<Base> base;
+  for (std::size_t s = 0; s < scene.sides.size(); ++s) {
+    const GroundSide& side = scene.sides[s];
+    if (side.kind != SideKind::footing) continue;
+    if (base) {
+      diagnosis.error(side_key(s, "kind"), "a second footing", "one footing at most");
+      return std::nullopt;
+    }
+    base.emplace();
+    base->side = s;
+    base->first = side.along.front();
+    base->second = side.along.back();
+    base->width = (base->second - base->first).norm();
+    base->along = (base->second - base->first) / base->width;
+    for (const mesh::Point& place : side.along) {
+      if (distance(place, base->first, base->second) <= outline.tolerance()) continue;
+      diagnosis.error(side_key(s, "along"), "the footing's base is not straight",
+                      "a footing has one straight base");
+      return std::nullopt;
+    }
+    if (base->along.x() < 0.0 || (base->along.x() == 0.0 && base->along.y() < 0.0)) {
+      base->along = -base->along;
+    }
+    for (const GroundSegment& segment : outline.segments) {
+      if (segment.side != static_cast<int>(s)) continue;
+      const mesh::Point way = (outline.at(segment.second) - outline.at(segment.first)).normalized();
+      base->inward = mesh::Point(-way.y(), way.x());
+    }
+  }
+  return base;
+}
+
+bool ends_at_roller(const GroundScene& scene, const Base& base) {
+  return std::any_of(scene.sides.begin(), scene.sides.end(), [&](const GroundSide& side) {
+    if (side.kind != SideKind::roller) return false;
+    for (const mesh::Point& end : {side.along.front(), side.along.back()}) {
+      if (end == base.first || end == base.second) return true;
+    }
+    return false;
+  });
+}
+
+// Motions and loads of the footing, dead and live; the live one is that of a unit mean pressure.
+problem::Footing footing_of(const GroundScene& scene, const Base& base,
+                            tables::Diagnosis& diagnosis) {
+  const GroundLoad& load = scene.load;
+  problem::Footing footing;
+  footing.centre = (base.first + base.second) / 2.0;
+  const mesh::Point force = base.width * (base.inward + std::tan(load.inclination) * base.along);
+  const mesh::Point arm = load.eccentricity * base.along;
+  const std::array<double, 3> unit{force.x(), force.y(), arm.x() * force.y() - arm.y() * force.x()};
+  const bool guided = load.guided.value_or(ends_at_roller(scene, base));
+  if (guided) {
+    if (load.inclination != 0.0 || load.eccentricity != 0.0) {
+      diagnosis.error(
+          "load.guided", "a guided footing with an inclined or eccentric load",
+          "such a load wants guided = false, and all of the ground, not a mirrored half");
+    }
+    const bool along_x = std::abs(base.inward.y()) < 1e-12;
+    if (!along_x && std::abs(base.inward.x()) >= 1e-12) {
+      diagnosis.error("load.guided", "the base of a guided footing is inclined",
+                      "it runs along x or y");
+    }
+    footing.may_move = {along_x, !along_x, false};
+  } else {
+    footing.may_move = {true, true, true};
+  }
+  if (!scene.sides[base.side].tension && std::abs(load.eccentricity) >= base.width / 2.0) {
+    diagnosis.error("load.eccentricity", fmt::format("found {:g}", load.eccentricity),
+                    fmt::format("without tension under it, the footing bears loads less than half "
+                                "its width ({:g}) from its middle",
+                                base.width / 2.0));
+  }
+  if (!scene.sides[base.side].rough && load.inclination != 0.0) {
+    diagnosis.error("load.inclination",
+                    fmt::format("found {:g} degrees", load.inclination / degree),
+                    "a smooth base bears no load along itself");
+  }
+  const double given = scene.sides[base.side].pressure;
+  for (std::size_t i = 0; i < 3; ++i) {
+    footing.dead_load[i] = given * unit[i];
+    footing.live_load[i] = scene.load.sought == Sought::footing ? unit[i] : 0.0;
+  }
+  return footing;
+}
+
+problem::Boundary boundary_of(const GroundScene& scene, const GroundSide& side) {
+  problem::Boundary boundary{side.name};
+  switch (side.kind) {
+    case SideKind::fixed:
+      boundary.normal = boundary.tangential = problem::Known::support;
+      break;
+    case SideKind::roller:
+      boundary.normal = problem::Known::support;
+      break;
+    case SideKind::footing:
+      boundary.normal = problem::Known::footing;
+      boundary.tangential = side.rough ? problem::Known::footing : problem::Known::traction;
+      boundary.may_open = !side.tension;
+      break;
+    case SideKind::loaded:
+      boundary.normal_stress = -side.pressure;
+      boundary.shear_stress = side.shear;
+      if (scene.load.sought == Sought::traction) {
+        boundary.live_normal_stress = -side.live_pressure;
+        boundary.live_shear_stress = side.live_shear;
+      }
+      break;
+    case SideKind::free:
+      break;
+  }
+  return boundary;
+}
+
+// All given loads become live, as a strength that just carries them is sought.
+void make_live(problem::Problem& problem) {
+  for (problem::Soil& soil : problem.soils) {
+    soil.live_unit_weight = soil.unit_weight;
+    soil.unit_weight = 0.0;
+  }
+  for (problem::Boundary& boundary : problem.boundaries) {
+    boundary.live_normal_stress = boundary.normal_stress;
+    boundary.live_shear_stress = boundary.shear_stress;
+    boundary.normal_stress = boundary.shear_stress = 0.0;
+  }
+  problem.footing.live_load = problem.footing.dead_load;
+  problem.footing.dead_load = {};
+}
+
+// The problem without its mesh.
+problem::Problem loads_of(const GroundScene& scene, const std::optional<Base>& base, bool reduce,
+                          tables::Diagnosis& diagnosis) {
+  problem::Problem problem;
+  for (const GroundMaterial& material : scene.materials) {
+    problem::Soil soil = material.soil;
+    if (reduce) soil = problem::davis_reduced(soil, material.dilation_angle);
+    if (scene.load.sought == Sought::gravity && material.grows) {
+      soil.live_unit_weight = soil.unit_weight;
+      soil.unit_weight = 0.0;
+    }
+    problem.soils.push_back(soil);
+  }
+  for (const GroundSide& side : scene.sides) problem.boundaries.push_back(boundary_of(scene, side));
+  if (base) problem.footing = footing_of(scene, *base, diagnosis);
+  if (scene.load.sought == Sought::strength) make_live(problem);
+  return problem;
+}
+
+// Largest live load as a stress, over a length.
+double live_stress(const problem::Problem& problem, double length) {
+  double largest = 0.0;
+  for (const problem::Soil& soil : problem.soils) {
+    largest = std::max(largest, soil.live_unit_weight * length);
+  }
+  for (const problem::Boundary& boundary : problem.boundaries) {
+    largest = std::max(
+        {largest, std::abs(boundary.live_normal_stress), std::abs(boundary.live_shear_stress)});
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    largest = std::max(largest, std::abs(problem.footing.live_load[i]) / (2.0 * length));
+  }
+  return largest;
+}
+
+void require_live_load(const GroundScene& scene, const std::optional<Base>& base,
+                       const problem::Problem& problem, tables::Diagnosis& diagnosis) {
+  const char* allowed = "";
+  switch (scene.load.sought) {
+    case Sought::footing:
+      if (base) return;
+      allowed = "a footing's pressure wants a side of kind footing";
+      break;
+    case Sought::traction:
+      allowed = "a traction wants a loaded side with live_pressure or live_shear";
+      break;
+    case Sought::gravity:
+      allowed = "gravity wants a material with a unit_weight that grows";
+      break;
+    case Sought::strength:
+      allowed = "strength wants a load: unit weights, pressures, shears";
+      break;
+  }
+  if (live_stress(problem, 1.0) > 0.0) return;
+  diagnosis.error("load.sought", "nothing in the scene would grow", allowed);
+}
+
+// Half a footing's width, else half the height of the part of the outline that is free to move.
+double length_of(const GroundScene& scene, const GroundOutline& outline,
+                 const std::optional<Base>& base) {
+  if (base) return base->width / 2.0;
+  double low = 0.0, high = 0.0;
+  bool is_first = true;
+  for (const GroundSegment& segment : outline.segments) {
+    if (segment.right >= 0) continue;
+    const SideKind kind = scene.sides[static_cast<std::size_t>(segment.side)].kind;
+    if (kind != SideKind::free && kind != SideKind::loaded) continue;
+    for (const int end : {segment.first, segment.second}) {
+      const double y = outline.at(end).y();
+      low = is_first ? y : std::min(low, y);
+      high = is_first ? y : std::max(high, y);
+      is_first = false;
+    }
+  }
+  const double half_height = (high - low) / 2.0;
+  return half_height > 0.0 ? half_height : outline.size / 4.0;
+}
+
+problem::Units units_of(const problem::Problem& problem, double length) {
+  double surcharge = 0.0, stress = 0.0;
+  for (const problem::Boundary& boundary : problem.boundaries) {
+    surcharge = std::max(surcharge, -boundary.normal_stress);
+  }
+  for (const problem::Soil& soil : problem.soils) {
+    stress += (soil.cohesion * std::cos(soil.friction_angle) +
+               (surcharge + soil.unit_weight * length) * std::sin(soil.friction_angle)) /
+              static_cast<double>(problem.soils.size());
+  }
+  problem::Units units{length, stress, 1.0 / live_stress(problem, length)};
+  return units;
+}
+
+GroundFineness fineness_of(const GroundScene& scene, const GroundOutline& outline, double length,
+                           bool is_lower) {
+  double steepest = 0.0;
+  for (const GroundMaterial& material : scene.materials) {
+    steepest = std::max(steepest, std::tan(material.soil.friction_angle));
+  }
+  // As the fans of a strip: the lower bound wants more rays, both the more, the more friction.
+  constexpr double pi = std::numbers::pi;
+  // Between the fans half a unit of length, but neither very few triangles nor very many.
+  const double longest =
+      std::clamp(length / 2.0, std::sqrt(outline.area / 150.0), std::sqrt(outline.area / 50.0));
+  if (is_lower) return {(24.0 + 30.0 * steepest) / pi, 4, 1.5, longest};
+  return {(12.0 + 15.0 * steepest) / pi, 4, 2.0, longest};
+}
+
+std::vector<std::string> assumptions_of(const GroundScene& scene, const problem::Problem& problem,
+                                        const std::optional<Base>& base) {
+  std::vector<std::string> assumptions{
+      "plane strain, rigid-plastic soil, associated flow, no change of geometry",
+      "the polygons of the scene, rigid beyond fixed sides and rollers; the lower bound holds for "
+      "wider ground only if these are far enough away not to matter"};
+  if (base) {
+    const GroundSide& side = scene.sides[base->side];
+    assumptions.push_back(problem::base_assumption(side.rough, side.tension));
+    assumptions.emplace_back(problem.footing.may_move[2]
+                                 ? "the footing is free to move along x and y and to rotate"
+                                 : "the footing is guided along its normal");
+  }
+  if (scene.load.sought == Sought::strength) {
+    assumptions.emplace_back(
+        "cohesion and tan(friction angle) of all materials are divided by the factor");
+  }
+  return assumptions;
+}
+
+// Whether the multiplier is the live pressure itself.
+bool is_unit_traction(const GroundScene& scene) {
+  return std::all_of(scene.sides.begin(), scene.sides.end(), [](const GroundSide& side) {
+    return (side.live_pressure == 0.0 || side.live_pressure == 1.0) && side.live_shear == 0.0;
+  });
+}
+
+void describe(const GroundScene& scene, problem::Case& result) {
+  for (const GroundMaterial& material : scene.materials) {
+    result.data.emplace_back(
+        material.name,
+        fmt::format("c = {:g} Pa, phi = {:g} deg, {:g} N/m3", material.soil.cohesion,
+                    material.soil.friction_angle / degree, material.soil.unit_weight));
+  }
+  switch (scene.load.sought) {
+    case Sought::footing:
+      result.quantity = "mean pressure at collapse, normal to the base";
+      if (scene.load.inclination != 0.0) {
+        result.data.emplace_back("inclination",
+                                 fmt::format("{:g} deg", scene.load.inclination / degree));
+      }
+      if (scene.load.eccentricity != 0.0) {
+        result.data.emplace_back("eccentricity", fmt::format("{:g} m", scene.load.eccentricity));
+      }
+      return;
+    case Sought::traction:
+      if (is_unit_traction(scene)) {
+        result.quantity = "live pressure at collapse";
+        return;
+      }
+      result.quantity = "multiplier of the live tractions at collapse";
+      break;
+    case Sought::gravity:
+      result.quantity = "multiplier of the unit weights at collapse";
+      break;
+    case Sought::strength:
+      result.quantity = "factor of safety of the strength";
+      result.seeks_strength = true;
+      break;
+  }
+  result.unit = "";
+}
+
+problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
+                      const std::optional<Base>& base, bool reduce, tables::Diagnosis& diagnosis) {
+  problem::Case result;
+  result.title = scene.title.empty() ? "ground of polygons" : scene.title;
+  describe(scene, result);
+  result.lower = loads_of(scene, base, reduce, diagnosis);
+  if (diagnosis.errors().empty()) require_live_load(scene, base, result.lower, diagnosis);
+  if (!diagnosis.errors().empty()) return result;
+  result.assumptions = assumptions_of(scene, result.lower, base);
+  const double length = length_of(scene, outline, base);
+  result.units = units_of(result.lower, length);
+  result.upper = result.lower;
+  try {
+    result.lower.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, true));
+    result.upper.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, false));
+  } catch (const GroundTooFine& narrow) {
+    diagnosis.error(
+        fmt::format("region.{}.outline", narrow.region),
+        fmt::format("so narrow at ({:.6g}, {:.6g}) that a mesh would begin with more than {} "
+                    "triangles",
+                    narrow.place.x(), narrow.place.y(), most_first_triangles),
+        "triangles are as small as the narrowest place near them; layers and gaps are wider, or "
+        "left out");
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<footing::SceneCase> ground_case(const GroundScene& scene,
+                                              tables::Diagnosis& diagnosis) {
+  const GroundOutline outline = ground_outline(scene, diagnosis);
+  if (!diagnosis.errors().empty()) return std::nullopt;
+  const std::optional<Base> base = find_base(scene, outline, diagnosis);
+  if (!diagnosis.errors().empty()) return std::nullopt;
+  footing::SceneCase result{case_of(scene, outline, base, false, diagnosis), std::nullopt,
+                            std::nullopt};
+  if (!diagnosis.errors().empty()) return std::nullopt;
+  const bool is_associated = std::all_of(
+      scene.materials.begin(), scene.materials.end(), [](const GroundMaterial& material) {
+        return material.dilation_angle == material.soil.friction_angle;
+      });
+  if (is_associated) return result;
+  result.davis = case_of(scene, outline, base, true, diagnosis);
+  if (!diagnosis.errors().empty()) return std::nullopt;
+  // Both in the same units, for one report.
+  result.davis->units = result.associated.units;
+  return result;
+}
+
+}  // namespace limit::ground

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limit/problem/problem.hpp"
+#include "tables/problem.hpp"
+
+namespace limit::ground {
+
+/// A soil by its name.
+struct GroundMaterial {
+  std::string name;
+  problem::Soil soil;           // live_unit_weight unused
+  double dilation_angle = 0.0;  // [rad] 0 .. friction angle
+  bool grows = true;            // its weight is multiplied where gravity is sought
+};
+
+/// A simple polygon of one soil.
+struct GroundRegion {
+  std::string name;
+  std::size_t material = 0;
+  std::vector<mesh::Point> outline;  // [m] either way around
+};
+
+enum class SideKind { free, loaded, fixed, roller, footing };
+
+/// A named part of the ground's outline. Pressures are positive in compression.
+struct GroundSide {
+  std::string name;
+  SideKind kind = SideKind::free;
+  std::vector<mesh::Point> along;  // [m] either way
+  double pressure = 0.0;           // [Pa] loaded, footing: given
+  double shear = 0.0;          // [Pa] loaded: given, along the outline with the ground to the left
+  double live_pressure = 0.0;  // [Pa] loaded: per unit of the multiplier
+  double live_shear = 0.0;
+  bool rough = true;    // footing
+  bool tension = true;  // footing: bonded to the soil; else it may lift off
+};
+
+enum class Sought { footing, traction, gravity, strength };
+
+/// What is to grow until collapse.
+struct GroundLoad {
+  Sought sought = Sought::footing;
+  double inclination = 0.0;    // [rad] of the footing's load, from the base's normal
+  double eccentricity = 0.0;   // [m] of the footing's load, from the base's middle
+  std::optional<bool> guided;  // the footing moves along its normal alone; absent: if it ends at a
+                               // roller, whose mirror image completes it
+};
+
+/// Ground of polygons, its sides and its load, as a scene of fpm-limit's own describes it.
+struct GroundScene {
+  std::string title;
+  std::vector<GroundMaterial> materials;
+  std::vector<GroundRegion> regions;
+  std::vector<GroundSide> sides;
+  GroundLoad load;
+};
+
+/// Reads such a scene from TOML text, settings (`--set`) applied. Only what can be judged key by
+/// key is judged here. Nothing, if the diagnosis or `unreadable` has an error.
+[[nodiscard]] std::optional<GroundScene> read_ground_scene(
+    std::string_view text, std::span<const std::string> settings, tables::Diagnosis& diagnosis,
+    std::optional<tables::Problem>& unreadable);
+
+/// Whether TOML text is such a scene, not one of fpm-run: it has regions.
+[[nodiscard]] bool is_ground_scene(std::string_view text);
+
+/// Every table and key of such a scene, for --help.
+[[nodiscard]] std::string ground_scene_keys();
+
+}  // namespace limit::ground

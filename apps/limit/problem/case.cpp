@@ -1,0 +1,54 @@
+#include "limit/problem/case.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace limit::problem {
+
+Case strip_case(const Strip& strip, std::optional<Box> wanted) {
+  check(strip);
+  const Box box = wanted.value_or(box_of(strip));
+  Case result;
+  result.title = fmt::format("strip footing, {}", strip.rough ? "rough" : "smooth");
+  const Soil& soil = strip.soil;
+  result.data = {
+      {"half width", fmt::format("{:g} m", strip.half_width)},
+      {"cohesion", fmt::format("{:g} Pa", soil.cohesion)},
+      {"friction angle", fmt::format("{:g} deg", soil.friction_angle * 180.0 / std::numbers::pi)},
+      {"unit weight", fmt::format("{:g} N/m3", soil.unit_weight)},
+      {"surcharge", fmt::format("{:g} Pa", strip.surcharge)}};
+  result.assumptions = {
+      "plane strain, rigid-plastic soil, associated flow, no change of geometry",
+      fmt::format("ground {:.4g} half widths wide from the axis and {:.4g} deep, rigid beyond; the "
+                  "upper bound holds for a half-space, too, the lower one only if the box is wide "
+                  "and deep enough not to matter",
+                  box.width, box.depth),
+      base_assumption(strip.rough, strip.tension)};
+  result.hand = hand_formulas(soil.cohesion, soil.friction_angle, soil.unit_weight, strip.surcharge,
+                              strip.half_width);
+  result.units = units_of(strip);
+  result.lower = strip_problem(strip, lower_fan(strip, box));
+  result.upper = strip_problem(strip, upper_fan(strip, box));
+  return result;
+}
+
+std::string base_assumption(bool rough, bool tension) {
+  return fmt::format("{} base: {}; {}", rough ? "rough" : "smooth",
+                     rough ? "up to the soil's full strength in shear" : "no shear stress",
+                     tension ? "bonded, up to the soil's strength in tension"
+                             : "no tension, the footing may lift off the soil");
+}
+
+Soil davis_reduced(const Soil& soil, double dilation_angle) {
+  const double phi = soil.friction_angle;
+  const double factor =
+      std::cos(dilation_angle) * std::cos(phi) / (1.0 - std::sin(dilation_angle) * std::sin(phi));
+  Soil reduced = soil;
+  reduced.cohesion *= factor;
+  reduced.friction_angle = std::atan(factor * std::tan(phi));
+  return reduced;
+}
+
+}  // namespace limit::problem

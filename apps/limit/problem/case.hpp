@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "limit/problem/hand_formulas.hpp"
+#include "limit/problem/problem.hpp"
+#include "limit/problem/strip.hpp"
+
+namespace limit::problem {
+
+/// A collapse problem with all that a report says about it.
+struct Case {
+  std::string title;
+  std::string quantity = "mean pressure at collapse";  // what is bracketed
+  std::string unit = "Pa";                             // of it; "" for a number
+  bool seeks_strength = false;  // the factor that divides the strength, with the live loads at 1
+  std::vector<std::pair<std::string, std::string>> data;  // what, value with unit
+  std::vector<std::string> assumptions;
+  std::vector<HandFormula> hand;
+  Units units;
+  Problem lower, upper;  // in SI units, on the meshes to begin with
+};
+
+/// A strip footing as a case; `box` absent: box_of(strip).
+/// @throws std::invalid_argument, see check(Strip).
+[[nodiscard]] Case strip_case(const Strip& strip, std::optional<Box> box);
+
+/// What is assumed of a footing's base, for a report.
+[[nodiscard]] std::string base_assumption(bool rough, bool tension);
+
+/// The soil whose associated collapse is taken for that of a soil that dilates by less than its
+/// friction angle (Davis 1968): c and tan(phi) times cos(psi) cos(phi) / (1 - sin(psi) sin(phi)).
+/// An estimate, no bound. Angles in radians.
+[[nodiscard]] Soil davis_reduced(const Soil& soil, double dilation_angle);
+
+}  // namespace limit::problem

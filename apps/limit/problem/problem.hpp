@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "limit/mesh/mesh.hpp"
+
+namespace limit::problem {
+
+/// A rigid-perfectly-plastic Mohr-Coulomb soil (Tresca if the friction angle is 0), associated.
+struct Soil {
+  double cohesion = 0.0;          // [Pa]
+  double friction_angle = 0.0;    // [rad] 0 <= phi < pi/2
+  double unit_weight = 0.0;       // [N/m3] acts along -y
+  double live_unit_weight = 0.0;  // [N/m3] per unit of the multiplier, along -y, too
+};
+
+/// What is known on a boundary in one direction (normal or tangential to it).
+enum class Known {
+  traction,  // the traction; the velocity is free
+  support,   // the velocity is zero; the traction is whatever it must be
+  footing,   // the velocity is the footing's; the tractions have the footing's resultant
+};
+
+/// A part of the outline with the same conditions.
+struct Boundary {
+  std::string name;
+  Known normal = Known::traction;
+  Known tangential = Known::traction;
+  double normal_stress = 0.0;       // [Pa] tension positive; where normal == traction
+  double shear_stress = 0.0;        // [Pa] along the outline, body to the left
+  double live_normal_stress = 0.0;  // [Pa] per unit of the multiplier, in addition
+  double live_shear_stress = 0.0;
+  bool may_open = false;  // where normal == footing: no tension, the footing may leave the soil
+};
+
+/// A rigid body on the boundaries whose conditions name it. Its three motions are those along x and
+/// y and the rotation (counterclockwise) about its centre; loads are work-conjugate to them.
+struct Footing {
+  mesh::Point centre{0.0, 0.0};  // [m]
+  std::array<bool, 3> may_move{false, false, false};
+  std::array<double, 3> dead_load{};  // [N/m, N/m, N]
+  std::array<double, 3> live_load{};  // per unit of the multiplier
+};
+
+/// A collapse problem: how far the live loads (on the footing, on the outline, of the soil's
+/// weight) can grow by their common multiplier. The multiplier has the unit that makes a live load
+/// times it a load; for a footing pressure it is a pressure, for a weight a number.
+struct Problem {
+  mesh::Mesh mesh;
+  std::vector<Soil> soils;           // by Triangle::region
+  std::vector<Boundary> boundaries;  // by BoundaryEdge::boundary
+  Footing footing;
+};
+
+/// What is made of order one before anything is solved.
+struct Units {
+  double length = 1.0;                 // [m]
+  double stress = 1.0;                 // [Pa]
+  double multiplier_per_stress = 1.0;  // 1 if the multiplier is a pressure
+
+  /// Of the multiplier.
+  [[nodiscard]] double multiplier() const { return stress * multiplier_per_stress; }
+};
+
+/// The same problem in other units; its multiplier is the old one over `units.multiplier()`.
+[[nodiscard]] Problem in_units(const Problem& problem, const Units& units);
+
+}  // namespace limit::problem

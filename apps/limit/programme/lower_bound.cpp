@@ -1,0 +1,240 @@
+#include "limit/programme/lower_bound.hpp"
+
+#include <algorithm>
+
+#include "limit/algebra/equation_builder.hpp"
+#include "limit/programme/yield_cones.hpp"
+
+namespace limit::programme {
+
+namespace {
+
+// So that a solver's answer lies inside the true cone even after it was moved, by its tolerance,
+// into equilibrium: much more than that of the solver, much less than a bracket.
+constexpr double reserve = 1e-6;
+
+// A linear form in one corner's (p, d, t).
+using Form = Eigen::Vector3d;
+
+Form stress_xx() {
+  return {1, 1, 0};
+}
+Form stress_yy() {
+  return {1, -1, 0};
+}
+Form stress_xy() {
+  return {0, 0, 1};
+}
+// Traction along `direction` on a plane of normal `normal`.
+Form traction(const mesh::Point& normal, const mesh::Point& direction) {
+  return normal.x() * direction.x() * stress_xx() + normal.y() * direction.y() * stress_yy() +
+         (normal.x() * direction.y() + normal.y() * direction.x()) * stress_xy();
+}
+
+// Outward unit normal of a counterclockwise side, and its length.
+struct SideFrame {
+  SideFrame(const mesh::Mesh& mesh, const mesh::Edge& edge)
+      : first(mesh.nodes[static_cast<std::size_t>(edge.first)]),
+        second(mesh.nodes[static_cast<std::size_t>(edge.second)]) {
+    const mesh::Point along = second - first;
+    length = along.norm();
+    tangent = along / length;
+    normal = mesh::Point(tangent.y(), -tangent.x());
+  }
+  mesh::Point first, second, tangent, normal;
+  double length;
+};
+
+class Builder {
+ public:
+  explicit Builder(const problem::Problem& problem)
+      : problem_(problem), edges_(mesh::edges_of(problem.mesh)), overburden_(problem) {
+    for (const mesh::Triangle& triangle : problem.mesh.triangles) {
+      for (const int node : triangle.nodes) {
+        add_cone(triangle.region, problem.mesh.nodes[static_cast<std::size_t>(node)]);
+      }
+    }
+    for (const mesh::Edge& edge : edges_) add_contacts(edge);
+  }
+
+  ConeProgram program() {
+    equilibrium_of_triangles();
+    equilibrium_of_sides();
+    equilibrium_of_footing();
+    stresses_of_contacts();
+    const Eigen::Index variables = multiplier() + 1;
+    ConeProgram program;
+    program.cones = cones_;
+    program.equations = equations_.matrix(variables);
+    program.right_side = equations_.right_side();
+    program.objective = Eigen::VectorXd::Unit(variables, multiplier());
+    program.start = Eigen::VectorXd::Zero(variables);
+    for (std::size_t k = 0; k < cones_.size(); ++k) {
+      program.start.segment<3>(3 * static_cast<Eigen::Index>(k)) = starts_[k];
+    }
+    return program;
+  }
+
+ private:
+  // First variable of a triangle's corner.
+  static Eigen::Index corner(int triangle, int corner) { return 9 * triangle + 3 * corner; }
+  Eigen::Index corner_at(int triangle, int node) const {
+    return corner(triangle, mesh::corner_of(
+                                problem_.mesh.triangles[static_cast<std::size_t>(triangle)], node));
+  }
+  Eigen::Index multiplier() const { return 3 * static_cast<Eigen::Index>(cones_.size()); }
+
+  void add_cone(int region, const mesh::Point& place) {
+    const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(region)];
+    const double load = overburden_.at(soil, place);
+    cones_.push_back(yield_cone(soil, load, reserve));
+    starts_.push_back(inner_point(cones_.back(), load));
+  }
+
+  // Cones of the normal stress at both ends of a side that may open.
+  void add_contacts(const mesh::Edge& edge) {
+    if (edge.boundary < 0) return;
+    if (!problem_.boundaries[static_cast<std::size_t>(edge.boundary)].may_open) return;
+    const mesh::Point normal = SideFrame(problem_.mesh, edge).normal;
+    for (const int node : {edge.first, edge.second}) {
+      const Eigen::Index stress = corner_at(edge.left, node);
+      contacts_.push_back({stress, multiplier(), normal});
+      cones_.push_back(contact_cone(cones_[static_cast<std::size_t>(stress / 3)].scale, reserve));
+      starts_.push_back(inner_point(cones_.back(), 0.0));
+    }
+  }
+
+  void stresses_of_contacts() {
+    for (const Contact& contact : contacts_) {
+      equations_.begin(0.0);
+      add(contact.stress, traction(contact.normal, contact.normal));
+      equations_.add(contact.variable, -1.0);
+    }
+  }
+
+  void add(Eigen::Index variables, const Form& form, double factor = 1.0) {
+    for (Eigen::Index i = 0; i < 3; ++i) equations_.add(variables + i, factor * form[i]);
+  }
+
+  // div sigma + (0, -gamma) = 0, gamma dead and live, with the constant gradients of the corners'
+  // shape functions.
+  void equilibrium_of_triangles() {
+    const mesh::Mesh& mesh = problem_.mesh;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const mesh::Triangle& triangle = mesh.triangles[t];
+      const double area2 = mesh::twice_area(mesh, triangle);
+      const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(triangle.region)];
+      for (int row = 0; row < 2; ++row) {
+        equations_.begin(row == 0 ? 0.0 : soil.unit_weight);
+        if (row == 1) equations_.add(multiplier(), -soil.live_unit_weight);
+        for (int i = 0; i < 3; ++i) {
+          const auto at = [&](int k) -> const mesh::Point& {
+            return mesh.nodes[static_cast<std::size_t>(
+                triangle.nodes[static_cast<std::size_t>((i + k) % 3)])];
+          };
+          const mesh::Point gradient =
+              mesh::Point(at(1).y() - at(2).y(), at(2).x() - at(1).x()) / area2;
+          add(corner(static_cast<int>(t), i),
+              row == 0 ? Form(gradient.x() * stress_xx() + gradient.y() * stress_xy())
+                       : Form(gradient.x() * stress_xy() + gradient.y() * stress_yy()));
+        }
+      }
+    }
+  }
+
+  void equilibrium_of_sides() {
+    for (const mesh::Edge& edge : edges_) {
+      const SideFrame side(problem_.mesh, edge);
+      for (const int node : {edge.first, edge.second}) {
+        const Eigen::Index left = corner_at(edge.left, node);
+        if (edge.right >= 0) {
+          const Eigen::Index right = corner_at(edge.right, node);
+          for (const mesh::Point& direction : {side.normal, side.tangent}) {
+            equations_.begin(0.0);
+            add(left, traction(side.normal, direction));
+            add(right, traction(side.normal, direction), -1.0);
+          }
+          continue;
+        }
+        const problem::Boundary& boundary =
+            problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
+        if (boundary.normal == problem::Known::traction) {
+          equations_.begin(boundary.normal_stress);
+          equations_.add(multiplier(), -boundary.live_normal_stress);
+          add(left, traction(side.normal, side.normal));
+        }
+        if (boundary.tangential == problem::Known::traction) {
+          equations_.begin(boundary.shear_stress);
+          equations_.add(multiplier(), -boundary.live_shear_stress);
+          add(left, traction(side.normal, side.tangent));
+        }
+      }
+    }
+  }
+
+  void equilibrium_of_footing() {
+    const problem::Footing& footing = problem_.footing;
+    for (int motion = 0; motion < 3; ++motion) {
+      if (!footing.may_move[static_cast<std::size_t>(motion)]) continue;
+      equations_.begin(footing.dead_load[static_cast<std::size_t>(motion)]);
+      for (const mesh::Edge& edge : edges_) {
+        if (edge.boundary >= 0) add_resultant(edge, motion);
+      }
+      equations_.add(multiplier(), -footing.live_load[static_cast<std::size_t>(motion)]);
+    }
+  }
+
+  // The traction's power on a rigid motion, over one side; both are linear along it.
+  void add_resultant(const mesh::Edge& edge, int motion) {
+    const problem::Boundary& boundary =
+        problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
+    if (boundary.normal != problem::Known::footing &&
+        boundary.tangential != problem::Known::footing)
+      return;
+    const SideFrame side(problem_.mesh, edge);
+    const auto velocity = [&](const mesh::Point& at) {
+      const mesh::Point arm = at - problem_.footing.centre;
+      return motion == 0   ? mesh::Point(1, 0)
+             : motion == 1 ? mesh::Point(0, 1)
+                           : mesh::Point(-arm.y(), arm.x());
+    };
+    const mesh::Point first = velocity(side.first), second = velocity(side.second);
+    add(corner_at(edge.left, edge.first),
+        traction(side.normal, side.length / 6 * (2 * first + second)));
+    add(corner_at(edge.left, edge.second),
+        traction(side.normal, side.length / 6 * (first + 2 * second)));
+  }
+
+  const problem::Problem& problem_;
+  std::vector<mesh::Edge> edges_;
+  Overburden overburden_;
+  std::vector<YieldCone> cones_;
+  std::vector<Eigen::Vector3d> starts_;
+  // The stress of a corner, and the variable that is its normal component.
+  struct Contact {
+    Eigen::Index stress, variable;
+    mesh::Point normal;
+  };
+  std::vector<Contact> contacts_;
+  algebra::EquationBuilder equations_;
+};
+
+}  // namespace
+
+ConeProgram lower_bound_program(const problem::Problem& problem) {
+  return Builder(problem).program();
+}
+
+problem::StressField stress_field(const problem::Problem& problem,
+                                  const Eigen::VectorXd& variables) {
+  problem::StressField field(problem.mesh.triangles.size());
+  for (std::size_t t = 0; t < field.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d x = variables.segment<3>(9 * static_cast<Eigen::Index>(t) + 3 * i);
+      field[t].col(i) << x[0] + x[1], x[0] - x[1], x[2];
+    }
+  }
+  return field;
+}
+
+}  // namespace limit::programme

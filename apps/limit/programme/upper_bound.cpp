@@ -1,0 +1,266 @@
+#include "limit/programme/upper_bound.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "limit/programme/velocity_shapes.hpp"
+#include "limit/programme/yield_cones.hpp"
+
+namespace limit::programme {
+
+namespace {
+
+const mesh::Point& node_at(const mesh::Mesh& mesh, int node) {
+  return mesh.nodes[static_cast<std::size_t>(node)];
+}
+
+// Equation of each motion of the footing, -1 for those it cannot have, and of how many in all.
+struct Rows {
+  explicit Rows(const problem::Problem& problem)
+      : count(static_cast<int>(12 * problem.mesh.triangles.size())) {
+    for (std::size_t motion = 0; motion < 3; ++motion) {
+      footing[motion] = problem.footing.may_move[motion] ? count++ : -1;
+    }
+  }
+  int count;
+  std::array<int, 3> footing{};
+};
+
+// Power of the loads on each velocity.
+struct Loads {
+  Loads(const problem::Problem& problem, const std::vector<mesh::Edge>& edges)
+      : dead(Eigen::VectorXd::Zero(Rows(problem).count)), live(dead) {
+    const mesh::Mesh& mesh = problem.mesh;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) add_weight(problem, t);
+    for (const mesh::Edge& edge : edges) {
+      if (edge.boundary < 0) continue;
+      const problem::Boundary& on = problem.boundaries[static_cast<std::size_t>(edge.boundary)];
+      const bool pushed = on.normal == problem::Known::traction,
+                 sheared = on.tangential == problem::Known::traction;
+      add_tractions(mesh, edge, pushed ? on.normal_stress : 0.0, sheared ? on.shear_stress : 0.0,
+                    dead);
+      add_tractions(mesh, edge, pushed ? on.live_normal_stress : 0.0,
+                    sheared ? on.live_shear_stress : 0.0, live);
+    }
+    const Rows rows(problem);
+    for (std::size_t motion = 0; motion < 3; ++motion) {
+      if (rows.footing[motion] < 0) continue;
+      dead[rows.footing[motion]] += problem.footing.dead_load[motion];
+      live[rows.footing[motion]] += problem.footing.live_load[motion];
+    }
+  }
+
+  Eigen::VectorXd dead, live;
+
+ private:
+  // The integral of a quadratic is that of its middles alone, a third of the area each.
+  void add_weight(const problem::Problem& problem, std::size_t t) {
+    const mesh::Triangle& triangle = problem.mesh.triangles[t];
+    const problem::Soil& soil = problem.soils[static_cast<std::size_t>(triangle.region)];
+    const double third = mesh::twice_area(problem.mesh, triangle) / 6.0;
+    for (std::size_t middle = 3; middle < 6; ++middle) {
+      const auto row = static_cast<Eigen::Index>(2 * (6 * t + middle) + 1);
+      dead[row] -= soil.unit_weight * third;
+      live[row] -= soil.live_unit_weight * third;
+    }
+  }
+
+  // Simpson's rule, exact for a constant traction on a quadratic velocity.
+  static void add_tractions(const mesh::Mesh& mesh, const mesh::Edge& edge, double normal,
+                            double shear, Eigen::VectorXd& loads) {
+    const mesh::Point along = node_at(mesh, edge.second) - node_at(mesh, edge.first);
+    const mesh::Point outward(along.y(), -along.x());  // times the length, as `along` is
+    const mesh::Point force = normal * outward + shear * along;
+    const auto [first, middle, second] = places_along(mesh, edge.left, edge);
+    loads.segment<2>(2 * first) += force / 6.0;
+    loads.segment<2>(2 * middle) += force * (4.0 / 6.0);
+    loads.segment<2>(2 * second) += force / 6.0;
+  }
+};
+
+class Builder {
+ public:
+  explicit Builder(const problem::Problem& problem)
+      : problem_(problem),
+        edges_(mesh::edges_of(problem.mesh)),
+        overburden_(problem),
+        rows_(problem) {}
+
+  ConeProgram program() {
+    for (std::size_t t = 0; t < problem_.mesh.triangles.size(); ++t) add_triangle(t);
+    for (const mesh::Edge& edge : edges_) add_side(edge);
+    const int equations = rows_.count + static_cast<int>(contacts_.size());
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const int row = rows_.count + static_cast<int>(c);
+      add(row, contacts_[c].traction, 1.0);
+      add(row, contacts_[c].variable, -1.0);
+    }
+    const auto multiplier = static_cast<int>(3 * cones_.size());
+    const Loads loads(problem_, edges_);
+    for (int row = 0; row < rows_.count; ++row) add(row, multiplier, -loads.live[row]);
+    ConeProgram program;
+    program.equations.resize(equations, multiplier + 1);
+    program.equations.setFromTriplets(entries_.begin(), entries_.end());
+    program.right_side = Eigen::VectorXd::Zero(equations);
+    program.right_side.head(rows_.count) = loads.dead;
+    program.objective = Eigen::VectorXd::Unit(multiplier + 1, multiplier);
+    program.start = Eigen::VectorXd::Zero(multiplier + 1);
+    for (std::size_t k = 0; k < cones_.size(); ++k) {
+      program.start.segment<3>(3 * static_cast<Eigen::Index>(k)) = starts_[k];
+    }
+    program.cones = std::move(cones_);
+    return program;
+  }
+
+ private:
+  // First variable of a new cone.
+  int add_cone(int region, const mesh::Point& place) {
+    const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(region)];
+    const double load = overburden_.at(soil, place);
+    cones_.push_back(yield_cone(soil, load, 0.0));
+    starts_.push_back(inner_point(cones_.back(), load));
+    return 3 * static_cast<int>(cones_.size() - 1);
+  }
+
+  // A normal traction (variable `traction`) that may not pull, as a variable of its own: the
+  // multiplier of their equality is the opening, which costs nothing.
+  void add_contact(int traction) {
+    contacts_.push_back({traction, 3 * static_cast<int>(cones_.size())});
+    cones_.push_back(contact_cone(cones_[static_cast<std::size_t>(traction / 3)].scale, 0.0));
+    starts_.push_back(inner_point(cones_.back(), 0.0));
+  }
+
+  void add(int row, int column, double value) {
+    if (value != 0.0) entries_.emplace_back(row, column, value);
+  }
+
+  // Power of the corners' stresses, a third of the area each, p (exx + eyy) + d (exx - eyy) +
+  // t gxy.
+  void add_triangle(std::size_t t) {
+    const mesh::Mesh& mesh = problem_.mesh;
+    const mesh::Triangle& triangle = mesh.triangles[t];
+    const VelocityTriangle shapes = velocity_triangle(mesh, triangle);
+    const double weight = shapes.area / 3.0;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const int column = add_cone(triangle.region, node_at(mesh, triangle.nodes[corner]));
+      for (std::size_t i = 0; i < 6; ++i) {
+        const auto row = static_cast<int>(2 * (6 * t + i));
+        const mesh::Point slope = weight * shapes.slopes[corner][i];
+        add(row, column, slope.x());
+        add(row, column + 1, slope.x());
+        add(row, column + 2, slope.y());
+        add(row + 1, column, slope.y());
+        add(row + 1, column + 1, -slope.y());
+        add(row + 1, column + 2, slope.x());
+      }
+    }
+  }
+
+  // Power of the tractions at the control points of the jump across a side: of the neighbour's
+  // velocity, the footing's or nothing, less that of the triangle. (p, t) is (normal, shear x
+  // cos(phi)); d stays out.
+  void add_side(const mesh::Edge& edge) {
+    bool has_shear = true, may_open = false;
+    if (edge.boundary >= 0) {
+      const problem::Boundary& boundary =
+          problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
+      if (boundary.normal == problem::Known::traction &&
+          boundary.tangential != problem::Known::traction) {
+        throw std::invalid_argument("boundary " + boundary.name +
+                                    ": it is held along but not across itself");
+      }
+      if (boundary.normal == problem::Known::traction) return;
+      has_shear = boundary.tangential != problem::Known::traction;
+      may_open = boundary.may_open;
+    }
+    const mesh::Mesh& mesh = problem_.mesh;
+    const int region = mesh.triangles[static_cast<std::size_t>(edge.left)].region;
+    const double cosine = std::cos(problem_.soils[static_cast<std::size_t>(region)].friction_angle);
+    const mesh::Point along = node_at(mesh, edge.second) - node_at(mesh, edge.first);
+    const double length = along.norm();
+    const mesh::Point tangent = along / length, normal(tangent.y(), -tangent.x());
+    const std::array<mesh::Point, 3> at{node_at(mesh, edge.first),
+                                        node_at(mesh, edge.first) + along / 2,
+                                        node_at(mesh, edge.second)};
+    const auto inside = places_along(mesh, edge.left, edge);
+    constexpr std::array<std::array<double, 3>, 3> control{
+        {{1.0, 0.0, 0.0}, {-0.5, 2.0, -0.5}, {0.0, 0.0, 1.0}}};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int column = add_cone(region, at[c]);
+      if (may_open) add_contact(column);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double factor = control[c][i] * length / 3.0;
+        const mesh::Point n = factor * normal;
+        const mesh::Point s =
+            has_shear ? mesh::Point(factor / cosine * tangent) : mesh::Point(0, 0);
+        add_power(2 * inside[i], column, -n, -s);
+        if (edge.right >= 0) {
+          add_power(2 * places_along(mesh, edge.right, edge)[i], column, n, s);
+        } else {
+          add_footing_power(edge.boundary, at[i], column, n, s);
+        }
+      }
+    }
+  }
+
+  void add_power(int row, int column, const mesh::Point& normal, const mesh::Point& shear) {
+    for (int xy = 0; xy < 2; ++xy) {
+      add(row + xy, column, normal[xy]);
+      add(row + xy, column + 2, shear[xy]);
+    }
+  }
+
+  void add_footing_power(int boundary, const mesh::Point& at, int column, const mesh::Point& normal,
+                         const mesh::Point& shear) {
+    const problem::Boundary& conditions = problem_.boundaries[static_cast<std::size_t>(boundary)];
+    for (int motion = 0; motion < 3; ++motion) {
+      const int row = rows_.footing[static_cast<std::size_t>(motion)];
+      if (row < 0) continue;
+      const mesh::Point velocity = rigid_velocity(at - problem_.footing.centre, motion);
+      if (conditions.normal == problem::Known::footing) add(row, column, normal.dot(velocity));
+      if (conditions.tangential == problem::Known::footing)
+        add(row, column + 2, shear.dot(velocity));
+    }
+  }
+
+  const problem::Problem& problem_;
+  std::vector<mesh::Edge> edges_;
+  Overburden overburden_;
+  Rows rows_;
+  std::vector<YieldCone> cones_;
+  std::vector<Eigen::Vector3d> starts_;
+  struct Contact {
+    int traction, variable;
+  };
+  std::vector<Contact> contacts_;
+  std::vector<Eigen::Triplet<double>> entries_;
+};
+
+}  // namespace
+
+ConeProgram upper_bound_program(const problem::Problem& problem) {
+  return Builder(problem).program();
+}
+
+problem::VelocityField velocity_field(const problem::Problem& problem,
+                                      const Eigen::VectorXd& multipliers) {
+  problem::VelocityField field;
+  const std::size_t triangles = problem.mesh.triangles.size();
+  field.footing.setZero();
+  const Rows rows(problem);
+  for (std::size_t motion = 0; motion < 3; ++motion) {
+    if (rows.footing[motion] < 0) continue;
+    field.footing[static_cast<Eigen::Index>(motion)] = multipliers[rows.footing[motion]];
+  }
+  const Eigen::VectorXd live = Loads(problem, mesh::edges_of(problem.mesh)).live;
+  const double power = live.dot(multipliers.head(live.size()));
+  const double scale = power != 0.0 ? 1.0 / power : 1.0;
+  field.footing *= scale;
+  for (std::size_t t = 0; t < triangles; ++t) {
+    field.triangles.emplace_back(
+        scale * Eigen::Map<const Eigen::Matrix<double, 2, 6>>(multipliers.data() + 12 * t));
+  }
+  return field;
+}
+
+}  // namespace limit::programme

@@ -1,0 +1,50 @@
+#include "limit/programme/yield_cones.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace limit::programme {
+
+Overburden::Overburden(const problem::Problem& problem) {
+  top_ = bottom_ = problem.mesh.nodes.front().y();
+  for (const mesh::Point& node : problem.mesh.nodes) {
+    top_ = std::max(top_, node.y());
+    bottom_ = std::min(bottom_, node.y());
+  }
+  for (const problem::Boundary& boundary : problem.boundaries) {
+    load_ = std::max(load_, -boundary.normal_stress);
+  }
+}
+
+double Overburden::at(const problem::Soil& soil, const mesh::Point& place) const {
+  const double depth = top_ - place.y();
+  double stress = load_ + soil.unit_weight * depth;
+  if (soil.live_unit_weight > 0.0) {
+    const double at_failure =
+        4.0 * soil.cohesion * std::tan(std::numbers::pi / 4 + soil.friction_angle / 2);
+    stress += at_failure * depth / (top_ - bottom_);
+  }
+  return stress;
+}
+
+YieldCone yield_cone(const problem::Soil& soil, double overburden, double reserve) {
+  // Twice the share of the cohesion, so that even the apex of the true cone is out of reach.
+  const double strength = soil.cohesion * std::cos(soil.friction_angle) * (1.0 - 2.0 * reserve);
+  const double slope = std::sin(soil.friction_angle) * (1.0 - reserve);
+  // A place without strength must not have a scale of zero.
+  constexpr double least = 1e-6;
+  return {strength, slope, std::max(strength + slope * overburden, least)};
+}
+
+YieldCone contact_cone(double scale, double reserve) {
+  return {-reserve * scale, 1.0, scale};
+}
+
+Eigen::Vector3d inner_point(const YieldCone& cone, double overburden) {
+  const double strength = cone.strength + cone.slope * overburden;
+  const double more = strength > 0.0 ? 0.0 : cone.scale / std::max(cone.slope, 1e-6);
+  return {-overburden - more, 0.0, 0.0};
+}
+
+}  // namespace limit::programme

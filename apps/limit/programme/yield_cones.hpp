@@ -1,0 +1,35 @@
+#pragma once
+
+#include "limit/problem/problem.hpp"
+#include "limit/programme/cone_program.hpp"
+
+namespace limit::programme {
+
+/// A rough guess of the compressive vertical stress, for scales and starts: the weight up to the
+/// highest node, and the largest compressive stress prescribed on the outline. A live weight is
+/// taken to grow until a vertical cut as high as the body would fail, gamma H = 4 c tan(45 +
+/// phi/2).
+class Overburden {
+ public:
+  explicit Overburden(const problem::Problem& problem);
+  [[nodiscard]] double at(const problem::Soil& soil, const mesh::Point& place) const;
+
+ private:
+  double top_ = 0.0, bottom_ = 0.0;
+  double load_ = 0.0;
+};
+
+/// The soil's cone, scaled by its strength under the compressive stress `overburden`; it lies
+/// inside the true one by at least the fraction `reserve` of the local strength, or of the
+/// cohesion's.
+[[nodiscard]] YieldCone yield_cone(const problem::Soil& soil, double overburden, double reserve);
+
+/// The cone whose variable p is a normal stress across a contact that bears no tension, p <= 0 less
+/// the fraction `reserve` of the scale, a stress typical of the place. Nothing else may name its d
+/// and t: what remains of it is one-dimensional.
+[[nodiscard]] YieldCone contact_cone(double scale, double reserve);
+
+/// (p, d, t) of an isotropic stress strictly inside the cone.
+[[nodiscard]] Eigen::Vector3d inner_point(const YieldCone& cone, double overburden);
+
+}  // namespace limit::programme

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <memory>
+#include <vector>
+
+#include "limit/solver/scaled_program.hpp"
+#include "limit/solver/second_order_cone.hpp"
+#include "limit/solver/sparse_cholesky.hpp"
+
+namespace limit::solver {
+
+/// Diagonal of G, where (strength, 0, 0) - G (p, d, t) must lie in the second-order cone.
+[[nodiscard]] inline Eigen::Vector3d slack_form(const programme::YieldCone& cone) {
+  return {cone.slope, 1.0, 1.0};
+}
+
+/// The Newton systems of an interior-point method on a cone program,
+///   H x + A' y = first,  A x = second,
+/// where A are the equations and H, one 3 x 3 block per cone, its curvature (none in free
+/// variables, nor in the mean stress of frictionless soil). H is eliminated, and A H^-1 A', sparse
+/// and positive definite, factorised: a fraction of the size of what Ipopt factorises, without
+/// pivoting. The free variables, and the mean stress of soil of little friction, whose curvature
+/// falls with the friction squared, get a little curvature, which iterative refinement takes out
+/// again. A free variable in very many equations, such as the multiplier of a weight, would fill
+/// that matrix: it stays outside, as a border.
+class ConeSystem {
+ public:
+  explicit ConeSystem(const ScaledProgram& program);
+
+  /// One scaling per cone. False if there are no factors.
+  [[nodiscard]] bool factorise(const std::vector<second_order_cone::Scaling>& scalings);
+
+  struct Solution {
+    Eigen::VectorXd x, y;
+  };
+  [[nodiscard]] Solution solve(const Eigen::VectorXd& first, const Eigen::VectorXd& second);
+
+ private:
+  // The equations of one cone's variables (or of one free variable), dense.
+  struct Block {
+    Eigen::Index first = 0;
+    std::vector<Eigen::Index> rows;
+    Eigen::MatrixXd coefficients;
+    std::vector<std::size_t> entries;  // where their products go, lower triangle row by row
+  };
+
+  void gather_blocks();
+  void set_border_apart();
+  void find_entries();
+  [[nodiscard]] Solution solve_once(const Eigen::VectorXd& first,
+                                    const Eigen::VectorXd& second) const;
+  [[nodiscard]] Eigen::VectorXd curve(const Eigen::VectorXd& x) const;  // H x
+  // (H + little)^-1 x, 0 in the border.
+  [[nodiscard]] Eigen::VectorXd uncurve(const Eigen::VectorXd& x) const;
+
+  const ScaledProgram& program_;
+  std::vector<Block> blocks_;
+  // The border: its variables, their columns D, M^-1 D with the matrix M within, and D' M^-1 D.
+  std::vector<Eigen::Index> border_;
+  Eigen::MatrixXd border_columns_, border_solved_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> border_part_;
+  std::vector<Eigen::Matrix3d> curvature_, inverse_;
+  std::vector<std::size_t> diagonal_;
+  std::vector<double> values_;
+  std::unique_ptr<SparseCholesky> factors_;
+};
+
+}  // namespace limit::solver

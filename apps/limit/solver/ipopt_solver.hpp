@@ -1,0 +1,11 @@
+#pragma once
+
+#include "limit/solver/cone_solver.hpp"
+
+namespace limit::solver {
+
+/// Solves the program with Ipopt (Waechter & Biegler 2006), in any form but `cones`.
+[[nodiscard]] ConeSolution solve_by_ipopt(const programme::ConeProgram& program,
+                                          const SolverOptions& options);
+
+}  // namespace limit::solver

@@ -1,0 +1,125 @@
+#include "model/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/archive/text_iarchive.hpp>
+#include <boost/archive/text_oarchive.hpp>
+#include <boost/serialization/vector.hpp>
+#include <sstream>
+
+#include "constitutive/serialization.hpp"
+#include "files/durable_file.hpp"
+#include "files/file_seal.hpp"
+#include "model/particle_fields.hpp"
+#include "model/state_file.hpp"
+#include "scene/print.hpp"
+#include "scene/reader.hpp"
+
+namespace model {
+
+namespace {
+
+// The load parameter of a state that stands at a new target, computed by a division.
+constexpr double load_round_off = 1e-12;
+
+std::vector<constitutive::MaterialParameters> parameters_of(const scene::Scene& scene) {
+  std::vector<constitutive::MaterialParameters> all;
+  for (const scene::Material& material : scene.material)
+    all.push_back(material_parameters(material));
+  return all;
+}
+
+std::string archived(const std::vector<constitutive::MaterialParameters>& parameters) {
+  std::ostringstream text;
+  boost::archive::text_oarchive archive(text);
+  archive << parameters;
+  return text.str();
+}
+
+std::vector<constitutive::MaterialParameters> restored(const std::filesystem::path& path,
+                                                       const std::string& text) {
+  std::vector<constitutive::MaterialParameters> parameters;
+  try {
+    std::istringstream stream(text);
+    boost::archive::text_iarchive archive(stream);
+    archive >> parameters;
+  } catch (const std::exception& failure) {  // Boost's, or what its containers throw
+    throw files::FileError(path, fmt::format("/meta/materials cannot be read: {}", failure.what()));
+  }
+  return parameters;
+}
+
+}  // namespace
+
+record::CheckpointNotes notes_for(const scene::Scene& scene) {
+  record::CheckpointNotes notes;
+  notes.title = scene.title;
+  notes.scene = scene::effective_toml(scene);
+  notes.materials = archived(parameters_of(scene));
+  notes.dimension = scene.geometry.dimension;
+  return notes;
+}
+
+template <int Dim>
+void write_checkpoint(const std::filesystem::path& path, const Model<Dim>& model, State<Dim>& state,
+                      const record::CheckpointNotes& notes,
+                      std::span<const files::PointField> fields, int deflate,
+                      const files::SystemCalls& system) {
+  const auto fill = [&](const std::filesystem::path& temporary) {
+    const files::Hdf5Layout layout{.deflate = deflate, .user_block = files::seal_size};
+    files::Hdf5File file = files::Hdf5File::create(temporary, layout, system);
+    files::ContentDigest digest;
+    record::write_notes(file, notes, digest);
+    write_state(file, state, digest);
+    files::write_vtkhdf(file, current_points(model, state), fields);
+    record::write_digest(file, digest);
+    file.close();
+    files::write_seal(temporary, record::checkpoint_schema, notes.versions, system);
+    record::CheckpointNotes read_back;
+    (void)record::open_just_sealed(temporary, read_back);
+    if (read_back.digest != digest.value()) {
+      throw files::FileError(temporary, "does not read back as it was written");
+    }
+  };
+  write_durably(path, fill, system);
+}
+
+scene::Scene scene_of(const std::filesystem::path& path, const record::CheckpointNotes& notes) {
+  scene::SceneReading reading = scene::parse_scene(notes.scene, path.string() + ":/meta/scene");
+  if (!reading.scene) {
+    const std::string first = reading.errors.empty() ? "" : reading.errors.front().text();
+    throw files::FileError(path, "/meta/scene is no scene of this program: " + first);
+  }
+  if (restored(path, notes.materials) != parameters_of(*reading.scene)) {
+    throw files::FileError(path, "/meta/materials are not the materials of /meta/scene");
+  }
+  return std::move(*reading.scene);
+}
+
+bool adapt_programme(const scene::Scene& former, const scene::Scene& scene,
+                     ProgrammeState& programme) {
+  if (former.programme != scene.programme) {
+    programme.next_increment = 0.0;  // the nominal one
+    programme.easy_steps = 0;
+  }
+  const bool displaced = scene.drive.kind == scene::DriveKind::displacement;
+  if (!displaced || former.drive.target == scene.drive.target) return true;
+  const double ratio = former.drive.target / scene.drive.target;
+  programme.load *= ratio;
+  programme.next_increment *= ratio;
+  programme.last_increment *= ratio;
+  if (programme.load > 1.0 + load_round_off) return false;
+  if (programme.load > 1.0 - load_round_off) programme.load = 1.0;
+  return true;
+}
+
+template void write_checkpoint<2>(const std::filesystem::path&, const Model<2>&, State<2>&,
+                                  const record::CheckpointNotes&,
+                                  std::span<const files::PointField>, int,
+                                  const files::SystemCalls&);
+template void write_checkpoint<3>(const std::filesystem::path&, const Model<3>&, State<3>&,
+                                  const record::CheckpointNotes&,
+                                  std::span<const files::PointField>, int,
+                                  const files::SystemCalls&);
+
+}  // namespace model

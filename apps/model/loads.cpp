@@ -1,0 +1,163 @@
+#include "model/loads.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "scene/derived.hpp"
+
+namespace model {
+namespace {
+
+template <int Dim>
+struct SidePoints {
+  fpm::PointOperator<Dim> op;
+  fpm::BoundaryPoints<Dim> points;
+};
+
+template <int Dim>
+bool is_plain_vertex_lattice(const scene::Scene& scene) {
+  return scene.geometry.layout == scene::Layout::vertex && scene.geometry.jitter == 0.0;
+}
+
+template <int Dim>
+fpm::LatticeOptions<Dim> vertex_lattice(const scene::Scene& scene, const Model<Dim>& model) {
+  fpm::LatticeOptions<Dim> lattice;
+  lattice.min = model.box_min;
+  lattice.max = model.box_max;
+  lattice.spacing = scene.geometry.spacing;
+  lattice.layout = fpm::LatticeLayout::vertex;
+  return lattice;
+}
+
+// A range along a side (Dim - 1 entries) as a box of Dim entries; empty means the whole side.
+template <int Dim>
+fpm::Vector<Dim> range_corner(const scene::Point& range, scene::Side side, double otherwise) {
+  fpm::Vector<Dim> corner = fpm::Vector<Dim>::Constant(otherwise);
+  std::size_t k = 0;
+  for (int i = 0; i < Dim && !range.empty(); ++i) {
+    if (i != scene::axis_of(side)) corner[i] = range[k++];
+  }
+  return corner;
+}
+
+// A part of a side as points: lumped to the particles of a vertex lattice, which lie on it, or
+// true boundary points that the particles are interpolated to.
+template <int Dim>
+SidePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, scene::Side side,
+                            const scene::Point& range_min, const scene::Point& range_max) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const fpm::Face face{scene::axis_of(side), scene::is_upper(side)};
+  const auto from = range_corner<Dim>(range_min, side, -infinity);
+  const auto to = range_corner<Dim>(range_max, side, infinity);
+  SidePoints<Dim> result;
+  if (is_plain_vertex_lattice<Dim>(scene)) {
+    auto tributary = fpm::tributary_points(vertex_lattice(scene, model), face, from, to);
+    result.op = fpm::PointOperator<Dim>::at_particles(model.particles, model.ghosts,
+                                                      tributary.particle, model.row_options);
+    result.points = std::move(tributary.points);
+    return result;
+  }
+  fpm::BoundaryQuadratureOptions<Dim> options;
+  options.min = model.box_min;
+  options.max = model.box_max;
+  options.spacing = scene.geometry.spacing;
+  options.face = face;
+  options.range_min = from;
+  options.range_max = to;
+  result.points = fpm::boundary_quadrature(options);
+  result.op = fpm::PointOperator<Dim>(model.particles, model.ghosts, result.points.position,
+                                      model.row_options);
+  return result;
+}
+
+bool scales_with(const scene::Scene& scene, scene::LoadKind kind) {
+  const auto& scales = scene.drive.scales;
+  return scene.drive.kind == scene::DriveKind::load &&
+         std::find(scales.begin(), scales.end(), kind) != scales.end();
+}
+
+// Departure: weight is lumped to the particles, not spread by N^T (share/doc/decisions/gravity.md).
+template <int Dim>
+void add_gravity(const scene::Scene& scene, Model<Dim>& model) {
+  if (scene.gravity.acceleration.empty()) return;
+  auto& load =
+      scales_with(scene, scene::LoadKind::gravity) ? model.scaled_load : model.constant_load;
+  const Eigen::Index n = model.size();
+  for (int i = 0; i < Dim; ++i) {
+    load.segment(i * n, n) += model.mass * scene.gravity.acceleration[static_cast<std::size_t>(i)];
+  }
+}
+
+template <int Dim>
+void add_tractions(const scene::Scene& scene, Model<Dim>& model) {
+  const bool scaled = scales_with(scene, scene::LoadKind::traction);
+  Eigen::Map<fpm::Field<Dim>> load((scaled ? model.scaled_load : model.constant_load).data(),
+                                   model.size(), Dim);
+  for (const scene::Traction& traction : scene.traction) {
+    auto side = side_points(scene, model, traction.side, traction.range_min, traction.range_max);
+    const Eigen::Map<const fpm::Vector<Dim>> value(traction.value.data());
+    if (traction.follower) {
+      const double outward = scene::is_upper(traction.side) ? 1.0 : -1.0;
+      model.following_pressures.push_back({std::move(side.op), std::move(side.points),
+                                           -outward * value[scene::axis_of(traction.side)],
+                                           scaled});
+    } else {
+      fpm::add_uniform_traction<Dim>(side.op, side.points, value, load);
+    }
+  }
+}
+
+template <int Dim>
+void add_penalty_supports(const scene::Scene& scene, Model<Dim>& model) {
+  for (const scene::Support& support : scene.support) {
+    if (support.method != scene::SupportMethod::penalty) continue;
+    auto side = side_points(scene, model, *support.side, {}, {});
+    fpm::PenaltyOptions<Dim> options;
+    options.penalty =
+        support.penalty_factor * model.youngs_modulus.front() / scene.geometry.spacing;
+    options.prescribed = fpm::PenaltyOptions<Dim>::filled(false);
+    for (const scene::Axis axis : support.directions) {
+      options.prescribed[static_cast<std::size_t>(axis)] = true;
+    }
+    const fpm::Field<Dim> target = fpm::Field<Dim>::Zero(side.points.size(), Dim);
+    model.penalty_supports.push_back({std::move(side.op), std::move(side.points), options, target});
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void add_loads(const scene::Scene& scene, Model<Dim>& model) {
+  model.constant_load.setZero(model.unknowns());
+  model.scaled_load.setZero(model.unknowns());
+  add_gravity(scene, model);
+  add_tractions(scene, model);
+  add_penalty_supports(scene, model);
+}
+
+template <int Dim>
+fpm::Field<Dim> boundary_area_vectors(const scene::Scene& scene, const Model<Dim>& model) {
+  std::vector<fpm::Face> faces = fpm::all_faces<Dim>();
+  std::erase_if(faces, [&](const fpm::Face& face) {
+    return std::any_of(model.mirror_faces.begin(), model.mirror_faces.end(),
+                       [&](const auto& m) { return m.axis == face.axis && m.upper == face.upper; });
+  });
+  if (is_plain_vertex_lattice<Dim>(scene)) {
+    return fpm::tributary_area_vectors(vertex_lattice(scene, model), faces);
+  }
+  fpm::BoundaryQuadratureOptions<Dim> options;
+  options.min = model.box_min;
+  options.max = model.box_max;
+  options.spacing = scene.geometry.spacing;
+  const auto points = fpm::boundary_quadrature(options, faces);
+  const fpm::PointOperator<Dim> op(model.particles, model.ghosts, points.position,
+                                   model.row_options);
+  return fpm::area_vectors(op, points);
+}
+
+template void add_loads<2>(const scene::Scene&, Model<2>&);
+template void add_loads<3>(const scene::Scene&, Model<3>&);
+template fpm::Field<2> boundary_area_vectors<2>(const scene::Scene&, const Model<2>&);
+template fpm::Field<3> boundary_area_vectors<3>(const scene::Scene&, const Model<3>&);
+
+}  // namespace model

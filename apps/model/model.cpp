@@ -1,0 +1,288 @@
+#include "model/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/loads.hpp"
+#include "scene/derived.hpp"
+
+namespace model {
+namespace {
+
+template <int Dim>
+fpm::Vector<Dim> to_vector(const scene::Point& p) {
+  return Eigen::Map<const fpm::Vector<Dim>>(p.data());
+}
+
+fpm::Kernel to_kernel(scene::KernelKind kind) {
+  switch (kind) {
+    case scene::KernelKind::quintic_spline:
+      return fpm::Kernel::quintic_spline;
+    case scene::KernelKind::wendland_c2:
+      return fpm::Kernel::wendland_c2;
+    case scene::KernelKind::cubic_spline:
+      break;
+  }
+  return fpm::Kernel::cubic_spline;
+}
+
+std::string model_name(const scene::Material& material) {
+  switch (material.model) {
+    case scene::MaterialModel::von_mises:
+      return "von_mises";
+    case scene::MaterialModel::drucker_prager:
+      return material.match == scene::ConeMatch::compression_cone ? "drucker_prager_compression"
+                                                                  : "drucker_prager";
+    case scene::MaterialModel::mohr_coulomb:
+      return "mohr_coulomb";
+    case scene::MaterialModel::elastic:
+      break;
+  }
+  return "elastic";
+}
+
+template <int Dim>
+bool inside(const Eigen::Matrix<double, 1, Dim>& x, const scene::Point& min,
+            const scene::Point& max) {
+  for (int i = 0; i < Dim; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (x[i] < min[k] || x[i] > max[k]) return false;
+  }
+  return true;
+}
+
+template <int Dim>
+void place_particles(const scene::Scene& scene, Model<Dim>& model) {
+  const scene::Geometry& geometry = scene.geometry;
+  fpm::LatticeOptions<Dim> lattice;
+  lattice.min = model.box_min = to_vector<Dim>(geometry.min);
+  lattice.max = model.box_max = to_vector<Dim>(geometry.max);
+  lattice.spacing = model.spacing = geometry.spacing;
+  lattice.layout = geometry.layout == scene::Layout::cell ? fpm::LatticeLayout::cell
+                                                          : fpm::LatticeLayout::vertex;
+  lattice.jitter = geometry.jitter;
+  lattice.seed = static_cast<std::uint64_t>(geometry.seed);
+  model.particles = fpm::make_lattice(lattice);
+
+  const double radius = scene.approximation.support_over_spacing * geometry.spacing;
+  model.row_options.kernel = to_kernel(scene.approximation.kernel);
+  model.row_options.support_radius = radius;
+  model.row_options.spacing = geometry.spacing;
+  std::vector<fpm::SymmetryPlane> planes;
+  for (const scene::Symmetry& symmetry : scene.symmetry) {
+    const int axis = static_cast<int>(symmetry.axis);
+    planes.push_back({axis, symmetry.position});
+    model.mirror_faces.push_back(
+        {axis, symmetry.position > 0.5 * (lattice.min[axis] + lattice.max[axis])});
+  }
+  // Rows may widen their support, and re-searched rows reach for particles that have moved.
+  const double reach = model.row_options.max_enlargement * radius;
+  model.ghosts = fpm::MirrorGhosts<Dim>(model.particles.position, planes, reach);
+}
+
+// The last material whose region holds the point; the first has no region.
+template <int Dim>
+std::uint8_t material_at(const scene::Scene& scene, const Eigen::Matrix<double, 1, Dim>& x) {
+  std::size_t m = scene.material.size() - 1;
+  while (m > 0 && !inside<Dim>(x, scene.material[m].region_min, scene.material[m].region_max)) --m;
+  return static_cast<std::uint8_t>(m);
+}
+
+template <int Dim>
+void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
+  const Eigen::Index n = model.size();
+  model.material.assign(static_cast<std::size_t>(n), 0);
+  model.mass.resize(n);
+  for (const scene::Material& material : scene.material) {
+    model.materials.push_back(constitutive::make_material(material_parameters(material)));
+    model.youngs_modulus.push_back(material.youngs_modulus);
+  }
+  for (Eigen::Index a = 0; a < n; ++a) {
+    model.material[static_cast<std::size_t>(a)] =
+        material_at<Dim>(scene, model.particles.position.row(a));
+    model.mass[a] = scene.material[model.material[static_cast<std::size_t>(a)]].density *
+                    model.particles.volume[a];
+  }
+}
+
+template <int Dim>
+void choose_integration(const scene::Scene& scene, Model<Dim>& model) {
+  model.control = scene::resolve_control(scene);
+  model.pair_control.stiffness_ratio = scene::resolve_stiffness_ratio(scene);
+  model.pair_control.modulus_factor = scene.hourglass.modulus_factor;
+  model.viscosity = scene.hourglass.viscosity;
+  model.layout.finite = scene.approximation.kinematics == scene::KinematicsKind::finite_strain;
+  model.layout.plastic = std::any_of(
+      scene.material.begin(), scene.material.end(),
+      [](const scene::Material& m) { return m.model != scene::MaterialModel::elastic; });
+  model.layout.subpoints = model.control == scene::HourglassControl::mixed;
+  model.layout.incremental = model.control == scene::HourglassControl::incremental ||
+                             model.control == scene::HourglassControl::mixed;
+  model.channels.second = model.layout.subpoints;
+  model.channels.pair =
+      model.pair_control.stiffness_ratio > 0.0 &&
+      (model.layout.incremental || model.control == scene::HourglassControl::stiffness);
+  model.row_options.second = model.channels.second;
+}
+
+// Whether a particle belongs to the layer next to a side of the box.
+template <int Dim>
+bool on_side(const scene::Scene& scene, const Model<Dim>& model, scene::Side side, Eigen::Index a) {
+  const double reach = scene.geometry.layout == scene::Layout::cell ? 1.0 : 0.25;
+  const int axis = scene::axis_of(side);
+  return std::abs(model.particles.position(a, axis) - scene::side_position(scene.geometry, side)) <
+         reach * model.spacing;
+}
+
+template <int Dim>
+bool in_side_range(const Model<Dim>& model, scene::Side side, const scene::Point& min,
+                   const scene::Point& max, Eigen::Index a) {
+  if (min.empty()) return true;
+  const double slack = 1e-9 * model.spacing;
+  std::size_t k = 0;
+  for (int i = 0; i < Dim; ++i) {
+    if (i == scene::axis_of(side)) continue;
+    const double x = model.particles.position(a, i);
+    if (x < min[k] - slack || x > max[k] + slack) return false;
+    ++k;
+  }
+  return true;
+}
+
+template <int Dim>
+std::vector<Eigen::Index> supported_particles(const scene::Scene& scene,
+                                              const scene::Support& support,
+                                              const Model<Dim>& model) {
+  std::vector<Eigen::Index> chosen;
+  if (!support.at.empty()) {
+    Eigen::Index nearest = 0;
+    (model.particles.position.rowwise() - to_vector<Dim>(support.at).transpose())
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&nearest);
+    return {nearest};
+  }
+  for (Eigen::Index a = 0; a < model.size(); ++a) {
+    const bool hit = support.side ? on_side(scene, model, *support.side, a)
+                                  : inside<Dim>(model.particles.position.row(a), support.region_min,
+                                                support.region_max);
+    if (hit) chosen.push_back(a);
+  }
+  return chosen;
+}
+
+// Departure: rows are prescribed directly unless a penalty is asked for
+// (share/doc/decisions/prescribed-rows.md).
+template <int Dim>
+void constrain(const scene::Scene& scene, Model<Dim>& model) {
+  const Eigen::Index n = model.size();
+  model.prescribed.assign(static_cast<std::size_t>(model.unknowns()), 0);
+  model.drive.setZero(model.unknowns());
+  model.measure.setZero(model.unknowns());
+  model.driven_particle.assign(static_cast<std::size_t>(n), 0);
+  const auto prescribe = [&](Eigen::Index a, int i) {
+    model.prescribed[static_cast<std::size_t>(i * n + a)] = 1;
+  };
+  for (const scene::Support& support : scene.support) {
+    if (support.method == scene::SupportMethod::penalty) continue;  // model_loads.cpp
+    for (const Eigen::Index a : supported_particles(scene, support, model)) {
+      for (const scene::Axis axis : support.directions) prescribe(a, static_cast<int>(axis));
+    }
+  }
+  if (scene.drive.kind != scene::DriveKind::displacement) return;
+  const fpm::Vector<Dim> direction = to_vector<Dim>(scene.drive.direction).normalized();
+  for (Eigen::Index a = 0; a < n; ++a) {
+    if (!on_side(scene, model, scene.drive.side, a) ||
+        !in_side_range(model, scene.drive.side, scene.drive.range_min, scene.drive.range_max, a)) {
+      continue;
+    }
+    model.driven_particle[static_cast<std::size_t>(a)] = 1;
+    for (int i = 0; i < Dim; ++i) {
+      if (scene.drive.lateral == scene::Lateral::free && direction[i] == 0.0) continue;
+      prescribe(a, i);
+      model.drive[i * n + a] = direction[i] * scene.drive.target;
+      model.measure[i * n + a] = direction[i];
+    }
+  }
+}
+
+template <int Dim>
+void set_geostatic_stress(const scene::Scene& scene, const Model<Dim>& model, State<Dim>& state) {
+  constexpr int up = 1;
+  const double gravity = -scene.gravity.acceleration[static_cast<std::size_t>(up)];
+  const double surface = scene.initial_stress.surface.value_or(model.box_max[up]);
+  // Weight of the column above, in slices of at most a spacing, each of the material at its middle.
+  for (Eigen::Index a = 0; a < model.size(); ++a) {
+    const scene::Material& material = scene.material[model.material[static_cast<std::size_t>(a)]];
+    Eigen::Matrix<double, 1, Dim> x = model.particles.position.row(a);
+    const double depth = surface - x[up];
+    const double slices = std::max(1.0, std::ceil(std::abs(depth) / model.spacing));
+    double vertical = -scene.initial_stress.surcharge;
+    for (double k = 0.5; k < slices; k += 1.0) {
+      x[up] = surface - depth * (k / slices);
+      vertical -= scene.material[material_at<Dim>(scene, x)].density * gravity * (depth / slices);
+    }
+    const double k0 =
+        scene.initial_stress.K0.value_or(material.poissons_ratio / (1.0 - material.poissons_ratio));
+    state.stress.col(a).setZero();
+    state.stress.col(a).template head<3>().setConstant(k0 * vertical);
+    state.stress(up, a) = vertical;
+  }
+}
+
+}  // namespace
+
+constitutive::MaterialParameters material_parameters(const scene::Material& material) {
+  constitutive::MaterialParameters p;
+  p.model = model_name(material);
+  p.youngs_modulus = material.youngs_modulus;
+  p.poissons_ratio = material.poissons_ratio;
+  p.cohesion = material.cohesion.value_or(0.0);
+  p.friction_angle = material.friction_angle.value_or(0.0);
+  p.dilation_angle = material.dilation_angle.value_or(0.0);
+  p.density = material.density;
+  if (material.dilation_cutoff) p.dilation_cutoff = *material.dilation_cutoff;
+  return p;
+}
+
+template <int Dim>
+Model<Dim> build_model(const scene::Scene& scene) {
+  Model<Dim> model;
+  place_particles(scene, model);
+  assign_materials(scene, model);
+  choose_integration(scene, model);
+  constrain(scene, model);
+  add_loads(scene, model);
+  model.consistency = scene::resolve_consistency(scene);
+  if (model.consistency) model.area_vector = boundary_area_vectors(scene, model);
+  return model;
+}
+
+template <int Dim>
+State<Dim> initial_state(const Model<Dim>& model, const scene::Scene& scene) {
+  State<Dim> state;
+  state.layout = model.layout;
+  state.resize(model.size());
+  state.rows = fpm::Rows<Dim>(model.particles, model.ghosts, model.row_options);
+  if (scene.initial_stress.kind == scene::InitialStressKind::geostatic) {
+    set_geostatic_stress(scene, model, state);
+  }
+  if (model.layout.subpoints) {
+    for (Eigen::Index a = 0; a < model.size(); ++a) {
+      const constitutive::StressVector<Dim> s =
+          constitutive::deviator(constitutive::StressVector<Dim>(state.stress.col(a)));
+      for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(fpm::subpoint_count); ++k) {
+        state.subpoint_deviator.template block<4, 1>(4 * k, a) = s.template head<4>();
+      }
+    }
+  }
+  return state;
+}
+
+template Model<2> build_model<2>(const scene::Scene&);
+template Model<3> build_model<3>(const scene::Scene&);
+template State<2> initial_state<2>(const Model<2>&, const scene::Scene&);
+template State<3> initial_state<3>(const Model<3>&, const scene::Scene&);
+
+}  // namespace model

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "constitutive/material.hpp"
+#include "fpm/boundary_loads.hpp"
+#include "fpm/hourglass.hpp"
+#include "fpm/mirror.hpp"
+#include "fpm/particles.hpp"
+#include "fpm/rows.hpp"
+#include "model/state.hpp"
+#include "scene/scene.hpp"
+
+namespace model {
+
+/// A pressure that follows the boundary.
+template <int Dim>
+struct FollowingPressure {
+  fpm::PointOperator<Dim> op;
+  fpm::BoundaryPoints<Dim> points;
+  double pressure = 0.0;  // [Pa] positive pushes
+  bool scaled = false;    // grows with the load parameter
+};
+
+/// A support by penalty on the true face of the body.
+template <int Dim>
+struct PenaltySupport {
+  fpm::PointOperator<Dim> op;
+  fpm::BoundaryPoints<Dim> points;
+  fpm::PenaltyOptions<Dim> options;
+  fpm::Field<Dim> target;  // [m] prescribed displacement of the points
+};
+
+/// A scene turned into particles, materials, constraints and loads: everything that stays the same
+/// during a run. Vectors over unknowns are component-major (all x, then all y, ...), length n Dim.
+template <int Dim>
+struct Model {
+  fpm::ParticleSet<Dim> particles;
+  fpm::MirrorGhosts<Dim> ghosts;
+  fpm::RowOptions row_options;
+  fpm::Channels channels;
+  StateLayout layout;
+  bool consistency = false;
+  fpm::Field<Dim> area_vector;  // boundary area of each particle, with the correction only
+
+  std::vector<constitutive::Material> materials;
+  std::vector<double> youngs_modulus;  // of each material [Pa]
+  std::vector<std::uint8_t> material;  // of each particle
+  Eigen::VectorXd mass;                // [kg] of each particle
+
+  scene::HourglassControl control = scene::HourglassControl::none;
+  fpm::PairControlOptions pair_control;
+  double viscosity = 0.0;  // theta per step, of the paper's viscosity
+
+  std::vector<char> prescribed;       // per unknown: displacement is given
+  Eigen::VectorXd drive;              // [m] prescribed displacement at load parameter 1
+  std::vector<char> driven_particle;  // moved by the drive: the rigid plate
+  Eigen::VectorXd measure;            // per unknown: weight of its reaction in the reported load
+  Eigen::VectorXd constant_load;      // [N/m or N] dead loads that act from the start
+  Eigen::VectorXd scaled_load;        // [N/m or N] dead loads at load parameter 1
+  fpm::Vector<Dim> box_min;           // [m]
+  fpm::Vector<Dim> box_max;           // [m]
+  double spacing = 0.0;               // [m]
+  struct MirrorFace {
+    int axis;
+    bool upper;
+  };
+  std::vector<MirrorFace> mirror_faces;  // faces of the box that are planes of symmetry
+  std::vector<FollowingPressure<Dim>> following_pressures;
+  std::vector<PenaltySupport<Dim>> penalty_supports;
+
+  Eigen::Index size() const { return particles.position.rows(); }
+  Eigen::Index unknowns() const { return size() * Dim; }
+};
+
+/// A material of a scene as libconstitutive takes it.
+constitutive::MaterialParameters material_parameters(const scene::Material& material);
+
+/// Builds the model of a checked scene.
+/// @throws std::runtime_error if the particle set admits no valid neighbourhoods.
+template <int Dim>
+Model<Dim> build_model(const scene::Scene& scene);
+
+/// The state before the first step: initial search, initial stress.
+template <int Dim>
+State<Dim> initial_state(const Model<Dim>& model, const scene::Scene& scene);
+
+}  // namespace model

@@ -1,0 +1,122 @@
+#include "model/particle_fields.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "constitutive/tensor.hpp"
+
+namespace model {
+
+namespace {
+
+/// Collects the fields that were asked for, so that the others cost nothing.
+template <int Dim>
+class Collector {
+ public:
+  Collector(std::size_t particles, std::span<const std::string> names)
+      : particles_(particles), names_(names) {}
+
+  template <class At>
+  void scalar(const std::string& name, const std::string& unit, At&& at) {
+    if (wanted(name)) fields_.push_back(files::scalar_field(name, unit, particles_, at));
+  }
+  template <class At>
+  void vector(const std::string& name, const std::string& unit, At&& at) {
+    if (wanted(name)) fields_.push_back(files::vector_field(name, unit, particles_, Dim, at));
+  }
+  template <class At>
+  void tensor(const std::string& name, const std::string& unit, At&& at) {
+    constexpr int rows = constitutive::stress_size<Dim>;
+    if (wanted(name)) fields_.push_back(files::tensor_field(name, unit, particles_, rows, at));
+  }
+  std::vector<files::PointField> take() { return std::move(fields_); }
+
+ private:
+  bool wanted(const std::string& name) const {
+    return names_.empty() || std::ranges::find(names_, name) != names_.end();
+  }
+
+  std::size_t particles_;
+  std::span<const std::string> names_;
+  std::vector<files::PointField> fields_;
+};
+
+Eigen::Index at(std::size_t particle) {
+  return static_cast<Eigen::Index>(particle);
+}
+
+template <int Dim>
+void add_stress_fields(const State<Dim>& state, Collector<Dim>& fields) {
+  using Stress = constitutive::StressVector<Dim>;
+  fields.tensor("stress", "Pa", [&](std::size_t a, int r) { return state.stress(r, at(a)); });
+  fields.scalar("mean_stress", "Pa",
+                [&](std::size_t a) { return state.stress.col(at(a)).template head<3>().mean(); });
+  fields.scalar("deviatoric_stress", "Pa", [&](std::size_t a) {
+    return std::sqrt(3.0 * constitutive::j2(Stress(state.stress.col(at(a)))));  // von Mises
+  });
+}
+
+template <int Dim>
+void add_strain_fields(const State<Dim>& state, Collector<Dim>& fields) {
+  if (state.layout.plastic) {
+    fields.scalar("plastic_strain", "-",
+                  [&](std::size_t a) { return state.plastic_strain[at(a)]; });
+    fields.scalar("plastic_volume_strain", "-",
+                  [&](std::size_t a) { return state.plastic_volume_strain[at(a)]; });
+    fields.scalar("yielding", "-",
+                  [&](std::size_t a) { return state.plastic_increment[at(a)] > 0.0 ? 1.0 : 0.0; });
+  }
+  if (state.layout.finite) {
+    fields.scalar("volume_ratio", "-", [&](std::size_t a) {
+      const Eigen::Map<const fpm::Tensor<Dim>> f(state.deformation_gradient.col(at(a)).data());
+      return state.searched_volume_ratio[at(a)] * f.determinant();
+    });
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<double> current_points(const Model<Dim>& model, const State<Dim>& state) {
+  std::vector<double> points(3 * static_cast<std::size_t>(model.size()), 0.0);
+  for (Eigen::Index a = 0; a < model.size(); ++a) {
+    for (int i = 0; i < Dim; ++i) {
+      points[static_cast<std::size_t>(3 * a + i)] =
+          model.particles.position(a, i) + state.displacement(a, i);
+    }
+  }
+  return points;
+}
+
+template <int Dim>
+std::vector<files::PointField> particle_fields(const Model<Dim>& model, const State<Dim>& state,
+                                               const Eigen::VectorXd& reaction,
+                                               std::span<const std::string> names) {
+  const Eigen::Index n = model.size();
+  Collector<Dim> fields(static_cast<std::size_t>(n), names);
+  fields.vector("displacement", "m",
+                [&](std::size_t a, int i) { return state.displacement(at(a), i); });
+  add_stress_fields(state, fields);
+  add_strain_fields(state, fields);
+  fields.scalar("material", "-", [&](std::size_t a) { return model.material[a]; });
+  fields.vector("reaction", Dim == 2 ? "N/m" : "N", [&](std::size_t a, int i) {
+    const Eigen::Index k = i * n + at(a);
+    return model.prescribed[static_cast<std::size_t>(k)] != 0 ? reaction[k] : 0.0;
+  });
+  fields.scalar("searched", "-", [&](std::size_t a) {
+    return state.rows.searched(static_cast<fpm::Index>(a)) ? 1.0 : 0.0;
+  });
+  return fields.take();
+}
+
+template std::vector<double> current_points<2>(const Model<2>&, const State<2>&);
+template std::vector<double> current_points<3>(const Model<3>&, const State<3>&);
+template std::vector<files::PointField> particle_fields<2>(const Model<2>&, const State<2>&,
+                                                           const Eigen::VectorXd&,
+                                                           std::span<const std::string>);
+template std::vector<files::PointField> particle_fields<3>(const Model<3>&, const State<3>&,
+                                                           const Eigen::VectorXd&,
+                                                           std::span<const std::string>);
+
+}  // namespace model

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "constitutive/tensor.hpp"
+#include "fpm/rows.hpp"
+#include "fpm/subpoints.hpp"
+#include "fpm/types.hpp"
+
+namespace model {
+
+/// Which primary fields a scene needs; what it does not need has no columns.
+struct StateLayout {
+  bool finite = true;        // deformation gradient, volume ratio
+  bool plastic = false;      // plastic strains
+  bool subpoints = false;    // deviators of the sub-points
+  bool incremental = false;  // memory of the incremental hourglass control
+};
+
+/// Where the load programme stands.
+struct ProgrammeState {
+  std::int64_t step = 0;        // converged steps so far
+  double load = 0.0;            // load parameter in [0, 1]
+  double next_increment = 0.0;  // of the load parameter
+  double last_increment = 0.0;  // of the load parameter, of the last converged step
+  std::int64_t easy_steps = 0;  // consecutive steps below the easy number of evaluations
+  std::int64_t research_events = 0;
+  double hourglass_work = 0.0;  // [J/m or J] accumulated
+  double external_work = 0.0;   // [J/m or J] accumulated work of the reactions and loads
+
+  template <class Visitor>
+  void for_each_field(Visitor&& visit) {
+    visit("step", "-", step);
+    visit("load", "-", load);
+    visit("next_increment", "-", next_increment);
+    visit("last_increment", "-", last_increment);
+    visit("easy_steps", "-", easy_steps);
+    visit("research_events", "-", research_events);
+    visit("hourglass_work", "J", hourglass_work);
+    visit("external_work", "J", external_work);
+  }
+};
+
+/// The primary state of a run at a converged step; all else is rebuilt from it and the scene.
+/// One column per particle, so that local work on a particle touches few cache lines.
+template <int Dim>
+struct State {
+  static constexpr int stress_rows = constitutive::stress_size<Dim>;
+  static constexpr int subpoint_rows =
+      static_cast<int>(fpm::subpoint_count) * constitutive::stress_size<2>;
+  template <int Rows>
+  using Columns = Eigen::Matrix<double, Rows, Eigen::Dynamic>;
+
+  StateLayout layout;
+  fpm::Field<Dim> displacement;              // n x Dim, component-major
+  fpm::Field<Dim> increment;                 // of the last converged step
+  Columns<Dim * Dim> deformation_gradient;   // F_a(n), column-major, since the row's reference
+  Eigen::VectorXd searched_volume_ratio;     // volume at the last search over initial volume
+  Columns<stress_rows> stress;               // Cauchy, tension positive; of the particle
+  Columns<subpoint_rows> subpoint_deviator;  // xx yy zz xy of each of the four sub-points
+  Eigen::VectorXd plastic_strain;            // accumulated equivalent
+  Eigen::VectorXd plastic_volume_strain;     // accumulated
+  Eigen::VectorXd plastic_strain_at_search;  // at the row's last search
+  Eigen::VectorXd plastic_increment;         // of the last converged step
+  Eigen::VectorXd released;                  // omega: 1 once the row has yielded, else 0
+  fpm::Rows<Dim> rows;
+  ProgrammeState programme;
+
+  void resize(Eigen::Index n) {
+    const auto count = [n](bool needed) { return needed ? n : 0; };
+    displacement.setZero(n, Dim);
+    increment.setZero(n, Dim);
+    deformation_gradient.setZero(Dim * Dim, count(layout.finite));
+    for (int i = 0; i < Dim; ++i) deformation_gradient.row(i * Dim + i).setOnes();
+    searched_volume_ratio.setOnes(count(layout.finite));
+    stress.setZero(stress_rows, n);
+    subpoint_deviator.setZero(subpoint_rows, count(layout.subpoints));
+    plastic_strain.setZero(count(layout.plastic));
+    plastic_volume_strain.setZero(count(layout.plastic));
+    plastic_strain_at_search.setZero(count(layout.plastic && layout.finite));
+    plastic_increment.setZero(count(layout.plastic));
+    released.setZero(count(layout.incremental));
+  }
+
+  /// Visits every particle field, visit(name, unit, matrix); fields a scene does not need are
+  /// empty.
+  template <class Visitor>
+  void for_each_particle_field(Visitor&& visit) {
+    visit("displacement", "m", displacement);
+    visit("increment", "m", increment);
+    visit("deformation_gradient", "-", deformation_gradient);
+    visit("searched_volume_ratio", "-", searched_volume_ratio);
+    visit("stress", "Pa", stress);
+    visit("subpoint_deviator", "Pa", subpoint_deviator);
+    visit("plastic_strain", "-", plastic_strain);
+    visit("plastic_volume_strain", "-", plastic_volume_strain);
+    visit("plastic_strain_at_search", "-", plastic_strain_at_search);
+    visit("plastic_increment", "-", plastic_increment);
+    visit("released", "-", released);
+  }
+};
+
+}  // namespace model

@@ -1,0 +1,197 @@
+#include "model/state_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <type_traits>
+
+namespace model {
+
+namespace {
+
+const std::string particle_group = "/state/particles/";
+const std::string row_group = "/state/rows/";
+const std::string programme_group = "/state/programme/";
+
+template <class Values>
+std::span<const typename Values::value_type> span_of(const Values& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
+bool all_finite(std::span<const double> values) {
+  return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
+}
+
+/// Whether a particle field is component-major (one column per component), as fpm::Field is; the
+/// other ones have a column per particle.
+template <class Matrix>
+constexpr bool component_major =
+    Matrix::RowsAtCompileTime == Eigen::Dynamic&& Matrix::ColsAtCompileTime > 1;
+
+/// Shape of a particle field in the file: one row per particle.
+template <class Matrix>
+files::Shape file_shape(const Matrix& field) {
+  const auto rows = static_cast<std::size_t>(field.rows());
+  const auto columns = static_cast<std::size_t>(field.cols());
+  if constexpr (Matrix::ColsAtCompileTime == 1) {
+    return {rows};
+  } else if constexpr (component_major<Matrix>) {
+    return {rows, columns};
+  } else {
+    return {columns, rows};
+  }
+}
+
+class FieldWriter {
+ public:
+  FieldWriter(files::Hdf5File& file, files::ContentDigest& digest) : file_(file), digest_(digest) {}
+
+  template <class T>
+  void write(const std::string& path, std::span<const T> values, const files::Shape& shape,
+             std::string_view unit) {
+    if constexpr (std::is_same_v<T, double>) {
+      if (!all_finite(values)) {
+        throw std::logic_error(path + " is not finite: no checkpoint is written");
+      }
+    }
+    file_.write<T>(path, values, shape, unit);
+    digest_.add(path, std::as_bytes(values));
+  }
+
+  template <class Matrix>
+  void write_particles(const std::string& name, std::string_view unit, const Matrix& field) {
+    const std::string path = particle_group + name;
+    if constexpr (component_major<Matrix>) {
+      const Eigen::Matrix<double, Matrix::ColsAtCompileTime, Eigen::Dynamic> by_particle =
+          field.transpose();
+      write<double>(path, span_of(by_particle), file_shape(field), unit);
+    } else {
+      write<double>(path, span_of(field), file_shape(field), unit);
+    }
+  }
+
+ private:
+  files::Hdf5File& file_;
+  files::ContentDigest& digest_;
+};
+
+class FieldReader {
+ public:
+  explicit FieldReader(const files::Hdf5File& file) : file_(file) {}
+
+  /// Into a field that already has its size.
+  template <class Matrix>
+  void read_particles(const std::string& name, Matrix& field) const {
+    const std::string path = particle_group + name;
+    std::vector<double> values(static_cast<std::size_t>(field.size()));
+    file_.read<double>(path, values, file_shape(field));
+    require_finite(path, values);
+    if constexpr (component_major<Matrix>) {
+      field = Eigen::Map<const Eigen::Matrix<double, Matrix::ColsAtCompileTime, Eigen::Dynamic>>(
+                  values.data(), field.cols(), field.rows())
+                  .transpose();
+    } else {
+      std::ranges::copy(values, field.data());
+    }
+  }
+
+  template <class T>
+  void read_list(const std::string& name, std::vector<T>& list) const {
+    const std::string path = row_group + name;
+    list = file_.read_all<T>(path);
+    if constexpr (std::is_same_v<T, double>) require_finite(path, list);
+  }
+
+  void read_list(const std::string& name, Eigen::VectorXd& list) const {
+    std::vector<double> values;
+    read_list(name, values);
+    list =
+        Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  }
+
+  template <class T>
+  void read_number(const std::string& name, T& number) const {
+    const std::string path = programme_group + name;
+    file_.read<T>(path, std::span(&number, 1), {1});
+    if constexpr (std::is_same_v<T, double>) require_finite(path, std::span(&number, 1));
+  }
+
+ private:
+  void require_finite(const std::string& path, std::span<const double> values) const {
+    if (!all_finite(values)) throw files::FileError(file_.file(), path + " is not finite");
+  }
+
+  const files::Hdf5File& file_;
+};
+
+void require_sane(const files::Hdf5File& file, const ProgrammeState& programme) {
+  const bool sane = programme.step >= 0 && programme.load >= 0.0 &&
+                    programme.next_increment >= 0.0 && programme.last_increment >= 0.0 &&
+                    programme.easy_steps >= 0;
+  if (!sane) throw files::FileError(file.file(), programme_group + " holds a negative number");
+}
+
+}  // namespace
+
+template <int Dim>
+void write_state(files::Hdf5File& file, State<Dim>& state, files::ContentDigest& digest) {
+  FieldWriter writer(file, digest);
+  state.for_each_particle_field([&](const char* name, const char* unit, const auto& field) {
+    writer.write_particles(name, unit, field);
+  });
+  state.rows.for_each_field([&](const char* name, const char* unit, const auto& list) {
+    using T = typename std::remove_cvref_t<decltype(list)>::value_type;
+    writer.template write<T>(row_group + name, span_of(list),
+                             {static_cast<std::size_t>(list.size())}, unit);
+  });
+  state.programme.for_each_field([&](const char* name, const char* unit, const auto& number) {
+    using T = std::remove_cvref_t<decltype(number)>;
+    writer.template write<T>(programme_group + name, std::span(&number, 1), {1}, unit);
+  });
+}
+
+template <int Dim>
+State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model) {
+  State<Dim> state;
+  state.layout = model.layout;
+  state.resize(model.size());
+  const FieldReader reader(file);
+  state.for_each_particle_field([&](const char* name, const char* /*unit*/, auto& field) {
+    reader.read_particles(name, field);
+  });
+  state.rows.for_each_field(
+      [&](const char* name, const char* /*unit*/, auto& list) { reader.read_list(name, list); });
+  state.programme.for_each_field([&](const char* name, const char* /*unit*/, auto& number) {
+    reader.read_number(name, number);
+  });
+  require_sane(file, state.programme);
+  try {
+    state.rows.restore(model.particles, model.ghosts, model.row_options);
+  } catch (const fpm::ShapeError& failure) {
+    throw files::FileError(file.file(), row_group + ": " + failure.what());
+  }
+  return state;
+}
+
+template <int Dim>
+std::size_t bytes_of(State<Dim>& state) {
+  std::size_t bytes = sizeof(ProgrammeState);
+  const auto add = [&](const char*, const char*, const auto& field) {
+    using T = typename std::remove_cvref_t<decltype(field)>::value_type;
+    bytes += static_cast<std::size_t>(field.size()) * sizeof(T);
+  };
+  state.for_each_particle_field(add);
+  state.rows.for_each_field(add);
+  return bytes;
+}
+
+template void write_state<2>(files::Hdf5File&, State<2>&, files::ContentDigest&);
+template void write_state<3>(files::Hdf5File&, State<3>&, files::ContentDigest&);
+template State<2> read_state<2>(const files::Hdf5File&, const Model<2>&);
+template State<3> read_state<3>(const files::Hdf5File&, const Model<3>&);
+template std::size_t bytes_of<2>(State<2>&);
+template std::size_t bytes_of<3>(State<3>&);
+
+}  // namespace model

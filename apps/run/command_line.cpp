@@ -1,0 +1,267 @@
+#include "run/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/program_options.hpp>
+#include <charconv>
+#include <exception>
+#include <iterator>
+#include <new>
+
+#include "files/file_error.hpp"
+#include "program/version.hpp"
+#include "scene/derived.hpp"
+#include "scene/names.hpp"
+#include "scene/print.hpp"
+#include "scene/reader.hpp"
+#include "tables/nearest_name.hpp"
+
+namespace run {
+
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr std::string_view usage =
+    "Usage: fpm-run SCENE [options]\n"
+    "\n"
+    "Runs a scene of the Finite Particle Method and writes curve.csv, frames for ParaView,\n"
+    "checkpoints and a log to its output folder.\n";
+
+constexpr std::string_view examples =
+    "Examples:\n"
+    "  fpm-run share/scenes/footing.toml\n"
+    "  fpm-run share/scenes/footing.toml --check\n"
+    "  fpm-run share/scenes/footing.toml --set geometry.spacing=0.005 --out out/fine\n"
+    "  fpm-run share/scenes/footing.toml --resume --set research.enabled=true\n"
+    "  fpm-run share/scenes/footing.toml --resume out/footing/checkpoints/step-000120.hdf \\\n"
+    "    --out out/branch --set solver.tolerance=3e-4\n"
+    "\n"
+    "Exit codes: 0 done, 1 internal error, 2 input refused, 3 not converged,\n"
+    "4 file or checkpoint unusable, 75 interrupted and resumable.\n";
+
+po::options_description options() {
+  po::options_description all("Options");
+  all.add_options()  //
+      ("set", po::value<std::vector<std::string>>()->value_name("KEY=VALUE")->composing(),
+       "override a key of the scene, as geometry.spacing=0.02, material.0.cohesion=3e3 or "
+       "material.soil.cohesion=3e3; may be repeated")  //
+      ("out", po::value<std::string>()->value_name("DIR"),
+       "output folder; default: output.directory of the scene, else out/ and the scene's name")  //
+      ("check", po::bool_switch(), "validate all, say particles and memory, do not run")         //
+      ("print-effective", po::bool_switch(),
+       "print the scene with every key and the settings applied, do not run")  //
+      ("resume", po::value<std::string>()->value_name("[CKPT]")->implicit_value(""),
+       "go on from a checkpoint file, or from the newest one in the output folder")  //
+      ("threads", po::value<int>()->value_name("N"),
+       "threads, at least 1; results do not depend on it; default: OpenMP's choice")  //
+      ("max-wall", po::value<std::string>()->value_name("TIME"),
+       "stop resumably after this time: 5h, 30m, 90s, 1h30m")                    //
+      ("quiet", po::bool_switch(), "no progress; warnings and errors only")      //
+      ("scene-reference", po::bool_switch(), "print the reference of all keys")  //
+      ("version", po::bool_switch(), "print the version")                        //
+      ("help", po::bool_switch(), "print this help");
+  return all;
+}
+
+/// The command line cannot be understood.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Makes clear to Boost what --resume, whose value is optional, has for a value: the next word is
+/// it unless it is another option or the scene, which Boost would take as well.
+std::vector<std::string> with_clear_resume(std::span<const std::string> arguments) {
+  std::vector<std::string> clear, last;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const bool has_word = arguments[i] == "--resume" && i + 1 < arguments.size() &&
+                          !arguments[i + 1].starts_with("-");
+    if (!has_word) {
+      clear.push_back(arguments[i]);
+    } else if (arguments[i + 1].ends_with(".toml")) {
+      last.push_back(arguments[i]);
+    } else {
+      clear.push_back(arguments[i] + "=" + arguments[i + 1]);
+      ++i;
+    }
+  }
+  clear.insert(clear.end(), last.begin(), last.end());
+  return clear;
+}
+
+po::variables_map parse(std::span<const std::string> arguments) {
+  po::options_description all = options();
+  all.add_options()("scene", po::value<std::vector<std::string>>());
+  po::positional_options_description positional;
+  positional.add("scene", -1);
+  // No abbreviations: a script must not change its meaning when an option is added.
+  namespace style = po::command_line_style;
+  const int strict = style::unix_style & ~style::allow_guessing;
+  po::variables_map values;
+  try {
+    po::store(po::command_line_parser(with_clear_resume(arguments))
+                  .options(all)
+                  .positional(positional)
+                  .style(strict)
+                  .run(),
+              values);
+  } catch (const po::unknown_option& unknown) {
+    std::vector<std::string> names;
+    const po::options_description known = options();
+    for (const auto& option : known.options()) names.push_back("--" + option->long_name());
+    const std::string nearest =
+        tables::nearest_name(unknown.get_option_name(), {names.begin(), names.end()});
+    throw UsageError(fmt::format("{}: no such option{}", unknown.get_option_name(),
+                                 nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+  } catch (const po::error& failure) {
+    throw UsageError(failure.what());
+  }
+  return values;
+}
+
+std::filesystem::path output_folder(const po::variables_map& values, const scene::Scene& scene,
+                                    const std::filesystem::path& file) {
+  if (values.count("out") != 0) return values["out"].as<std::string>();
+  if (scene.output.directory) return *scene.output.directory;
+  return std::filesystem::path("out") / file.stem();
+}
+
+RunRequest request_of(const po::variables_map& values) {
+  RunRequest request;
+  const auto scenes = values.count("scene") == 0 ? std::vector<std::string>{}
+                                                 : values["scene"].as<std::vector<std::string>>();
+  if (scenes.empty()) throw UsageError("SCENE is missing");
+  if (scenes.size() > 1) throw UsageError(fmt::format("{}: one SCENE at a time", scenes[1]));
+  request.scene_file = scenes.front();
+  if (values.count("set") != 0) request.settings = values["set"].as<std::vector<std::string>>();
+  if (values.count("resume") != 0) request.resume = ResumeFrom{values["resume"].as<std::string>()};
+  request.check_only = values["check"].as<bool>();
+  request.quiet = values["quiet"].as<bool>();
+  if (values.count("threads") != 0) {
+    request.threads = values["threads"].as<int>();
+    constexpr int most_threads = 4096;
+    if (request.threads < 1 || request.threads > most_threads) {
+      throw UsageError(fmt::format("--threads: found {}; allowed is a whole number 1 .. {}",
+                                   request.threads, most_threads));
+    }
+  }
+  if (values.count("max-wall") != 0) {
+    const auto text = values["max-wall"].as<std::string>();
+    request.max_wall_s = parse_duration(text);
+    if (!request.max_wall_s) {
+      throw UsageError(
+          fmt::format("--max-wall: found {}; allowed is a time such as 5h, 30m, 90s, 1h30m", text));
+    }
+  }
+  return request;
+}
+
+/// Reads the scene into the request; false, with every problem said, if it is refused.
+bool take_scene(RunRequest& request, const po::variables_map& values, std::ostream& err) {
+  scene::SceneReading reading = scene::read_scene(request.scene_file, request.settings);
+  for (const tables::Problem& problem : reading.warnings)
+    err << "warning: " << problem.text() << '\n';
+  for (const tables::Problem& problem : reading.errors) err << "error: " << problem.text() << '\n';
+  if (!reading.scene) return false;
+  request.scene = std::move(*reading.scene);
+  request.directory = output_folder(values, request.scene, request.scene_file);
+  return true;
+}
+
+program::ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ostream& err,
+                      const Runner& runner) {
+  const po::variables_map values = parse(arguments);
+  if (values["help"].as<bool>()) {
+    out << usage << '\n' << options() << '\n' << examples;
+    return program::ExitCode::done;
+  }
+  if (values["version"].as<bool>()) {
+    out << "fpm-run " << program::version << '\n';
+    return program::ExitCode::done;
+  }
+  if (values["scene-reference"].as<bool>()) {
+    out << scene::scene_reference();
+    return program::ExitCode::done;
+  }
+  RunRequest request = request_of(values);
+  if (!take_scene(request, values, err)) return program::ExitCode::input_refused;
+  if (values["print-effective"].as<bool>()) {
+    out << scene::effective_toml(request.scene);
+    return program::ExitCode::done;
+  }
+  if (request.check_only) {
+    out << request.scene_file.string() << ": no errors\n" << scene_summary(request.scene);
+  }
+  out.flush();
+  return runner(request);
+}
+
+}  // namespace
+
+std::optional<double> parse_duration(std::string_view text) {
+  double seconds = 0.0;
+  double last_unit = 1e300;  // units descend: 1h30m, not 30m1h
+  if (text.empty()) return std::nullopt;
+  while (!text.empty()) {
+    double number = 0.0;
+    const auto [stop, failure] =
+        std::from_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed);
+    if (failure != std::errc{} || stop == text.data() + text.size()) return std::nullopt;
+    const double unit = *stop == 'h' ? 3600.0 : *stop == 'm' ? 60.0 : *stop == 's' ? 1.0 : 0.0;
+    const bool plain = text.front() >= '0' && text.front() <= '9';  // no sign, inf, nan
+    if (!plain || unit == 0.0 || unit >= last_unit) return std::nullopt;
+    seconds += number * unit;
+    last_unit = unit;
+    text.remove_prefix(static_cast<std::size_t>(stop - text.data()) + 1);
+  }
+  return seconds > 0.0 ? std::optional<double>(seconds) : std::nullopt;
+}
+
+std::string scene_summary(const scene::Scene& scene) {
+  std::string out;
+  const auto line = [&out](std::string_view name, const std::string& value) {
+    fmt::format_to(std::back_inserter(out), "  {:<12} {}\n", name, value);
+  };
+  if (!scene.title.empty()) line("title", scene.title);
+  const auto counts = scene::lattice_counts(scene.geometry);
+  std::string lattice = fmt::format("{} x {}", counts[0], counts[1]);
+  if (scene.geometry.dimension == 3) lattice += fmt::format(" x {}", counts[2]);
+  line("particles", fmt::format("{} ({}, spacing {} m)", scene::particle_count(scene.geometry),
+                                lattice, scene.geometry.spacing));
+  for (const scene::Material& material : scene.material) {
+    line("material", fmt::format("{}: {}", material.name, scene::name_of(material.model)));
+  }
+  line("kinematics", std::string(scene::name_of(scene.approximation.kinematics)));
+  line("hourglass",
+       fmt::format("{}, stiffness ratio {}", scene::name_of(scene::resolve_control(scene)),
+                   scene::resolve_stiffness_ratio(scene)));
+  line("drive",
+       fmt::format("{}, {} steps", scene::name_of(scene.drive.kind), scene::nominal_steps(scene)));
+  const scene::SolverSettings solver = scene::resolve_solver(scene.solver);
+  line("solver", fmt::format("{}, {} Jacobian, {} preconditioner, tolerance {}",
+                             scene::name_of(solver.method), scene::name_of(solver.jacobian),
+                             scene::name_of(solver.preconditioner), solver.tolerance));
+  line("re-search", scene.research.enabled ? "on" : "off");
+  return out;
+}
+
+program::ExitCode fpm_run(std::span<const std::string> arguments, std::ostream& out,
+                          std::ostream& err, const Runner& runner) {
+  try {
+    return run(arguments, out, err, runner);
+  } catch (const UsageError& failure) {
+    err << "error: " << failure.what() << "\nTry fpm-run --help.\n";
+    return program::ExitCode::input_refused;
+  } catch (const files::FileError& failure) {
+    err << "error: " << failure.what() << '\n';
+    return program::ExitCode::checkpoint_unusable;
+  } catch (const std::bad_alloc&) {
+    err << "error: out of memory; --check says how much a scene needs\n";
+    return program::ExitCode::bug;
+  } catch (const std::exception& failure) {
+    err << "internal error: " << failure.what() << "\nThis is a bug: please report it.\n";
+    return program::ExitCode::bug;
+  }
+}
+
+}  // namespace run

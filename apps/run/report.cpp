@@ -1,0 +1,70 @@
+#include "run/report.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "program/progress.hpp"
+#include "scene/derived.hpp"
+
+namespace run {
+
+namespace {
+
+double mebibytes(std::size_t bytes) {
+  return static_cast<double>(bytes) / (1024.0 * 1024.0);
+}
+
+}  // namespace
+
+std::string check_report(const scene::Scene& scene, std::size_t particles, std::size_t ghosts,
+                         std::size_t bytes, std::size_t state_bytes) {
+  std::string out;
+  const auto line = [&out](std::string_view name, const std::string& value) {
+    fmt::format_to(std::back_inserter(out), "  {:<12} {}\n", name, value);
+  };
+  const double per_particle = static_cast<double>(bytes) / static_cast<double>(particles);
+  line("model", fmt::format("{} particles, {} mirror ghosts", particles, ghosts));
+  line("memory", fmt::format("{:.1f} MiB, {:.0f} bytes per particle, the solver's vectors apart",
+                             mebibytes(bytes), per_particle));
+  line("checkpoint", fmt::format("at least {:.1f} MiB each", mebibytes(state_bytes)));
+  line("steps", fmt::format("{} planned", scene::nominal_steps(scene)));
+  return out;
+}
+
+std::string end_report(const scene::Scene& scene, const std::vector<record::CurveRow>& history,
+                       double elapsed, const record::RunFolder& folder,
+                       const std::filesystem::path& checkpoint) {
+  std::string out;
+  const auto line = [&out](std::string_view name, const std::string& value) {
+    fmt::format_to(std::back_inserter(out), "  {:<12} {}\n", name, value);
+  };
+  const record::CurveRow& last = history.back();
+  std::int64_t evaluations = 0;
+  for (const record::CurveRow& row : history) evaluations += row.evaluations;
+  std::string load = fmt::format("{:.6g} of the programme", last.load_parameter);
+  if (scene.drive.kind == scene::DriveKind::displacement) {
+    load += fmt::format(", settlement {:.6g} m", last.settlement);
+    if (scene.drive.reference_length) load += fmt::format(", d/B {:.6g}", last.settlement_over_B);
+    line("load", load);
+    line("pressure", scene.drive.width ? fmt::format("{:.6g} Pa mean, {:.6g} Pa energy-corrected",
+                                                     last.mean_pressure, last.corrected_pressure)
+                                       : fmt::format("reaction {:.6g} {}", last.reaction,
+                                                     scene.geometry.dimension == 2 ? "N/m" : "N"));
+  } else {
+    line("load", load);
+  }
+  const double steps = static_cast<double>(std::max<std::int64_t>(last.step, 1));
+  line("steps",
+       fmt::format("{}, {:.1f} evaluations each, in {}", last.step,
+                   static_cast<double>(evaluations) / steps, program::duration_text(elapsed)));
+  line("curve", folder.curve().string());
+  if (scene.output.frames_every > 0) {
+    line("frames", fmt::format("paraview {}", folder.series().string()));
+  }
+  line("checkpoint", checkpoint.string());
+  out.pop_back();  // whoever says it ends the line
+  return out;
+}
+
+}  // namespace run

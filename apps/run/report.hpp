@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "run/recorder.hpp"
+#include "scene/scene.hpp"
+
+namespace run {
+
+/// Particles, ghosts, memory and steps of a run that is not made, for --check.
+/// @param bytes  of the state and of all that works on it
+std::string check_report(const scene::Scene& scene, std::size_t particles, std::size_t ghosts,
+                         std::size_t bytes, std::size_t state_bytes);
+
+/// What a run came to, and where its files are.
+std::string end_report(const scene::Scene& scene, const std::vector<record::CurveRow>& history,
+                       double elapsed, const record::RunFolder& folder,
+                       const std::filesystem::path& checkpoint);
+
+}  // namespace run

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace run {
+
+/// From which checkpoint a run goes on.
+struct ResumeFrom {
+  std::filesystem::path checkpoint;  // empty: the newest usable one in the output folder
+};
+
+/// One run as asked for on the command line: the checked scene and what is not part of it.
+struct RunRequest {
+  scene::Scene scene;
+  std::filesystem::path scene_file;
+  std::filesystem::path directory;    // output folder, resolved from --out, scene and file name
+  std::vector<std::string> settings;  // the --set arguments, already applied to `scene`
+  std::optional<ResumeFrom> resume;   // absent: a fresh run
+  bool check_only = false;            // build the model, report particles and memory, do not run
+  int threads = 0;                    // 0: OpenMP's own choice
+  std::optional<double> max_wall_s;   // [s] stop at the first converged step after it
+  bool quiet = false;
+  std::filesystem::path limit_program;  // fpm-limit, for `limit.check`
+};
+
+}  // namespace run

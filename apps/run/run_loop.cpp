@@ -1,0 +1,284 @@
+#include "run/run_loop.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <exception>
+#include <thread>
+
+#include "bounds/limit_check.hpp"
+#include "model/state_file.hpp"
+#include "program/stop_signals.hpp"
+#include "program/version.hpp"
+#include "record/run_lock.hpp"
+#include "run/recorder.hpp"
+#include "run/report.hpp"
+#include "scene/derived.hpp"
+#include "stepping/failure_report.hpp"
+#include "stepping/stepper.hpp"
+
+namespace run {
+
+namespace {
+
+/// Why a run is to stop before its end.
+class StopReasons {
+ public:
+  explicit StopReasons(std::optional<double> max_wall) : max_wall_(max_wall) {}
+
+  /// "" to go on.
+  [[nodiscard]] std::string now() const {
+    if (signals_.received() != 0) return fmt::format("interrupted by {}", signals_.name());
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin_;
+    if (max_wall_ && wall.count() >= *max_wall_) return "interrupted by --max-wall";
+    return "";
+  }
+
+ private:
+  program::StopSignals signals_;
+  std::optional<double> max_wall_;  // [s]
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+std::string what_is_left(const std::filesystem::path& checkpoint) {
+  if (checkpoint.empty()) return "; there is no checkpoint yet";
+  std::error_code failure;
+  const bool exists = std::filesystem::exists(checkpoint, failure);
+  return (exists ? "; the last good checkpoint is " : "; gone is the last checkpoint, ") +
+         checkpoint.string();
+}
+
+/// A word as a shell reads it back.
+std::string quoted(const std::string& word) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("._-/=+,:@%").find(char(c)) != std::string::npos;
+  };
+  if (!word.empty() && std::ranges::all_of(word, plain)) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + "'";
+}
+
+std::string command_to_resume(const RunRequest& request) {
+  std::string command = "fpm-run " + quoted(request.scene_file.string());
+  for (const std::string& setting : request.settings) command += " --set " + quoted(setting);
+  return command + " --out " + quoted(request.directory.string()) + " --resume";
+}
+
+template <int Dim>
+class Run {
+ public:
+  Run(const RunRequest& request, std::ostream& out, std::ostream& err,
+      const files::SystemCalls& system)
+      : request_(request),
+        scene_(request.scene),
+        out_(out),
+        err_(err),
+        system_(system),
+        stop_(request.max_wall_s),
+        model_(model::build_model<Dim>(scene_)) {}
+
+  program::ExitCode operator()() {
+    // Held before its checkpoints are read: nobody else adds one meanwhile. A folder that is not
+    // there is made only once the run is known to begin.
+    std::optional<record::RunFolder> folder;
+    std::exception_ptr no_folder;  // which a finished run does not need
+    const bool exists = std::filesystem::is_directory(request_.directory);
+    if (exists && !request_.check_only) no_folder = take(folder);
+    RunStart<Dim> start = start_of(request_, model_);
+    for (const std::string& refusal : start.refusals) err_ << "error: " << refusal << '\n';
+    if (!start.refusals.empty()) return program::ExitCode::input_refused;
+    stepping::LoadStepper<Dim> stepper(scene_, model_, start.state);
+    if (request_.check_only) return check(start, stepper);
+    if (stepper.finished()) return say_finished(start, folder);
+    if (no_folder) std::rethrow_exception(no_folder);
+
+    if (!folder) folder.emplace(request_.directory, system_);
+    Recorder<Dim> recorder(request_, *folder, model_, start, start.state, out_);
+    try {
+      introduce(start, *folder, recorder);
+      if (start.research_changed && scene_.research.enabled) {
+        // The rule is new: a state that no step leads on from must not wait for one.
+        const Eigen::Index rows = stepper.research();
+        if (rows > 0) recorder.say(fmt::format("{} rows re-searched", rows));
+      }
+      recorder.begin_branch();
+      return advance(start.state, stepper, recorder, *folder);
+    } catch (const files::FileError& failure) {
+      throw files::FileError(failure.file(),
+                             failure.reason() + what_is_left(recorder.last_checkpoint()));
+    }
+  }
+
+ private:
+  /// @return why a folder to resume in, which nobody else has, cannot be written to
+  std::exception_ptr take(std::optional<record::RunFolder>& folder) const {
+    try {
+      folder.emplace(request_.directory, system_);
+    } catch (const files::FileError&) {
+      if (!request_.resume || record::lock_owner(request_.directory).alive) throw;
+      return std::current_exception();
+    }
+    return nullptr;
+  }
+
+  program::ExitCode check(RunStart<Dim>& start, const stepping::LoadStepper<Dim>& stepper) {
+    const std::size_t state_bytes = model::bytes_of(start.state);
+    out_ << check_report(scene_, static_cast<std::size_t>(model_.size()),
+                         static_cast<std::size_t>(model_.ghosts.size()),
+                         stepper.bytes() + state_bytes, state_bytes);
+    for (const std::string& warning : start.warnings) err_ << "warning: " << warning << '\n';
+    if (!start.checkpoint.empty()) out_ << resumed_line(start) << '\n';
+    for (const scene::SceneChange& change : start.changes)
+      out_ << "changed: " << change.text() << '\n';
+    return program::ExitCode::done;
+  }
+
+  program::ExitCode say_finished(const RunStart<Dim>& start,
+                                 const std::optional<record::RunFolder>& folder) {
+    const auto say = [&](const std::string& line) {
+      if (!request_.quiet && !line.empty()) out_ << line << '\n';
+    };
+    say(fmt::format("{}: the run is finished at step {}; nothing to do", start.checkpoint.string(),
+                    start.state.programme.step));
+    if (folder) {
+      bounds::LimitCheck limit(scene_, *folder, request_.limit_program);
+      wait_for(limit, say);
+      say(limit.verdict(start.history));
+    }
+    return program::ExitCode::done;
+  }
+
+  /// Says what there is to say of the bounds until all is said, or a stop is asked for.
+  template <class Say>
+  void wait_for(bounds::LimitCheck& limit, Say&& say) const {
+    constexpr std::chrono::milliseconds pause{50};
+    do {
+      for (const std::string& line : limit.news()) say(line);
+      if (!limit.pending()) break;
+      std::this_thread::sleep_for(pause);
+    } while (stop_.now().empty());
+    for (const std::string& line : limit.news()) say(line);
+  }
+
+  static std::string resumed_line(const RunStart<Dim>& start) {
+    return fmt::format("resuming from {}: step {}, load {:.6g}", start.checkpoint.string(),
+                       start.state.programme.step, start.state.programme.load);
+  }
+
+  void introduce(const RunStart<Dim>& start, const record::RunFolder& folder,
+                 Recorder<Dim>& recorder) {
+    recorder.log().info(fmt::format("{}; scene {}, {} threads", program::with_versions("fpm-run"),
+                                    request_.scene_file.string(), omp_get_max_threads()));
+    recorder.say(fmt::format("{}: {} particles, {} steps planned, output in {}",
+                             scene_.title.empty() ? request_.scene_file.string() : scene_.title,
+                             model_.size(), scene::nominal_steps(scene_),
+                             request_.directory.string()));
+    if (!folder.dead_owner().empty()) {
+      recorder.say(
+          fmt::format("the last run here ({}) ended without a word: it was killed, or its "
+                      "machine went down",
+                      folder.dead_owner()));
+    }
+    for (const std::string& warning : start.warnings) recorder.log().warning(warning);
+    if (!start.checkpoint.empty()) recorder.say(resumed_line(start));
+    for (const scene::SceneChange& change : start.changes)
+      recorder.say("changed: " + change.text());
+  }
+
+  program::ExitCode advance(model::State<Dim>& state, stepping::LoadStepper<Dim>& stepper,
+                            Recorder<Dim>& recorder, const record::RunFolder& folder) {
+    // Of the last converged step, whatever is tried after it.
+    Eigen::VectorXd reaction = Eigen::VectorXd::Zero(model_.unknowns());
+    bounds::LimitCheck limit(scene_, folder, request_.limit_program);
+    while (!stepper.finished()) {
+      for (const std::string& line : limit.news()) recorder.say(line);
+      if (!stop_.now().empty()) return interrupt(recorder, reaction);
+      const model::ProgrammeState before = state.programme;
+      const stepping::StepResult result =
+          stepper.advance([&](const jfnk::Iteration&) { return stop_.now().empty(); });
+      if (result.outcome == stepping::StepOutcome::converged) {
+        reaction = stepper.equilibrium().unmasked_residual();
+        recorder.take(result.record, reaction);
+        continue;
+      }
+      // What was tried in vain is forgotten: a run resumed from here tries the same.
+      state.programme = before;
+      if (result.outcome == stepping::StepOutcome::stopped) return interrupt(recorder, reaction);
+      return fail(state, result, recorder, reaction, folder, limit);
+    }
+    recorder.finish("end of the programme", reaction, false);
+    report(recorder, folder, limit);
+    return program::ExitCode::done;
+  }
+
+  program::ExitCode interrupt(Recorder<Dim>& recorder, const Eigen::VectorXd& reaction) {
+    const std::string why = stop_.now();
+    recorder.finish(why, reaction, true);
+    recorder.log().warning(fmt::format("{} at step {}; go on with: {}", why,
+                                       recorder.history().back().step,
+                                       command_to_resume(request_)));
+    return program::ExitCode::interrupted;
+  }
+
+  program::ExitCode fail(const model::State<Dim>& state, const stepping::StepResult& result,
+                         Recorder<Dim>& recorder, const Eigen::VectorXd& reaction,
+                         const record::RunFolder& folder, bounds::LimitCheck& limit) {
+    recorder.finish(
+        result.outcome == stepping::StepOutcome::hopeless ? "no hope" : "no convergence", reaction,
+        false);
+    recorder.write_failure(result, reaction);
+    const std::string why = stepping::failure_report(scene_, model_, state, result) +
+                            "\n  fields: " + folder.failure().string();
+    report(recorder, folder, limit);
+    if (!scene_.programme.stop_at_failure) {
+      recorder.say("the programme ends here, as programme.stop_at_failure = false asks: " + why);
+      return program::ExitCode::done;
+    }
+    recorder.log().error(why);
+    recorder.log().error(
+        fmt::format("the last good checkpoint is {}", recorder.last_checkpoint().string()));
+    return program::ExitCode::not_converged;
+  }
+
+  void report(Recorder<Dim>& recorder, const record::RunFolder& folder,
+              bounds::LimitCheck& limit) const {
+    recorder.say(end_report(scene_, recorder.history(), recorder.elapsed(), folder,
+                            recorder.last_checkpoint()));
+    if (limit.pending()) recorder.say("waiting for fpm-limit; it may be interrupted and resumed");
+    wait_for(limit, [&](const std::string& line) { recorder.say(line); });
+    const std::string verdict = limit.verdict(recorder.history());
+    if (!verdict.empty()) recorder.say(verdict);
+  }
+
+  const RunRequest& request_;
+  const scene::Scene& scene_;
+  std::ostream& out_;
+  std::ostream& err_;
+  const files::SystemCalls& system_;
+  StopReasons stop_;
+  model::Model<Dim> model_;
+};
+
+}  // namespace
+
+int thread_count(int asked, std::int64_t particles) {
+  // A smaller share per thread costs more in waiting for each other than it saves.
+  constexpr std::int64_t particles_per_thread = 4000;
+  if (asked > 0) return asked;
+  return static_cast<int>(
+      std::min<std::int64_t>(omp_get_max_threads(), particles / particles_per_thread + 1));
+}
+
+program::ExitCode run_programme(const RunRequest& request, std::ostream& out, std::ostream& err,
+                                const files::SystemCalls& system) {
+  omp_set_num_threads(thread_count(request.threads, scene::particle_count(request.scene.geometry)));
+  if (request.scene.geometry.dimension == 2) return Run<2>(request, out, err, system)();
+  return Run<3>(request, out, err, system)();
+}
+
+}  // namespace run

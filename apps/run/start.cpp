@@ -1,0 +1,102 @@
+#include "run/start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/checkpoint.hpp"
+#include "model/state_file.hpp"
+#include "record/checkpoint_folder.hpp"
+
+namespace run {
+
+namespace {
+
+std::filesystem::path newest_checkpoint(const std::filesystem::path& directory,
+                                        std::vector<std::string>& objections) {
+  const std::filesystem::path folder = directory / "checkpoints";
+  if (const auto newest = record::newest_usable(folder, objections)) return *newest;
+  throw files::FileError(folder, objections.empty() ? "there is no checkpoint to resume from"
+                                                    : fmt::format("no checkpoint is usable:\n  {}",
+                                                                  fmt::join(objections, "\n  ")));
+}
+
+std::string older_usable(const std::filesystem::path& checkpoint) {
+  const auto step = record::step_of(checkpoint);
+  if (!step) return "";
+  std::vector<std::string> ignored;
+  const auto folder = checkpoint.has_parent_path() ? checkpoint.parent_path() : ".";
+  const auto older = record::newest_usable(folder, ignored, step);
+  return older ? "; the next older usable one is " + older->string()
+               : "; there is no older usable one";
+}
+
+std::vector<std::string> refusals_among(const std::vector<scene::SceneChange>& changes) {
+  std::vector<std::string> refusals;
+  for (const scene::SceneChange& change : changes) {
+    if (change.allowed) continue;
+    refusals.push_back(fmt::format("{}: the checkpoint has {}, the scene {}; it may not change",
+                                   change.key, change.before, change.after));
+  }
+  return refusals;
+}
+
+std::vector<record::Ancestor> lineage_from(const std::filesystem::path& checkpoint,
+                                           const record::CheckpointNotes& notes,
+                                           const std::vector<scene::SceneChange>& changes) {
+  record::Ancestor parent{std::filesystem::absolute(checkpoint).lexically_normal().string(),
+                          notes.history.back().step,
+                          notes.created,
+                          record::identity_of(notes.digest),
+                          {}};
+  for (const scene::SceneChange& change : changes) parent.changed.push_back(change.text());
+  std::vector<record::Ancestor> lineage = notes.lineage;
+  lineage.push_back(std::move(parent));
+  return lineage;
+}
+
+template <int Dim>
+void resume(const std::filesystem::path& checkpoint, const scene::Scene& scene,
+            const model::Model<Dim>& model, RunStart<Dim>& start) {
+  record::CheckpointNotes notes;
+  const files::Hdf5File file = record::open_checkpoint(checkpoint, notes);
+  const scene::Scene former = model::scene_of(checkpoint, notes);
+  start.checkpoint = checkpoint;
+  start.changes = scene::scene_changes(former, scene);
+  start.refusals = refusals_among(start.changes);
+  if (!start.refusals.empty()) return;
+  start.state = model::read_state(file, model);
+  start.lineage = lineage_from(checkpoint, notes, start.changes);
+  start.history = std::move(notes.history);
+  start.research_changed = former.research != scene.research;
+  if (!model::adapt_programme(former, scene, start.state.programme)) {
+    start.refusals.push_back(
+        fmt::format("drive.target: the checkpoint is already at {} m, beyond the scene's {} m",
+                    start.history.back().settlement, scene.drive.target));
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+RunStart<Dim> start_of(const RunRequest& request, const model::Model<Dim>& model) {
+  RunStart<Dim> start;
+  if (!request.resume) {
+    start.state = initial_state(model, request.scene);
+    return start;
+  }
+  const std::filesystem::path checkpoint =
+      request.resume->checkpoint.empty() ? newest_checkpoint(request.directory, start.warnings)
+                                         : request.resume->checkpoint;
+  try {
+    resume(checkpoint, request.scene, model, start);
+  } catch (const files::FileError& failure) {
+    throw files::FileError(failure.file(), failure.reason() + older_usable(checkpoint));
+  }
+  return start;
+}
+
+template RunStart<2> start_of<2>(const RunRequest&, const model::Model<2>&);
+template RunStart<3> start_of<3>(const RunRequest&, const model::Model<3>&);
+
+}  // namespace run

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+#include "model/state.hpp"
+#include "record/curve.hpp"
+#include "record/lineage.hpp"
+#include "run/request.hpp"
+#include "scene/changes.hpp"
+
+namespace run {
+
+/// What a run begins with, be it fresh or resumed; all else is made of it, the scene and the model.
+template <int Dim>
+struct RunStart {
+  model::State<Dim> state;
+  std::vector<record::CurveRow> history;    // the curve so far; empty: a fresh run
+  std::filesystem::path checkpoint;         // where the state is from; empty: a fresh run
+  std::vector<record::Ancestor> lineage;    // of the state, its checkpoint last
+  std::vector<scene::SceneChange> changes;  // since the checkpoint, all allowed
+  std::vector<std::string> refusals;  // why the run may not go on; the state is then not to be used
+  std::vector<std::string> warnings;  // newer checkpoints that are damaged
+  bool research_changed = false;
+};
+
+/// The start of a run: the scene's initial state, or the state of the checkpoint that the request
+/// names or, if it names none, of the newest usable one in the output folder.
+/// @throws FileError if that checkpoint, or any if none is named, is unusable; it names the next
+/// older usable one. There is no silent start from zero.
+template <int Dim>
+RunStart<Dim> start_of(const RunRequest& request, const model::Model<Dim>& model);
+
+}  // namespace run

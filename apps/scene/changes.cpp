@@ -1,0 +1,59 @@
+#include "scene/changes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "scene/tables.hpp"
+#include "tables/table.hpp"
+
+namespace scene {
+
+namespace {
+
+constexpr std::array<std::string_view, 5> free_tables{"programme.", "solver.", "research.",
+                                                      "output.", "limit."};
+constexpr std::array<std::string_view, 2> free_keys{"title", "drive.target"};
+
+std::string text_at(const tables::TableInfo& table, const tables::Field& field, const Scene& scene,
+                    std::size_t index) {
+  if (index >= table.size(scene)) return "absent";
+  const auto value = field.read(scene, index);
+  return value ? tables::value_text(*value) : "absent";
+}
+
+}  // namespace
+
+std::string SceneChange::text() const {
+  return fmt::format("{}: {} -> {}", key, before, after);
+}
+
+bool may_change_on_resume(std::string_view key) {
+  return std::ranges::find(free_keys, key) != free_keys.end() ||
+         std::ranges::any_of(free_tables, [&](auto table) { return key.starts_with(table); });
+}
+
+std::string what_may_change() {
+  return fmt::format("{}, {}*; the number of threads; nothing else", fmt::join(free_keys, ", "),
+                     fmt::join(free_tables, "*, "));
+}
+
+std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after) {
+  std::vector<SceneChange> changes;
+  for (const tables::TableInfo& table : scene_tables()) {
+    const std::size_t count = std::max(table.size(before), table.size(after));
+    for (std::size_t i = 0; i < count; ++i) {
+      for (const tables::Field& field : table.fields) {
+        SceneChange change{table.path(i, field.key), text_at(table, field, before, i),
+                           text_at(table, field, after, i), false};
+        if (change.before == change.after) continue;
+        change.allowed = may_change_on_resume(change.key);
+        changes.push_back(std::move(change));
+      }
+    }
+  }
+  return changes;
+}
+
+}  // namespace scene

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace scene {
+
+/// A key whose value differs between two scenes.
+struct SceneChange {
+  std::string key;     // dotted, as --set takes it
+  std::string before;  // as TOML, or `absent`
+  std::string after;
+  bool allowed = false;  // see may_change_on_resume
+
+  /// `research.enabled: false -> true`.
+  [[nodiscard]] std::string text() const;
+  bool operator==(const SceneChange&) const = default;
+};
+
+/// Whether a run may go on from a checkpoint with another value of this key: how far it is driven,
+/// in which steps, how each is solved, the rule of re-search, and all output. Never what the stored
+/// state belongs to: body, approximation, materials, supports, loads.
+[[nodiscard]] bool may_change_on_resume(std::string_view key);
+
+/// These keys in words.
+[[nodiscard]] std::string what_may_change();
+
+/// Every key whose value differs, in the order of the scene file.
+[[nodiscard]] std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after);
+
+}  // namespace scene

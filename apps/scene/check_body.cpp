@@ -1,0 +1,248 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/check.hpp"
+#include "scene/derived.hpp"
+#include "scene/names.hpp"
+#include "tables/table.hpp"
+
+namespace scene {
+
+namespace {
+
+// Relative distance from a whole number that decimal input may leave behind.
+constexpr double round_off = 1e-9;
+// Particles and their neighbours are counted in 32 bits.
+constexpr double most_particles = 2147483647.0;
+constexpr std::int64_t fewest_per_axis = 3;
+
+bool is_whole(double value) {
+  return std::abs(value - std::round(value)) <= round_off * value;
+}
+
+/// The spacing nearest to the wanted one that divides every extent, or 0 if none from half to twice
+/// the wanted one does.
+double nearest_spacing(const Geometry& geometry) {
+  const double extent = geometry.max[0] - geometry.min[0];
+  const double cells = extent / geometry.spacing;
+  // More candidates than this are not worth a suggestion.
+  constexpr double most_candidates = 1e6;
+  if (cells > most_candidates) return 0.0;
+  double best = 0.0;
+  for (auto n = std::max(1.0, std::floor(cells / 2.0)); n <= 2.0 * cells + 1.0; n += 1.0) {
+    const double spacing = extent / n;
+    bool fits = true;
+    for (std::size_t i = 1; i < geometry.min.size(); ++i) {
+      fits = fits && is_whole((geometry.max[i] - geometry.min[i]) / spacing);
+    }
+    const bool nearer = std::abs(spacing - geometry.spacing) < std::abs(best - geometry.spacing);
+    if (fits && (best == 0.0 || nearer)) best = spacing;
+  }
+  return best;
+}
+
+void check_spacing(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const Geometry& geometry = scene.geometry;
+  double particles = 1.0;
+  for (std::size_t i = 0; i < geometry.min.size(); ++i) {
+    const double extent = geometry.max[i] - geometry.min[i];
+    if (!is_whole(extent / geometry.spacing)) {
+      const double nearest = nearest_spacing(geometry);
+      diagnosis.error("geometry.spacing",
+                      fmt::format("found {}, which is {:.6g} times in the extent {:.6g} along {}",
+                                  geometry.spacing, extent / geometry.spacing, extent,
+                                  name_of(static_cast<Axis>(i))),
+                      nearest > 0.0 ? fmt::format("the nearest that fits is {}", nearest)
+                                    : "it must be a whole number of times in every extent");
+      return;
+    }
+    particles *= extent / geometry.spacing + 1.0;
+  }
+  if (particles > most_particles) {
+    diagnosis.error(
+        "geometry.spacing",
+        fmt::format("found {}, which makes {:.3g} particles", geometry.spacing, particles),
+        fmt::format("allowed are at most {:.0f}", most_particles));
+    return;
+  }
+  const auto counts = lattice_counts(geometry);
+  for (std::size_t i = 0; i < geometry.min.size(); ++i) {
+    if (counts[i] >= fewest_per_axis) continue;
+    diagnosis.error("geometry.spacing",
+                    fmt::format("found {}, which makes {} particles along {}", geometry.spacing,
+                                counts[i], name_of(static_cast<Axis>(i))),
+                    fmt::format("allowed are at least {} along every axis", fewest_per_axis));
+    return;
+  }
+}
+
+/// A key that a model needs, or that has no effect on it.
+void check_strength(const std::optional<double>& value, bool needed, const std::string& key,
+                    MaterialModel model, tables::Diagnosis& diagnosis) {
+  if (!diagnosis.good({key})) return;
+  if (needed && !value) {
+    diagnosis.error(key, "is missing", fmt::format("the model {} needs it", name_of(model)));
+  } else if (!needed && value.value_or(0.0) != 0.0) {
+    diagnosis.warning(key, fmt::format("found {}", tables::number_text(*value)),
+                      fmt::format("it has no effect on the model {}", name_of(model)));
+  }
+}
+
+void check_material(const Scene& scene, std::size_t index, tables::Diagnosis& diagnosis) {
+  const Material& material = scene.material[index];
+  const std::string table = fmt::format("material.{}", index);
+  const auto key = [&](const char* name) { return table + "." + name; };
+
+  const bool has_region = !material.region_min.empty() || !material.region_max.empty();
+  if (index == 0 && has_region) {
+    diagnosis.error(material.region_min.empty() ? key("region_max") : key("region_min"),
+                    "the first material has a region", "it fills the whole body: leave it out");
+  } else if (index > 0 && !has_region && diagnosis.good({key("region_min"), key("region_max")})) {
+    diagnosis.error(key("region_min"), "is missing",
+                    "every material after the first needs its region");
+  } else {
+    check_region(material.region_min, material.region_max, table, scene, diagnosis);
+  }
+
+  if (!diagnosis.good({key("model")})) return;
+  const bool yields = material.model != MaterialModel::elastic;
+  const bool frictional = yields && material.model != MaterialModel::von_mises;
+  check_strength(material.cohesion, yields, key("cohesion"), material.model, diagnosis);
+  check_strength(material.friction_angle, frictional, key("friction_angle"), material.model,
+                 diagnosis);
+  check_strength(material.dilation_angle, frictional, key("dilation_angle"), material.model,
+                 diagnosis);
+
+  const bool no_strength = material.cohesion == 0.0 && material.friction_angle.value_or(0.0) == 0.0;
+  if (yields && no_strength && diagnosis.good({key("cohesion"), key("friction_angle")})) {
+    diagnosis.error(key("cohesion"), "found 0 without friction",
+                    "a yielding material needs cohesion or friction");
+  }
+  if (frictional &&
+      material.dilation_angle.value_or(0.0) > material.friction_angle.value_or(90.0)) {
+    diagnosis.error(
+        key("dilation_angle"), fmt::format("found {}", *material.dilation_angle),
+        fmt::format("it must not exceed the friction angle, {}", *material.friction_angle));
+  }
+  const bool cone = material.model == MaterialModel::drucker_prager;
+  if (cone && scene.geometry.dimension == 3 && material.match == ConeMatch::plane_strain &&
+      diagnosis.good({"geometry.dimension", key("match")})) {
+    diagnosis.error(key("match"), "found plane_strain in 3D",
+                    "the plane strain match holds in 2D only: use match = \"compression_cone\" or "
+                    "model = \"mohr_coulomb\"");
+  }
+}
+
+}  // namespace
+
+bool check_length(const Point& point, std::size_t wanted, const std::string& key,
+                  const Scene& scene, tables::Diagnosis& diagnosis) {
+  if (!diagnosis.good({key, "geometry.dimension"})) return false;
+  if (point.empty() || point.size() == wanted) return true;
+  diagnosis.error(key, fmt::format("found length {}", point.size()),
+                  fmt::format("needed is length {}, as geometry.dimension is {}", wanted,
+                              scene.geometry.dimension));
+  return false;
+}
+
+bool box_is_good(const Scene& scene, const tables::Diagnosis& diagnosis) {
+  const auto n = static_cast<std::size_t>(scene.geometry.dimension);
+  return diagnosis.good({"geometry.dimension", "geometry.min", "geometry.max"}) &&
+         scene.geometry.min.size() == n && scene.geometry.max.size() == n;
+}
+
+bool check_region(const Point& region_min, const Point& region_max, const std::string& table,
+                  const Scene& scene, tables::Diagnosis& diagnosis) {
+  const std::string lower = table + ".region_min", upper = table + ".region_max";
+  if (!diagnosis.good({lower, upper})) return false;
+  if (region_min.empty() && region_max.empty()) return true;
+  if (region_min.empty() || region_max.empty()) {
+    diagnosis.error(region_min.empty() ? lower : upper, "is missing",
+                    "a region needs region_min and region_max");
+    return false;
+  }
+  const auto n = static_cast<std::size_t>(scene.geometry.dimension);
+  const bool lower_fits = check_length(region_min, n, lower, scene, diagnosis);
+  const bool upper_fits = check_length(region_max, n, upper, scene, diagnosis);
+  if (!lower_fits || !upper_fits || !box_is_good(scene, diagnosis)) return false;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto axis = name_of(static_cast<Axis>(i));
+    if (region_min[i] > region_max[i]) {
+      diagnosis.error(upper, fmt::format("found {} along {}", region_max[i], axis),
+                      fmt::format("it must not be below region_min, {}", region_min[i]));
+      return false;
+    }
+    if (region_max[i] < scene.geometry.min[i] || region_min[i] > scene.geometry.max[i]) {
+      diagnosis.error(
+          lower, fmt::format("the region is outside the body along {}", axis),
+          fmt::format("the body is from {} to {}", scene.geometry.min[i], scene.geometry.max[i]));
+      return false;
+    }
+  }
+  return true;
+}
+
+void check_geometry(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const Geometry& geometry = scene.geometry;
+  const auto n = static_cast<std::size_t>(geometry.dimension);
+  const bool min_fits = check_length(geometry.min, n, "geometry.min", scene, diagnosis);
+  const bool max_fits = check_length(geometry.max, n, "geometry.max", scene, diagnosis);
+  if (!min_fits || !max_fits || !box_is_good(scene, diagnosis)) return;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (geometry.min[i] < geometry.max[i]) continue;
+    diagnosis.error(
+        "geometry.max",
+        fmt::format("found {} along {}", geometry.max[i], name_of(static_cast<Axis>(i))),
+        fmt::format("it must be above geometry.min, {}", geometry.min[i]));
+  }
+  if (diagnosis.good({"geometry.max", "geometry.spacing"})) check_spacing(scene, diagnosis);
+}
+
+void check_materials(const Scene& scene, tables::Diagnosis& diagnosis) {
+  for (std::size_t i = 0; i < scene.material.size(); ++i) {
+    check_material(scene, i, diagnosis);
+    const auto same = [&](const Material& m) { return m.name == scene.material[i].name; };
+    const auto end = scene.material.begin() + static_cast<std::ptrdiff_t>(i);
+    if (!scene.material[i].name.empty() && std::any_of(scene.material.begin(), end, same)) {
+      diagnosis.error(fmt::format("material.{}.name", i),
+                      fmt::format("found \"{}\" again", scene.material[i].name),
+                      "names of materials are unique");
+    }
+  }
+}
+
+void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const Hourglass& hourglass = scene.hourglass;
+  if (!diagnosis.good({"hourglass.control", "geometry.dimension", "material"})) return;
+  if (hourglass.control == HourglassControl::mixed) {
+    const auto refuse = [&](const std::string& found, const std::string& why) {
+      diagnosis.error("hourglass.control", found, why);
+    };
+    if (scene.geometry.dimension == 3) {
+      refuse("found mixed in 3D", "sub-points exist in 2D only: use \"incremental\"");
+    }
+    for (std::size_t i = 0; i < scene.material.size(); ++i) {
+      const Material& material = scene.material[i];
+      if (!diagnosis.good({fmt::format("material.{}.model", i)})) continue;
+      if (material.model == MaterialModel::mohr_coulomb) {
+        refuse(fmt::format("found mixed with the mohr_coulomb material \"{}\"", material.name),
+               "the sub-points share one pressure, which true corners do not allow: use "
+               "\"incremental\", or the model drucker_prager");
+      } else if (material.model == MaterialModel::elastic) {
+        refuse(fmt::format("found mixed with the elastic material \"{}\"", material.name),
+               "a body that does not yield gains nothing from sub-points: use \"stiffness\"");
+      }
+    }
+  }
+  const bool no_stiffness = hourglass.control == HourglassControl::none ||
+                            hourglass.control == HourglassControl::viscosity;
+  if (no_stiffness && hourglass.stiffness_ratio.value_or(0.0) != 0.0) {
+    diagnosis.warning(
+        "hourglass.stiffness_ratio", fmt::format("found {}", *hourglass.stiffness_ratio),
+        fmt::format("it has no effect on the control {}", name_of(hourglass.control)));
+  }
+}
+
+}  // namespace scene

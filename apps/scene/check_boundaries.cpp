@@ -1,0 +1,174 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/check.hpp"
+#include "scene/derived.hpp"
+#include "scene/names.hpp"
+
+namespace scene {
+
+namespace {
+
+// Relative tolerance of "at the same place" in units of the spacing: decimal input.
+constexpr double same_place = 1e-9;
+
+void check_axis(Axis axis, const std::string& key, const Scene& scene,
+                tables::Diagnosis& diagnosis) {
+  if (axis == Axis::z && scene.geometry.dimension == 2 &&
+      diagnosis.good({key, "geometry.dimension"})) {
+    diagnosis.error(key, "found z in 2D", "allowed are x, y");
+  }
+}
+
+void check_symmetry(const Scene& scene, std::size_t index, tables::Diagnosis& diagnosis) {
+  const Symmetry& symmetry = scene.symmetry[index];
+  const std::string table = fmt::format("symmetry.{}", index);
+  check_axis(symmetry.axis, table + ".axis", scene, diagnosis);
+  if (!diagnosis.good({table + ".axis", table + ".position", "geometry.spacing"}) ||
+      !box_is_good(scene, diagnosis)) {
+    return;
+  }
+  const auto axis = static_cast<std::size_t>(symmetry.axis);
+  const double lower = scene.geometry.min[axis], upper = scene.geometry.max[axis];
+  const double slack = same_place * scene.geometry.spacing;
+  if (std::abs(symmetry.position - lower) > slack && std::abs(symmetry.position - upper) > slack) {
+    diagnosis.error(table + ".position", fmt::format("found {}", symmetry.position),
+                    fmt::format("a mirror is at a face of the body, {} = {} or {}",
+                                name_of(symmetry.axis), lower, upper));
+    return;
+  }
+  for (std::size_t other = 0; other < index; ++other) {
+    const Symmetry& before = scene.symmetry[other];
+    if (before.axis == symmetry.axis && std::abs(before.position - symmetry.position) <= slack) {
+      diagnosis.error(table + ".position", fmt::format("found {} again", symmetry.position),
+                      fmt::format("it is the mirror of symmetry.{}", other));
+    }
+  }
+}
+
+void check_support_choice(const Scene& scene, const Support& support, const std::string& table,
+                          tables::Diagnosis& diagnosis) {
+  const int ways = (support.side ? 1 : 0) + (support.at.empty() ? 0 : 1) +
+                   (support.region_min.empty() && support.region_max.empty() ? 0 : 1);
+  const bool read = diagnosis.good(
+      {table + ".side", table + ".at", table + ".region_min", table + ".region_max"});
+  if (ways != 1 && read) {
+    diagnosis.error(table,
+                    fmt::format("{} of side, region_min with region_max, and at are given",
+                                ways == 0 ? "none" : "several"),
+                    "exactly one chooses the particles");
+    return;
+  }
+  if (support.side) check_side(*support.side, table + ".side", scene, diagnosis);
+  check_region(support.region_min, support.region_max, table, scene, diagnosis);
+  const auto n = static_cast<std::size_t>(scene.geometry.dimension);
+  const std::string at = table + ".at";
+  if (support.at.empty() || !check_length(support.at, n, at, scene, diagnosis) ||
+      !box_is_good(scene, diagnosis)) {
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (support.at[i] >= scene.geometry.min[i] && support.at[i] <= scene.geometry.max[i]) continue;
+    diagnosis.error(
+        at, fmt::format("found {} along {}", support.at[i], name_of(static_cast<Axis>(i))),
+        fmt::format("the body is from {} to {}", scene.geometry.min[i], scene.geometry.max[i]));
+  }
+}
+
+void check_support(const Scene& scene, std::size_t index, tables::Diagnosis& diagnosis) {
+  const Support& support = scene.support[index];
+  const std::string table = fmt::format("support.{}", index);
+  check_support_choice(scene, support, table, diagnosis);
+  for (const Axis axis : support.directions) {
+    check_axis(axis, table + ".directions", scene, diagnosis);
+    if (std::count(support.directions.begin(), support.directions.end(), axis) > 1) {
+      diagnosis.error(table + ".directions", fmt::format("found {} twice", name_of(axis)),
+                      "each direction once");
+      break;
+    }
+  }
+}
+
+/// Whether anything keeps the body from moving freely along an axis.
+bool is_held(const Scene& scene, Axis axis) {
+  for (const Symmetry& symmetry : scene.symmetry) {
+    if (symmetry.axis == axis) return true;
+  }
+  for (const Support& support : scene.support) {
+    const auto& d = support.directions;
+    if (std::find(d.begin(), d.end(), axis) != d.end()) return true;
+  }
+  if (scene.drive.kind != DriveKind::displacement) return false;
+  const auto i = static_cast<std::size_t>(axis);
+  return scene.drive.lateral == Lateral::fixed ||
+         (i < scene.drive.direction.size() && scene.drive.direction[i] != 0.0);
+}
+
+}  // namespace
+
+bool check_side(Side side, const std::string& key, const Scene& scene,
+                tables::Diagnosis& diagnosis) {
+  if (!diagnosis.good({key, "geometry.dimension"})) return false;
+  if (axis_of(side) < scene.geometry.dimension) return true;
+  diagnosis.error(key, fmt::format("found {} in 2D", name_of(side)),
+                  "allowed are left, right, bottom, top");
+  return false;
+}
+
+bool check_range(Side side, const Point& range_min, const Point& range_max,
+                 const std::string& table, const Scene& scene, tables::Diagnosis& diagnosis) {
+  const std::string lower = table + ".range_min", upper = table + ".range_max";
+  if (!diagnosis.good({lower, upper, table + ".side"})) return false;
+  if (range_min.empty() && range_max.empty()) return true;
+  if (range_min.empty() || range_max.empty()) {
+    diagnosis.error(range_min.empty() ? lower : upper, "is missing",
+                    "a part of a side needs range_min and range_max");
+    return false;
+  }
+  const auto n = static_cast<std::size_t>(scene.geometry.dimension);
+  const bool lower_fits = check_length(range_min, n - 1, lower, scene, diagnosis);
+  const bool upper_fits = check_length(range_max, n - 1, upper, scene, diagnosis);
+  if (!lower_fits || !upper_fits || !box_is_good(scene, diagnosis)) return false;
+  const double slack = same_place * scene.geometry.spacing;
+  for (std::size_t axis = 0, i = 0; axis < n; ++axis) {
+    if (axis == static_cast<std::size_t>(axis_of(side))) continue;
+    const double from = scene.geometry.min[axis], to = scene.geometry.max[axis];
+    const auto name = name_of(static_cast<Axis>(axis));
+    if (range_min[i] >= range_max[i]) {
+      diagnosis.error(upper, fmt::format("found {} along {}", range_max[i], name),
+                      fmt::format("it must be above range_min, {}", range_min[i]));
+      return false;
+    }
+    if (range_min[i] < from - slack || range_max[i] > to + slack) {
+      const bool low = range_min[i] < from - slack;
+      diagnosis.error(low ? lower : upper,
+                      fmt::format("found {} along {}", low ? range_min[i] : range_max[i], name),
+                      fmt::format("the side {} is from {} to {}", name_of(side), from, to));
+      return false;
+    }
+    ++i;
+  }
+  return true;
+}
+
+void check_boundaries(const Scene& scene, tables::Diagnosis& diagnosis) {
+  if (!scene.symmetry.empty() && scene.geometry.layout == Layout::vertex &&
+      diagnosis.good({"geometry.layout", "symmetry"})) {
+    diagnosis.error("symmetry.0", "found with geometry.layout = \"vertex\"",
+                    "particles must not lie on the mirror: use layout = \"cell\", or a support "
+                    "that fixes the normal direction");
+  }
+  for (std::size_t i = 0; i < scene.symmetry.size(); ++i) check_symmetry(scene, i, diagnosis);
+  for (std::size_t i = 0; i < scene.support.size(); ++i) check_support(scene, i, diagnosis);
+  if (!diagnosis.good({"geometry.dimension", "support", "symmetry", "drive"})) return;
+  for (int i = 0; i < scene.geometry.dimension; ++i) {
+    if (is_held(scene, static_cast<Axis>(i))) continue;
+    diagnosis.warning("support",
+                      fmt::format("nothing holds the body along {}", name_of(static_cast<Axis>(i))),
+                      "without a support, a symmetry or a fixed drive it moves freely");
+  }
+}
+
+}  // namespace scene

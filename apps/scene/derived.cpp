@@ -1,0 +1,84 @@
+#include "scene/derived.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scene {
+
+HourglassControl resolve_control(const Scene& scene) {
+  if (scene.hourglass.control != HourglassControl::automatic) return scene.hourglass.control;
+  const auto all = [&](auto&& holds) {
+    return std::all_of(scene.material.begin(), scene.material.end(),
+                       [&](const Material& m) { return holds(m.model); });
+  };
+  if (all([](MaterialModel m) { return m == MaterialModel::elastic; })) {
+    return HourglassControl::stiffness;
+  }
+  const bool has_sub_points =
+      scene.geometry.dimension == 2 && all([](MaterialModel m) {
+        return m == MaterialModel::von_mises || m == MaterialModel::drucker_prager;
+      });
+  return has_sub_points ? HourglassControl::mixed : HourglassControl::incremental;
+}
+
+double resolve_stiffness_ratio(const Scene& scene) {
+  if (scene.hourglass.stiffness_ratio) return *scene.hourglass.stiffness_ratio;
+  switch (resolve_control(scene)) {
+    case HourglassControl::stiffness:
+    case HourglassControl::incremental:
+      return 0.1;
+    case HourglassControl::mixed:
+      return 0.01;
+    default:
+      return 0.0;
+  }
+}
+
+bool resolve_consistency(const Scene& scene) {
+  if (scene.approximation.consistency == Switch::automatic) return scene.geometry.jitter > 0.0;
+  return scene.approximation.consistency == Switch::on;
+}
+
+SolverSettings resolve_solver(const Solver& solver) {
+  SolverSettings settings;
+  const bool paper = solver.preset == SolverPreset::appendix_a;
+  settings.tolerance = solver.tolerance.value_or(1e-3);
+  settings.method =
+      solver.method.value_or(paper ? SolverMethod::newton_krylov : SolverMethod::hybrid);
+  settings.jacobian =
+      solver.jacobian.value_or(paper ? JacobianKind::finite_difference : JacobianKind::analytic);
+  settings.preconditioner = solver.preconditioner.value_or(paper ? PreconditionerKind::none
+                                                                 : PreconditionerKind::two_level);
+  return settings;
+}
+
+std::array<std::int64_t, 3> lattice_counts(const Geometry& geometry) {
+  std::array<std::int64_t, 3> counts{1, 1, 1};
+  for (std::size_t i = 0; i < geometry.min.size(); ++i) {
+    const double cells = (geometry.max[i] - geometry.min[i]) / geometry.spacing;
+    counts[i] = std::llround(cells) + (geometry.layout == Layout::vertex ? 1 : 0);
+  }
+  return counts;
+}
+
+std::int64_t particle_count(const Geometry& geometry) {
+  const auto counts = lattice_counts(geometry);
+  return counts[0] * counts[1] * counts[2];
+}
+
+std::int64_t nominal_steps(const Scene& scene) {
+  if (scene.programme.steps.value_or(0) > 0) return *scene.programme.steps;
+  if (scene.drive.kind != DriveKind::displacement) return 1;
+  const double increment = scene.programme.increment_over_spacing * scene.geometry.spacing;
+  // A quotient a rounding error above a whole number is that number.
+  constexpr double round_off = 1e-9;
+  return std::max<std::int64_t>(
+      1, static_cast<std::int64_t>(std::ceil(scene.drive.target / increment - round_off)));
+}
+
+double side_position(const Geometry& geometry, Side side) {
+  const auto axis = static_cast<std::size_t>(axis_of(side));
+  return is_upper(side) ? geometry.max[axis] : geometry.min[axis];
+}
+
+}  // namespace scene

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "scene/scene.hpp"
+
+namespace scene {
+
+/// The control `automatic` stands for: stiffness if every material is elastic, mixed in 2D when all
+/// yielding materials are von Mises or Drucker–Prager, incremental otherwise.
+[[nodiscard]] HourglassControl resolve_control(const Scene& scene);
+
+/// Hourglass modulus ratio gamma in force: the scene's, else 0.1 for stiffness and incremental,
+/// 0.01 for mixed, 0 for none and viscosity.
+[[nodiscard]] double resolve_stiffness_ratio(const Scene& scene);
+
+/// Whether the consistency correction is on: `automatic` means on for jittered sets only.
+[[nodiscard]] bool resolve_consistency(const Scene& scene);
+
+/// The solver's settings with the preset's values filled in.
+struct SolverSettings {
+  double tolerance = 0.0;
+  SolverMethod method = SolverMethod::hybrid;
+  JacobianKind jacobian = JacobianKind::analytic;
+  PreconditionerKind preconditioner = PreconditionerKind::two_level;
+  bool operator==(const SolverSettings&) const = default;
+};
+
+/// Fills absent keys of `solver` from its preset.
+[[nodiscard]] SolverSettings resolve_solver(const Solver& solver);
+
+/// Particles along x, y, z (1 along z in 2D), without mirror ghosts.
+[[nodiscard]] std::array<std::int64_t, 3> lattice_counts(const Geometry& geometry);
+
+/// Product of `lattice_counts`.
+[[nodiscard]] std::int64_t particle_count(const Geometry& geometry);
+
+/// Nominal number of steps of the programme: the scene's, else for a displacement
+/// ceil(target / (increment_over_spacing spacing)); 1 without a drive.
+[[nodiscard]] std::int64_t nominal_steps(const Scene& scene);
+
+/// Index of the coordinate axis of a side's normal: 0 x, 1 y, 2 z.
+[[nodiscard]] constexpr int axis_of(Side side) {
+  return static_cast<int>(side) / 2;
+}
+
+/// Whether a side is at the upper end of its axis (right, top, back).
+[[nodiscard]] constexpr bool is_upper(Side side) {
+  return static_cast<int>(side) % 2 == 1;
+}
+
+/// Coordinate of a side of the box [m].
+[[nodiscard]] double side_position(const Geometry& geometry, Side side);
+
+}  // namespace scene

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "scene/scene.hpp"
+
+namespace scene {
+
+// The names of each enumeration's values, in the order of the enumerators.
+namespace names {
+inline constexpr std::array<std::string_view, 2> layout{"cell", "vertex"};
+inline constexpr std::array<std::string_view, 3> kernel{"cubic_spline", "quintic_spline",
+                                                        "wendland_c2"};
+inline constexpr std::array<std::string_view, 3> switch_{"auto", "on", "off"};
+inline constexpr std::array<std::string_view, 2> kinematics{"finite_strain", "small_strain"};
+inline constexpr std::array<std::string_view, 4> model{"elastic", "von_mises", "drucker_prager",
+                                                       "mohr_coulomb"};
+inline constexpr std::array<std::string_view, 2> match{"plane_strain", "compression_cone"};
+inline constexpr std::array<std::string_view, 6> control{"auto",      "none",        "viscosity",
+                                                         "stiffness", "incremental", "mixed"};
+inline constexpr std::array<std::string_view, 3> axis{"x", "y", "z"};
+inline constexpr std::array<std::string_view, 6> side{"left", "right", "bottom",
+                                                      "top",  "front", "back"};
+inline constexpr std::array<std::string_view, 2> method{"direct", "penalty"};
+inline constexpr std::array<std::string_view, 2> initial_stress{"none", "geostatic"};
+inline constexpr std::array<std::string_view, 3> drive{"none", "displacement", "load"};
+inline constexpr std::array<std::string_view, 2> lateral{"fixed", "free"};
+inline constexpr std::array<std::string_view, 2> load{"traction", "gravity"};
+inline constexpr std::array<std::string_view, 2> preset{"default", "appendix_a"};
+inline constexpr std::array<std::string_view, 3> solver{"hybrid", "newton_krylov", "multisecant"};
+inline constexpr std::array<std::string_view, 2> jacobian{"analytic", "finite_difference"};
+inline constexpr std::array<std::string_view, 3> preconditioner{"two_level", "block_jacobi",
+                                                                "none"};
+}  // namespace names
+
+/// The names of an enumeration's values as written in a scene, in the enumerators' order.
+constexpr std::span<const std::string_view> names_of(Layout) {
+  return names::layout;
+}
+constexpr std::span<const std::string_view> names_of(KernelKind) {
+  return names::kernel;
+}
+constexpr std::span<const std::string_view> names_of(Switch) {
+  return names::switch_;
+}
+constexpr std::span<const std::string_view> names_of(KinematicsKind) {
+  return names::kinematics;
+}
+constexpr std::span<const std::string_view> names_of(MaterialModel) {
+  return names::model;
+}
+constexpr std::span<const std::string_view> names_of(ConeMatch) {
+  return names::match;
+}
+constexpr std::span<const std::string_view> names_of(HourglassControl) {
+  return names::control;
+}
+constexpr std::span<const std::string_view> names_of(Axis) {
+  return names::axis;
+}
+constexpr std::span<const std::string_view> names_of(Side) {
+  return names::side;
+}
+constexpr std::span<const std::string_view> names_of(SupportMethod) {
+  return names::method;
+}
+constexpr std::span<const std::string_view> names_of(InitialStressKind) {
+  return names::initial_stress;
+}
+constexpr std::span<const std::string_view> names_of(DriveKind) {
+  return names::drive;
+}
+constexpr std::span<const std::string_view> names_of(Lateral) {
+  return names::lateral;
+}
+constexpr std::span<const std::string_view> names_of(LoadKind) {
+  return names::load;
+}
+constexpr std::span<const std::string_view> names_of(SolverPreset) {
+  return names::preset;
+}
+constexpr std::span<const std::string_view> names_of(SolverMethod) {
+  return names::solver;
+}
+constexpr std::span<const std::string_view> names_of(JacobianKind) {
+  return names::jacobian;
+}
+constexpr std::span<const std::string_view> names_of(PreconditionerKind) {
+  return names::preconditioner;
+}
+
+/// The name of a value as written in a scene: `name_of(Side::top) == "top"`.
+template <class Enum>
+requires std::is_enum_v<Enum>
+constexpr std::string_view name_of(Enum value) {
+  return names_of(value)[static_cast<std::size_t>(value)];
+}
+
+/// Particle fields a frame can hold, as [output] fields names them.
+inline constexpr std::array<std::string_view, 11> output_field_names{
+    "displacement",      "stress",         "mean_stress",
+    "deviatoric_stress", "plastic_strain", "plastic_volume_strain",
+    "volume_ratio",      "yielding",       "material",
+    "reaction",          "searched"};
+
+}  // namespace scene

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "tables/problem.hpp"
+
+namespace scene {
+
+/// What came of reading a scene: the scene if there is no error, and every problem found.
+struct SceneReading {
+  std::optional<Scene> scene;
+  std::vector<tables::Problem> errors;
+  std::vector<tables::Problem> warnings;
+};
+
+/// Reads a scene file and applies settings (`geometry.spacing=0.02`, `material.0.cohesion=1e3`,
+/// `material.soil.cohesion=1e3`) to it, in order. Never throws for what the user wrote; a file that
+/// cannot be read is an error of the reading.
+[[nodiscard]] SceneReading read_scene(const std::filesystem::path& file,
+                                      std::span<const std::string> settings = {});
+
+/// The same from text; `source` is the name that messages show.
+[[nodiscard]] SceneReading parse_scene(std::string_view text, const std::string& source,
+                                       std::span<const std::string> settings = {});
+
+}  // namespace scene

@@ -1,0 +1,222 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scene {
+
+/// Coordinates or components, one per space dimension (the reader has checked the length).
+using Point = std::vector<double>;
+
+enum class Layout { cell, vertex };
+enum class KernelKind { cubic_spline, quintic_spline, wendland_c2 };
+enum class Switch { automatic, on, off };
+enum class KinematicsKind { finite_strain, small_strain };
+enum class MaterialModel { elastic, von_mises, drucker_prager, mohr_coulomb };
+enum class ConeMatch { plane_strain, compression_cone };
+enum class HourglassControl { automatic, none, viscosity, stiffness, incremental, mixed };
+enum class Axis { x, y, z };
+/// Faces of the box: left and right are x- and x+, bottom and top y- and y+, front and back z- and
+/// z+. Up is y, in 3D as well.
+enum class Side { left, right, bottom, top, front, back };
+enum class SupportMethod { direct, penalty };
+enum class InitialStressKind { none, geostatic };
+enum class DriveKind { none, displacement, load };
+enum class Lateral { fixed, free };
+enum class LoadKind { traction, gravity };
+enum class SolverPreset { standard, appendix_a };
+enum class SolverMethod { hybrid, newton_krylov, multisecant };
+enum class JacobianKind { analytic, finite_difference };
+enum class PreconditionerKind { two_level, block_jacobi, none };
+
+// Every key below has its unit, range, default, meaning and source in one place, the field table
+// (scene_fields*.cpp), which also makes share/doc/scene.md. Units are SI, tension is positive.
+
+/// The body: a box filled by a lattice of particles.
+struct Geometry {
+  int dimension = 2;
+  Point min;             // [m]
+  Point max;             // [m]
+  double spacing = 0.0;  // [m] a whole number of times in each extent
+  Layout layout = Layout::cell;
+  double jitter = 0.0;  // [fraction of spacing]
+  std::int64_t seed = 1;
+  bool operator==(const Geometry&) const = default;
+};
+
+/// How the fields are approximated between the particles.
+struct Approximation {
+  KernelKind kernel = KernelKind::cubic_spline;
+  double support_over_spacing = 2.4;
+  Switch consistency = Switch::automatic;
+  KinematicsKind kinematics = KinematicsKind::finite_strain;
+  bool operator==(const Approximation&) const = default;
+};
+
+/// One material and where it is; the first fills the body, later ones win inside their region.
+struct Material {
+  std::string name;
+  MaterialModel model = MaterialModel::elastic;
+  double youngs_modulus = 0.0;  // [Pa]
+  double poissons_ratio = 0.0;
+  std::optional<double> cohesion;         // [Pa] present for every yielding model
+  std::optional<double> friction_angle;   // [deg] present for the frictional models
+  std::optional<double> dilation_angle;   // [deg] present for the frictional models
+  double density = 0.0;                   // [kg/m3]
+  std::optional<double> dilation_cutoff;  // accumulated plastic volume strain
+  ConeMatch match = ConeMatch::plane_strain;
+  Point region_min;  // [m] empty: everywhere
+  Point region_max;  // [m]
+  bool operator==(const Material&) const = default;
+};
+
+/// Control of zero-energy modes.
+struct Hourglass {
+  HourglassControl control = HourglassControl::automatic;
+  std::optional<double> stiffness_ratio;  // gamma
+  double modulus_factor = 1.0;            // chi
+  double viscosity = 0.01;                // theta, per step
+  bool operator==(const Hourglass&) const = default;
+};
+
+/// A mirror at a face of the box.
+struct Symmetry {
+  Axis axis = Axis::x;
+  double position = 0.0;  // [m]
+  bool operator==(const Symmetry&) const = default;
+};
+
+/// Particles whose displacement is zero in some directions; exactly one of side, region and at.
+struct Support {
+  std::string name;
+  std::optional<Side> side;
+  Point region_min;  // [m]
+  Point region_max;  // [m]
+  Point at;          // [m] the one nearest particle
+  std::vector<Axis> directions;
+  SupportMethod method = SupportMethod::direct;
+  double penalty_factor = 1e2;  // times Young's modulus
+  bool operator==(const Support&) const = default;
+};
+
+/// A traction on a part of one face.
+struct Traction {
+  std::string name;
+  Side side = Side::top;
+  Point range_min;  // [m] dimension - 1 entries, or empty: the whole side
+  Point range_max;  // [m]
+  Point value;      // [Pa]
+  bool follower = false;
+  bool operator==(const Traction&) const = default;
+};
+
+/// Body force per mass.
+struct Gravity {
+  Point acceleration;  // [m/s2] empty: none
+  bool operator==(const Gravity&) const = default;
+};
+
+/// The stress before the first step.
+struct InitialStress {
+  InitialStressKind kind = InitialStressKind::none;
+  std::optional<double> surface;  // [m] level y of zero (or surcharge) stress; absent: top face
+  std::optional<double> K0;       // absent: nu / (1 - nu)
+  double surcharge = 0.0;         // [Pa]
+  bool operator==(const InitialStress&) const = default;
+};
+
+/// What is moved or loaded, and how far.
+struct Drive {
+  DriveKind kind = DriveKind::none;
+  Side side = Side::top;
+  Point range_min;  // [m] dimension - 1 entries, or empty: the whole side
+  Point range_max;  // [m]
+  Point direction;  // unit vector
+  Lateral lateral = Lateral::fixed;
+  double target = 0.0;                     // [m] length of the prescribed displacement
+  std::vector<LoadKind> scales;            // what grows from 0 to 1 in a load drive
+  std::optional<double> reference_length;  // B [m]
+  std::optional<double> width;             // [m] over which the mean pressure is taken
+  bool operator==(const Drive&) const = default;
+};
+
+/// How the drive is cut into steps.
+struct Programme {
+  std::optional<std::int64_t> steps;  // absent: from increment_over_spacing
+  double increment_over_spacing = 0.02;
+  double minimum_increment_ratio = 1.0 / 1024.0;
+  double maximum_increment_ratio = 1.0;
+  double growth = 2.0;
+  int easy_steps = 10;
+  int easy_evaluations = 10;
+  int hard_evaluations = 120;
+  int patience = 128;
+  bool stop_at_failure = true;
+  bool operator==(const Programme&) const = default;
+};
+
+/// The nonlinear solver; an absent key is the preset's (resolve_solver).
+struct Solver {
+  SolverPreset preset = SolverPreset::standard;
+  std::optional<double> tolerance;
+  std::optional<SolverMethod> method;
+  std::optional<JacobianKind> jacobian;
+  std::optional<PreconditionerKind> preconditioner;
+  double coarse_spacing_over_spacing = 3.0;
+  int max_evaluations_per_step = 400;
+  bool operator==(const Solver&) const = default;
+};
+
+/// Local re-search of neighbours where plastic strain has grown.
+struct Research {
+  bool enabled = false;
+  double trigger = 0.15;
+  double hysteresis = 0.3;
+  bool operator==(const Research&) const = default;
+};
+
+/// What is written, where and how often.
+struct Output {
+  std::optional<std::string> directory;  // absent: out/<stem of the scene file>
+  int frames_every = 10;
+  int checkpoints_every = 25;
+  double checkpoints_every_minutes = 15.0;
+  int checkpoints_kept = 3;
+  int checkpoints_kept_every = 0;
+  int compression = 0;
+  std::vector<std::string> fields;  // empty: all
+  bool operator==(const Output&) const = default;
+};
+
+/// Whether, and how sharply, a footing's run is held against the bounds of its collapse load.
+struct Limit {
+  bool check = false;
+  double gap = 0.02;
+  double max_seconds = 120.0;
+  bool operator==(const Limit&) const = default;
+};
+
+/// A whole run as the user describes it, checked: every cross-field rule holds.
+struct Scene {
+  std::string title;
+  Geometry geometry;
+  Approximation approximation;
+  std::vector<Material> material;
+  Hourglass hourglass;
+  std::vector<Symmetry> symmetry;
+  std::vector<Support> support;
+  std::vector<Traction> traction;
+  Gravity gravity;
+  InitialStress initial_stress;
+  Drive drive;
+  Programme programme;
+  Solver solver;
+  Research research;
+  Output output;
+  Limit limit;
+  bool operator==(const Scene&) const = default;
+};
+
+}  // namespace scene

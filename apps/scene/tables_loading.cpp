@@ -1,0 +1,176 @@
+#include "scene/table_builder.hpp"
+#include "scene/tables.hpp"
+
+namespace scene {
+
+namespace {
+
+tables::TableInfo symmetry() {
+  return TableBuilder<Symmetry>(
+             "symmetry", &Scene::symmetry,
+             "A mirror at a face of the box: ghost particles behind it make it a "
+             "true symmetry plane. Layout cell only.")
+      .key("axis", &Symmetry::axis,
+           {.need = tables::Need::required, .doc = "Normal of the mirror."})
+      .key("position", &Symmetry::position,
+           {.need = tables::Need::required,
+            .unit = "m",
+            .doc = "Coordinate of the mirror along its axis: the box's lower or upper face."})
+      .build();
+}
+
+tables::TableInfo support() {
+  return TableBuilder<Support>("support", &Scene::support,
+                               "Particles that stay where they are in some directions, chosen by "
+                               "exactly one of side, region and at.")
+      .key("name", &Support::name,
+           {.need = tables::Need::required, .doc = "Unique; serves messages."})
+      .key("side", &Support::side,
+           {.need = tables::Need::optional,
+            .doc = "The particles next to a face: left x-, right x+, bottom y-, top y+, front z-, "
+                   "back z+.",
+            .absent = "region or at chooses"})
+      .key("region_min", &Support::region_min,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "Lower corner of a box of particles.",
+            .absent = "side or at chooses"})
+      .key("region_max", &Support::region_max,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "Upper corner of a box of particles.",
+            .absent = "side or at chooses"})
+      .key("at", &Support::at,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "The one particle nearest to this point.",
+            .absent = "side or region chooses"})
+      .key("directions", &Support::directions,
+           {.need = tables::Need::required, .doc = "Displacement components that are zero."})
+      .key("method", &Support::method,
+           {.doc = "direct: the unknowns are removed. penalty: they are held by stiff springs.",
+            .source = "penalty: Chen, Huang & Lyamin 2020, Eq. 3-4"})
+      .key("penalty_factor", &Support::penalty_factor,
+           {.range = tables::positive(),
+            .doc = "Penalty stiffness over Young's modulus; the displacement error falls as its "
+                   "inverse, the solver's condition grows with it."})
+      .build();
+}
+
+tables::TableInfo traction() {
+  return TableBuilder<Traction>("traction", &Scene::traction,
+                                "A force per area on a part of one face.")
+      .key("name", &Traction::name,
+           {.need = tables::Need::required, .doc = "Unique; serves messages."})
+      .key("side", &Traction::side,
+           {.need = tables::Need::required,
+            .doc = "left x-, right x+, bottom y-, top y+, front z-, back z+."})
+      .key("range_min", &Traction::range_min,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "Lower end along the side; in 3D two entries, in the order x, y, z.",
+            .absent = "the whole side"})
+      .key("range_max", &Traction::range_max,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "Upper end along the side.",
+            .absent = "the whole side"})
+      .key("value", &Traction::value,
+           {.need = tables::Need::required,
+            .unit = "Pa",
+            .doc = "Components in space: [0, -1] presses down."})
+      .key("follower", &Traction::follower,
+           {.doc = "true: area and normal follow the deformation; false: dead load on the initial "
+                   "area.",
+            .source = "Chen, Huang & Lyamin 2020, Eq. 3-12"})
+      .build();
+}
+
+tables::TableInfo gravity() {
+  return TableBuilder<Gravity>("gravity", &Scene::gravity, "Weight.")
+      .key("acceleration", &Gravity::acceleration,
+           {.need = tables::Need::optional,
+            .unit = "m/s2",
+            .doc = "Components in space, [0, -9.81] on earth.",
+            .absent = "weightless"})
+      .build();
+}
+
+tables::TableInfo initial_stress() {
+  return TableBuilder<InitialStress>("initial_stress", &Scene::initial_stress,
+                                     "The stress before the first step.")
+      .key("kind", &InitialStress::kind,
+           {.doc =
+                "geostatic: vertical stress from the weight above, horizontal stress K0 times it."})
+      .key("surface", &InitialStress::surface,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "Level y where the weight above is zero.",
+            .absent = "the top face"})
+      .key("K0", &InitialStress::K0,
+           {.need = tables::Need::optional,
+            .range = tables::at_least(0.0),
+            .doc = "Horizontal over vertical stress.",
+            .absent = "nu / (1 - nu), laterally confined elasticity"})
+      .key("surcharge", &InitialStress::surcharge,
+           {.unit = "Pa",
+            .range = tables::at_least(0.0),
+            .doc = "Pressure on the surface that the initial stress already carries."})
+      .build();
+}
+
+tables::TableInfo drive() {
+  return TableBuilder<Drive>("drive", &Scene::drive, "What is moved or loaded, and how far.")
+      .key("kind", &Drive::kind,
+           {.doc = "displacement: particles of a side are moved. load: tractions or gravity grow "
+                   "from 0 to their value. none: constant loads, one step."})
+      .key("side", &Drive::side, {.doc = "displacement: the side that is moved."})
+      .key("range_min", &Drive::range_min,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "displacement: lower end along the side; in 3D two entries.",
+            .absent = "the whole side"})
+      .key("range_max", &Drive::range_max,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "displacement: upper end along the side.",
+            .absent = "the whole side"})
+      .key("direction", &Drive::direction,
+           {.need = tables::Need::optional,
+            .doc = "displacement: unit vector of the motion, [0, -1] is down.",
+            .absent = "only without a displacement"})
+      .key("lateral", &Drive::lateral,
+           {.doc = "displacement: fixed (rough) or free (smooth) across the direction."})
+      .key("target", &Drive::target,
+           {.unit = "m",
+            .range = tables::at_least(0.0),
+            .doc = "displacement: how far; the direction has the sign."})
+      .key("scales", &Drive::scales,
+           {.need = tables::Need::optional,
+            .doc = "load: what grows.",
+            .absent = "only without a load"})
+      .key("reference_length", &Drive::reference_length,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .range = tables::positive(),
+            .doc = "B of settlement_over_B in the curve: half width of a footing, height of a "
+                   "sample.",
+            .absent = "the largest extent of the body"})
+      .key(
+          "width", &Drive::width,
+          {.need = tables::Need::optional,
+           .unit = "m",
+           .range = tables::positive(),
+           .doc = "Mean pressure = reaction / width; of the modelled half if a symmetry halves the "
+                  "plate. In 3D the loaded area [m2].",
+           .absent = "only without a displacement"})
+      .build();
+}
+
+}  // namespace
+
+std::vector<tables::TableInfo> loading_tables() {
+  return {symmetry(), support(), traction(), gravity(), initial_stress(), drive()};
+}
+
+}  // namespace scene

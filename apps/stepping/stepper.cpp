@@ -1,0 +1,281 @@
+#include "stepping/stepper.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "jfnk/gmres.hpp"
+#include "scene/derived.hpp"
+
+namespace stepping {
+namespace {
+
+// A step that ends this close to the end of the programme ends at it.
+constexpr double end_slack = 1e-9;
+
+jfnk::Options solver_options(const scene::Scene& scene) {
+  const scene::SolverSettings settings = scene::resolve_solver(scene.solver);
+  jfnk::Options options = scene.solver.preset == scene::SolverPreset::appendix_a
+                              ? jfnk::appendix_a(settings.tolerance, settings.tolerance, 1000)
+                              : jfnk::plasticity();
+  options.tolerances.relative = settings.tolerance;
+  switch (settings.method) {
+    case scene::SolverMethod::hybrid:
+      options.method = jfnk::Method::hybrid;
+      break;
+    case scene::SolverMethod::newton_krylov:
+      options.method = jfnk::Method::newton_krylov;
+      break;
+    case scene::SolverMethod::multisecant:
+      options.method = jfnk::Method::multisecant;
+      break;
+  }
+  if (settings.jacobian == scene::JacobianKind::finite_difference) {
+    options.jacobian.source = jfnk::Jacobian::Source::finite_difference;
+  }
+  options.jacobian.length_scale = scene.geometry.spacing;
+  options.max_evaluations = scene.solver.max_evaluations_per_step;
+  return options;
+}
+
+double coarse_spacing(const scene::Scene& scene) {
+  return scene::resolve_solver(scene.solver).preconditioner == scene::PreconditionerKind::two_level
+             ? scene.solver.coarse_spacing_over_spacing
+             : 0.0;
+}
+
+// On the initial rows, whatever was re-searched since: a resumed run has the same preconditioner.
+template <int Dim>
+fpm::MomentOperator<Dim> initial_operator(const model::Model<Dim>& model) {
+  return {fpm::Rows<Dim>(model.particles, model.ghosts, model.row_options), model.ghosts,
+          model.channels};
+}
+
+}  // namespace
+
+template <int Dim>
+LoadStepper<Dim>::LoadStepper(const scene::Scene& scene, const model::Model<Dim>& model,
+                              model::State<Dim>& state)
+    : scene_(scene),
+      model_(model),
+      state_(state),
+      equilibrium_(model, state),
+      preconditioner_(model, initial_operator(model), coarse_spacing(scene)),
+      use_preconditioner_(scene::resolve_solver(scene.solver).preconditioner !=
+                          scene::PreconditionerKind::none),
+      solver_(solver_options(scene)),
+      nominal_increment_(1.0 / static_cast<double>(scene::nominal_steps(scene))),
+      patience_(scene.programme.patience, nominal_increment_, state.programme.load),
+      increment_(model.unknowns()) {
+  if (state_.programme.next_increment <= 0.0) state_.programme.next_increment = nominal_increment_;
+}
+
+template <int Dim>
+bool LoadStepper<Dim>::finished() const {
+  return state_.programme.load >= 1.0;
+}
+
+template <int Dim>
+void LoadStepper<Dim>::set_prescribed(double increment, Eigen::VectorXd& u) const {
+  for (Eigen::Index k = 0; k < u.size(); ++k) {
+    if (model_.prescribed[static_cast<std::size_t>(k)] != 0) u[k] = increment * model_.drive[k];
+  }
+}
+
+// Free unknowns by one linear solve from the converged state: J u_free = -(r(0) + J u_prescribed).
+template <int Dim>
+bool LoadStepper<Dim>::predict_by_tangent(double increment, Eigen::VectorXd& u,
+                                          StepRecord& record) {
+  jfnk::GmresOptions options;
+  options.relative_tolerance = 1e-2;
+  options.max_iterations = 200;
+  u.setZero();
+  Eigen::VectorXd residual(u.size());
+  ++record.residual_evaluations;
+  if (equilibrium_(u, residual) != jfnk::Evaluation::ok || !equilibrium_.linearise(u)) return false;
+  Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(u.size());
+  set_prescribed(increment, prescribed);
+  Eigen::VectorXd action(u.size());
+  equilibrium_.apply_jacobian(prescribed, action);
+  const Eigen::VectorXd rhs = -(residual + action);
+  const auto jacobian = [&](const Eigen::VectorXd& v, Eigen::VectorXd& jv) {
+    equilibrium_.apply_jacobian(v, jv);
+  };
+  const auto result = use_preconditioner_ ? jfnk::gmres(jacobian, rhs, u, options, preconditioner_)
+                                          : jfnk::gmres(jacobian, rhs, u, options);
+  record.jacobian_actions += result.iterations + 1;
+  u += prescribed;
+  return u.allFinite();
+}
+
+template <int Dim>
+bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult& result) {
+  const auto observer = [&](const jfnk::Iteration& i) { return !watch || watch(i); };
+  const jfnk::Report& report = use_preconditioner_
+                                   ? solver_.solve(equilibrium_, u, preconditioner_, observer)
+                                   : solver_.solve(equilibrium_, u, jfnk::Identity{}, observer);
+  StepRecord& record = result.record;
+  record.newton_iterations += report.newton_iterations;
+  record.residual_evaluations += report.counts.residuals();
+  record.jacobian_actions += report.counts.user_actions;
+  record.residual_ratio = report.residual_norm / std::max(report.reference_norm, 1e-300);
+  result.status = report.status;
+  if (report.converged()) return true;
+  result.reason = report.reason;
+  result.folded_particle = equilibrium_.failure().particle;
+  if (report.status == jfnk::Status::stopped) result.outcome = StepOutcome::stopped;
+  return false;
+}
+
+template <int Dim>
+StepResult LoadStepper<Dim>::advance(const Watch& watch) {
+  model::ProgrammeState& programme = state_.programme;
+  StepResult result;
+  for (;;) {
+    const double left = 1.0 - programme.load;
+    double increment = std::min(programme.next_increment, left);
+    if (left - increment < end_slack) increment = left;
+    equilibrium_.begin_step(increment == left ? 1.0 : programme.load + increment);
+
+    // Predictor: the last increment. Moving the prescribed unknowns alone would tear the body.
+    bool solved = false;
+    const bool has_history = programme.last_increment > 0.0;
+    if (has_history) {
+      increment_ = (increment / programme.last_increment) *
+                   Eigen::Map<const Eigen::VectorXd>(state_.increment.data(), model_.unknowns());
+      set_prescribed(increment, increment_);
+      solved = solve(increment_, watch, result);
+    }
+    if (!solved && result.outcome != StepOutcome::stopped) {
+      solved = predict_by_tangent(increment, increment_, result.record) &&
+               solve(increment_, watch, result);
+    }
+    if (solved) {
+      finish_step(increment, result.record);
+      return result;
+    }
+    if (result.outcome == StepOutcome::stopped) return result;
+    patience_.attempted();
+    if (patience_.lost()) return give_up(StepOutcome::hopeless, result);
+    ++result.record.cuts;
+    programme.next_increment = 0.5 * increment;
+    programme.easy_steps = 0;
+    if (programme.next_increment < nominal_increment_ * scene_.programme.minimum_increment_ratio) {
+      return give_up(StepOutcome::minimum_increment, result);
+    }
+  }
+}
+
+// Looks once more at the best of the last attempt, for the report.
+template <int Dim>
+StepResult& LoadStepper<Dim>::give_up(StepOutcome outcome, StepResult& result) {
+  result.outcome = outcome;
+  result.attempts = patience_.attempts();
+  result.patience_mark = patience_.mark();
+  if (!increment_.allFinite()) return result;
+  Eigen::VectorXd residual(increment_.size());
+  if (equilibrium_(increment_, residual) != jfnk::Evaluation::ok) return result;
+  result.attempt = increment_;
+  result.residual = std::move(residual);
+  return result;
+}
+
+template <int Dim>
+void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
+  model::ProgrammeState& programme = state_.programme;
+  const equilibrium::StepForces forces = equilibrium_.commit(increment_);
+  const bool displaced = scene_.drive.kind == scene::DriveKind::displacement;
+  const double length = displaced ? scene_.drive.target : 1.0;
+
+  ++programme.step;
+  programme.load = 1.0 - programme.load - increment < end_slack ? 1.0 : programme.load + increment;
+  programme.last_increment = increment;
+  patience_.attempted();
+  patience_.reached(programme.load);
+  programme.hourglass_work += forces.hourglass_work;
+  programme.external_work += forces.external_work;
+
+  record.step = programme.step;
+  record.load = programme.load;
+  record.settlement = displaced ? length * programme.load : 0.0;
+  record.increment = length * increment;
+  record.reaction = forces.reaction;
+  const double width = scene_.drive.width.value_or(0.0);
+  if (displaced && width > 0.0) {
+    record.mean_pressure = forces.reaction / width;
+    record.corrected_pressure =
+        (forces.reaction - forces.hourglass_work / record.increment) / width;
+  }
+  record.evaluations = record.residual_evaluations + record.jacobian_actions;
+  record.plastic_particles = forces.plastic;
+  record.max_plastic_strain = forces.max_plastic_strain;
+  record.hourglass_work_ratio =
+      programme.external_work != 0.0 ? programme.hourglass_work / programme.external_work : 0.0;
+  record.max_displacement = std::sqrt(state_.displacement.rowwise().squaredNorm().maxCoeff());
+  record.researched_rows = research();
+  choose_next_increment(record);
+}
+
+// Rows that have strained plastically since their last search get new neighbours; stress and
+// history stay with the particle, and the next step absorbs the small loss of equilibrium.
+// Departure: with hysteresis, and without a separate return to equilibrium
+// (share/doc/decisions/re-search.md).
+template <int Dim>
+Eigen::Index LoadStepper<Dim>::research() {
+  if (!scene_.research.enabled || !state_.layout.finite || !state_.layout.plastic) return 0;
+  const Eigen::VectorXd gained = state_.plastic_strain - state_.plastic_strain_at_search;
+  if (!(gained.maxCoeff() > scene_.research.trigger)) return 0;
+  const double threshold = scene_.research.trigger * scene_.research.hysteresis;
+  std::vector<fpm::Index> rows;
+  for (fpm::Index a = 0; a < gained.size(); ++a) {
+    if (gained[a] > threshold) rows.push_back(a);
+  }
+  const Eigen::Index n = model_.size();
+  Eigen::VectorXd ratio(n);
+  for (Eigen::Index a = 0; a < n; ++a) {
+    ratio[a] =
+        Eigen::Map<const fpm::Tensor<Dim>>(state_.deformation_gradient.col(a).data()).determinant();
+  }
+  const Eigen::VectorXd volume = state_.rows.reference_volume().cwiseProduct(ratio);
+  const fpm::Field<Dim> position = model_.particles.position + state_.displacement;
+  const auto rebuilt = state_.rows.research(rows, position, volume, model_.driven_particle);
+  for (const fpm::Index a : rebuilt) {
+    state_.searched_volume_ratio[a] *= ratio[a];
+    Eigen::Map<fpm::Tensor<Dim>>(state_.deformation_gradient.col(a).data()).setIdentity();
+  }
+  // A row that could not be rebuilt waits for as much strain again.
+  for (const fpm::Index a : rows) {
+    state_.plastic_strain_at_search[a] = state_.plastic_strain[a];
+  }
+  if (!rebuilt.empty()) equilibrium_.rebuild_operator();
+  ++state_.programme.research_events;
+  return static_cast<Eigen::Index>(rebuilt.size());
+}
+
+// Back to the nominal step gently after a cut; beyond it only where steps are easy. A step that was
+// hard but converged is not cut far below the nominal one: smaller steps would cost as much each.
+template <int Dim>
+void LoadStepper<Dim>::choose_next_increment(const StepRecord& record) {
+  constexpr double hard_floor = 0.25;  // of the nominal increment
+  model::ProgrammeState& programme = state_.programme;
+  const scene::Programme& rule = scene_.programme;
+  const bool below_nominal = programme.next_increment < nominal_increment_;
+  const int easy = below_nominal ? rule.hard_evaluations : rule.easy_evaluations;
+  const int wait = below_nominal ? std::max(1, rule.easy_steps / 3) : rule.easy_steps;
+  programme.easy_steps =
+      record.cuts == 0 && record.evaluations <= easy ? programme.easy_steps + 1 : 0;
+  if (record.cuts == 0 && record.evaluations > rule.hard_evaluations) {
+    const double floor = std::min(programme.next_increment, hard_floor * nominal_increment_);
+    programme.next_increment = std::max(floor, programme.next_increment / rule.growth);
+  } else if (programme.easy_steps >= wait) {
+    const double limit = nominal_increment_ * (below_nominal ? 1.0 : rule.maximum_increment_ratio);
+    programme.next_increment = std::min(limit, programme.next_increment * rule.growth);
+    programme.easy_steps = 0;
+  }
+}
+
+template class LoadStepper<2>;
+template class LoadStepper<3>;
+
+}  // namespace stepping

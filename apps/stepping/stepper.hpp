@@ -1,0 +1,99 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "equilibrium/equilibrium.hpp"
+#include "equilibrium/preconditioner.hpp"
+#include "jfnk/solver.hpp"
+#include "model/model.hpp"
+#include "model/state.hpp"
+#include "scene/scene.hpp"
+#include "stepping/patience.hpp"
+
+namespace stepping {
+
+/// What one converged step did; the curve and the progress line are made of it.
+struct StepRecord {
+  std::int64_t step = 0;
+  double load = 0.0;                // load parameter reached
+  double settlement = 0.0;          // [m] of the drive
+  double increment = 0.0;           // [m] of the drive, or of the load parameter in a load drive
+  double reaction = 0.0;            // [N/m or N]
+  double mean_pressure = 0.0;       // [Pa] reaction over width, if a width is given
+  double corrected_pressure = 0.0;  // [Pa] less what the hourglass control took
+  int newton_iterations = 0;
+  int residual_evaluations = 0;
+  int jacobian_actions = 0;
+  int evaluations = 0;  // of all attempts at this step, predictors included
+  int cuts = 0;
+  Eigen::Index plastic_particles = 0;
+  Eigen::Index researched_rows = 0;
+  double residual_ratio = 0.0;  // |r_free| over the reference norm
+  double max_plastic_strain = 0.0;
+  double hourglass_work_ratio = 0.0;  // accumulated, over the work of the loads
+  double max_displacement = 0.0;      // [m]
+};
+
+enum class StepOutcome {
+  converged,          // the state holds the new step
+  minimum_increment,  // cut back to the minimum without convergence; the state is the last good one
+  hopeless,           // patience lost after a failed attempt; the state is the last good one
+  stopped,            // the observer asked to stop; the state is the last good one
+};
+
+struct StepResult {
+  StepOutcome outcome = StepOutcome::converged;
+  StepRecord record;
+  jfnk::Status status = jfnk::Status::converged;  // of the last attempt
+  std::string reason;                             // why the last attempt failed
+  // Of the last attempt, if the stepper gave up:
+  fpm::Index folded_particle = -1;  // could not be evaluated: inverted or not finite
+  Eigen::VectorXd attempt;          // [m] increment of the lowest residual met, or empty
+  Eigen::VectorXd residual;         // [N/m or N] at it, 0 at prescribed unknowns, or empty
+  int attempts = 0;                 // at steps, since the load was `patience_mark`
+  double patience_mark = 0.0;
+};
+
+/// Advances a state through the load programme, one converged step at a time: predictor, solve,
+/// cut-back, commit, re-search, next step size. Everything it remembers between steps is in the
+/// state, so that a resumed run takes the same decisions.
+template <int Dim>
+class LoadStepper {
+ public:
+  /// Called after each nonlinear iteration; returning false stops the step.
+  using Watch = std::function<bool(const jfnk::Iteration&)>;
+
+  LoadStepper(const scene::Scene& scene, const model::Model<Dim>& model, model::State<Dim>& state);
+
+  bool finished() const;
+  StepResult advance(const Watch& watch = {});
+
+  /// Re-searches, if the scene's rule asks for it, as each converged step does at its end.
+  /// @return the rows rebuilt
+  Eigen::Index research();
+
+  const equilibrium::Equilibrium<Dim>& equilibrium() const { return equilibrium_; }
+  std::size_t bytes() const { return equilibrium_.bytes() + preconditioner_.bytes(); }
+
+ private:
+  void set_prescribed(double increment, Eigen::VectorXd& u) const;
+  bool predict_by_tangent(double increment, Eigen::VectorXd& u, StepRecord& record);
+  bool solve(Eigen::VectorXd& u, const Watch& watch, StepResult& result);
+  StepResult& give_up(StepOutcome outcome, StepResult& result);
+  void finish_step(double increment, StepRecord& record);
+  void choose_next_increment(const StepRecord& record);
+
+  const scene::Scene& scene_;
+  const model::Model<Dim>& model_;
+  model::State<Dim>& state_;
+  equilibrium::Equilibrium<Dim> equilibrium_;
+  equilibrium::TwoLevelPreconditioner<Dim> preconditioner_;
+  bool use_preconditioner_ = true;
+  jfnk::Solver solver_;
+  double nominal_increment_ = 1.0;  // of the load parameter
+  Patience patience_;
+  Eigen::VectorXd increment_;
+};
+
+}  // namespace stepping

@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "tables/nearest_name.hpp"
+#include "tables/tree.hpp"
+
+namespace tables {
+
+namespace {
+
+// Counts are held in 32 bits.
+constexpr std::int64_t largest_integer = 2147483647;
+
+struct Reader {
+  const Field& field;
+  const std::string& key;
+  Diagnosis& diagnosis;
+
+  std::nullopt_t refuse(const toml::node& node) const {
+    diagnosis.error(key, "found " + describe(node), "allowed is " + field.allowed_text());
+    return std::nullopt;
+  }
+
+  std::optional<double> number(const toml::node& node) const {
+    const auto value = node.value<double>();
+    if (!value || !(node.is_integer() || node.is_floating_point())) return refuse(node);
+    if (!std::isfinite(*value) || !field.notes.range.holds(*value)) return refuse(node);
+    return value;
+  }
+
+  std::optional<Value> integer(const toml::node& node) const {
+    const auto value = node.value_exact<std::int64_t>();
+    if (!value || !field.notes.range.holds(static_cast<double>(*value))) return refuse(node);
+    if (*value > largest_integer || *value < -largest_integer) {
+      diagnosis.error(key, "found " + describe(node),
+                      fmt::format("allowed is a whole number up to {}", largest_integer));
+      return std::nullopt;
+    }
+    return Value(*value);
+  }
+
+  std::optional<std::string> name(const toml::node& node) const {
+    const auto value = node.value_exact<std::string>();
+    if (!value) return refuse(node);
+    const auto& choices = field.choices;
+    if (choices.empty() || std::find(choices.begin(), choices.end(), *value) != choices.end()) {
+      return value;
+    }
+    diagnosis.error(key, "found " + describe(node), "allowed is " + field.allowed_text(),
+                    nearest_name(*value, choices));
+    return std::nullopt;
+  }
+
+  /// A list of pairs of numbers.
+  std::optional<Value> points(const toml::node& node) const {
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->empty()) return refuse(node);
+    std::vector<double> coordinates;
+    for (const toml::node& entry : *array) {
+      const toml::array* pair = entry.as_array();
+      if (pair == nullptr || pair->size() != 2) return refuse(entry);
+      for (const toml::node& coordinate : *pair) {
+        const auto value = number(coordinate);
+        if (!value) return std::nullopt;
+        coordinates.push_back(*value);
+      }
+    }
+    return Value(std::move(coordinates));
+  }
+
+  /// A list, or one item in its stead.
+  template <class Item, class Read>
+  std::optional<Value> list(const toml::node& node, Read read) const {
+    std::vector<Item> items;
+    const toml::array* array = node.as_array();
+    if (array == nullptr) {
+      const auto item = read(node);
+      return item ? std::optional<Value>(std::vector<Item>{*item}) : std::nullopt;
+    }
+    if (array->empty()) return refuse(node);
+    for (const toml::node& entry : *array) {
+      const auto item = read(entry);
+      if (!item) return std::nullopt;
+      items.push_back(*item);
+    }
+    return Value(std::move(items));
+  }
+};
+
+template <class T>
+std::optional<Value> widen(std::optional<T> value) {
+  return value ? std::optional<Value>(std::move(*value)) : std::nullopt;
+}
+
+}  // namespace
+
+std::string describe(const toml::node& node) {
+  if (node.is_table()) return "a table";
+  if (node.is_array_of_tables()) return "a list of tables";
+  std::ostringstream text;
+  if (const auto* v = node.as_string()) {
+    text << "the text " << value_text(Value(v->get()));
+  } else if (const auto* f = node.as_floating_point()) {
+    text << number_text(f->get());
+  } else if (const auto* i = node.as_integer()) {
+    text << i->get();
+  } else if (const auto* b = node.as_boolean()) {
+    text << (b->get() ? "true" : "false");
+  } else if (const auto* a = node.as_array()) {
+    if (a->empty()) return "an empty list";
+    text << "[";
+    for (std::size_t n = 0; n < a->size(); ++n) text << (n ? ", " : "") << describe((*a)[n]);
+    text << "]";
+  } else {
+    text << "a date or time";
+  }
+  return text.str();
+}
+
+std::optional<Value> convert(const toml::node& node, const Field& field, const std::string& key,
+                             Diagnosis& diagnosis) {
+  const Reader reader{field, key, diagnosis};
+  switch (field.kind) {
+    case ValueKind::boolean:
+      if (const auto value = node.value_exact<bool>()) return Value(*value);
+      return reader.refuse(node);
+    case ValueKind::integer:
+      return reader.integer(node);
+    case ValueKind::number:
+      return widen(reader.number(node));
+    case ValueKind::text:
+    case ValueKind::choice:
+      return widen(reader.name(node));
+    case ValueKind::numbers:
+      return reader.list<double>(node, [&](const toml::node& n) { return reader.number(n); });
+    case ValueKind::texts:
+    case ValueKind::choices:
+      return reader.list<std::string>(node, [&](const toml::node& n) { return reader.name(n); });
+    case ValueKind::points:
+      return reader.points(node);
+  }
+  return std::nullopt;
+}
+
+}  // namespace tables

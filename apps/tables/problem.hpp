@@ -1,0 +1,56 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace tables {
+
+/// One thing wrong (or doubtful) in what the user wrote.
+struct Problem {
+  std::string where;    // file:line:column, or `--set a.b=value`
+  std::string key;      // dotted, as --set takes it: material.0.cohesion; "" for the whole file
+  std::string found;    // what is there
+  std::string allowed;  // what may be there instead
+  std::string nearest;  // the name probably meant, or ""
+
+  /// `where: key: found; allowed[; did you mean "..."?]` on one line.
+  [[nodiscard]] std::string text() const;
+  bool operator==(const Problem&) const = default;
+};
+
+/// Collects the problems of one scene and knows where each key was written.
+class Diagnosis {
+ public:
+  /// @param source  name shown before line and column, as the user gave it
+  explicit Diagnosis(std::string source) : source_(std::move(source)) {}
+
+  /// Remembers where a key or table was given.
+  void place(const std::string& key, std::string where) { places_[key] = std::move(where); }
+  /// Where a key, or else the nearest enclosing table, was given; else the source's name.
+  [[nodiscard]] std::string where(const std::string& key) const;
+  /// Whether the user wrote this key.
+  [[nodiscard]] bool given(const std::string& key) const { return places_.count(key) != 0; }
+
+  /// Adds an error; the key then counts as bad.
+  void error(const std::string& key, std::string found, std::string allowed,
+             std::string nearest = "");
+  /// Adds a warning: the scene remains usable.
+  void warning(const std::string& key, std::string found, std::string allowed);
+  /// Whether none of these keys has an error, so that a rule joining them can be judged.
+  [[nodiscard]] bool good(const std::vector<std::string>& keys) const;
+
+  [[nodiscard]] const std::string& source() const { return source_; }
+  [[nodiscard]] const std::vector<Problem>& errors() const { return errors_; }
+  [[nodiscard]] const std::vector<Problem>& warnings() const { return warnings_; }
+
+ private:
+  std::string source_;
+  std::map<std::string, std::string> places_;
+  std::set<std::string> bad_;
+  std::vector<Problem> errors_;
+  std::vector<Problem> warnings_;
+};
+
+}  // namespace tables

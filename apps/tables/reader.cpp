@@ -1,0 +1,195 @@
+#include "tables/reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "tables/nearest_name.hpp"
+#include "tables/tree.hpp"
+
+namespace tables {
+
+namespace {
+
+std::string place_of(const toml::source_region& region, const std::string& source) {
+  return fmt::format("{}:{}:{}", source, region.begin.line, region.begin.column);
+}
+
+/// Walks the tree along the list of tables.
+class Walker {
+ public:
+  Walker(const toml::table& tree, const std::vector<TableInfo>& tables, const TableSink& sink,
+         Diagnosis& diagnosis)
+      : tree_(tree), tables_(tables), sink_(sink), diagnosis_(diagnosis) {}
+
+  void walk() {
+    refuse_unknown_names();
+    for (const TableInfo& info : tables_) {
+      if (info.name.empty()) {
+        read_entry(info, 0, tree_);
+      } else if (const toml::node* node = tree_.get(info.name)) {
+        place(std::string(info.name), *node);
+        info.repeated ? read_repeated(info, *node) : read_single(info, *node);
+      } else if (info.required) {
+        diagnosis_.error(std::string(info.name), "table is missing",
+                         "a scene needs " + info.title());
+      }
+    }
+  }
+
+ private:
+  /// A node, or the key of an unknown name, was written here.
+  template <class NodeOrKey>
+  void place(const std::string& key, const NodeOrKey& written) {
+    if (diagnosis_.given(key)) return;  // by a setting
+    diagnosis_.place(key, place_of(written.source(), diagnosis_.source()));
+  }
+
+  void refuse_unknown_names() {
+    std::vector<std::string_view> all;
+    for (const TableInfo& info : tables_) {
+      if (!info.name.empty()) all.push_back(info.name);
+      if (!info.name.empty()) continue;
+      for (const Field& field : info.fields) all.push_back(field.key);
+    }
+    for (const auto& [key, node] : tree_) {
+      const std::string name(key.str());
+      if (std::find(all.begin(), all.end(), name) != all.end()) continue;
+      place(name, key);
+      diagnosis_.error(
+          name, node.is_table() || node.is_array_of_tables() ? "no such table" : "no such key",
+          "allowed at the top level are " + joined(all), nearest_name(name, all));
+    }
+  }
+
+  void read_single(const TableInfo& info, const toml::node& node) {
+    if (const toml::table* table = node.as_table()) {
+      read_entry(info, 0, *table);
+      return;
+    }
+    diagnosis_.error(std::string(info.name), "found " + describe(node),
+                     fmt::format("this is one table, written {}", info.title()));
+  }
+
+  void read_repeated(const TableInfo& info, const toml::node& node) {
+    const toml::array* entries = node.as_array();
+    const bool empty = entries != nullptr && entries->empty();
+    if (entries == nullptr || !(empty || entries->is_array_of_tables())) {
+      diagnosis_.error(std::string(info.name), "found " + describe(node),
+                       fmt::format("each entry is written {}", info.title()));
+      return;
+    }
+    if (empty && info.required) {
+      diagnosis_.error(std::string(info.name), "list is empty", "a scene needs " + info.title());
+    }
+    sink_.resize(info, entries->size());
+    for (std::size_t i = 0; i < entries->size(); ++i) {
+      place(info.path(i, ""), (*entries)[i]);
+      read_entry(info, i, *(*entries)[i].as_table());
+    }
+  }
+
+  void read_entry(const TableInfo& info, std::size_t index, const toml::table& table) {
+    for (const Field& field : info.fields) {
+      const std::string path = info.path(index, field.key);
+      const toml::node* node = table.get(field.key);
+      if (node != nullptr) {
+        place(path, *node);
+        if (const auto value = convert(*node, field, path, diagnosis_)) {
+          sink_.write(info, index, field, *value);
+        }
+      } else if (field.notes.need == Need::required && diagnosis_.good({path})) {
+        diagnosis_.error(path, "is missing", "needed is " + field.allowed_text());
+      }
+    }
+    if (!info.name.empty()) refuse_unknown_keys(info, index, table);
+  }
+
+  void refuse_unknown_keys(const TableInfo& info, std::size_t index, const toml::table& table) {
+    std::vector<std::string_view> all;
+    for (const Field& field : info.fields) all.push_back(field.key);
+    for (const auto& entry : table) {
+      const toml::key& key = entry.first;
+      const std::string name(key.str());
+      if (info.find(name) != nullptr) continue;
+      const std::string path = info.path(index, name);
+      place(path, key);
+      std::string nearest = nearest_name(name, all);
+      if (nearest.empty()) nearest = in_another_table(name);
+      diagnosis_.error(path, "no such key",
+                       fmt::format("keys of {} are {}", info.title(), joined(all)), nearest);
+    }
+  }
+
+  /// `geometry.spacing` if the key exists in some other table.
+  [[nodiscard]] std::string in_another_table(const std::string& key) const {
+    for (const TableInfo& info : tables_) {
+      if (!info.name.empty() && info.find(key) != nullptr) {
+        return fmt::format("{}.{}", info.name, key);
+      }
+    }
+    return "";
+  }
+
+  const toml::table& tree_;
+  const std::vector<TableInfo>& tables_;
+  const TableSink& sink_;
+  Diagnosis& diagnosis_;
+};
+
+Problem unreadable(const std::filesystem::path& file, const std::string& why) {
+  Problem problem{file.string(), "", "cannot be read: " + why, "allowed is a TOML file", ""};
+  std::vector<std::string> siblings;
+  std::error_code ignored;
+  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".toml") siblings.push_back(entry.path().filename().string());
+  }
+  std::sort(siblings.begin(), siblings.end());
+  const std::vector<std::string_view> names(siblings.begin(), siblings.end());
+  const std::string nearest = nearest_name(file.filename().string(), names);
+  if (!nearest.empty()) problem.nearest = (file.parent_path() / nearest).string();
+  return problem;
+}
+
+}  // namespace
+
+std::optional<Problem> read_tables(std::string_view text, std::span<const std::string> settings,
+                                   const std::vector<TableInfo>& tables, const TableSink& sink,
+                                   Diagnosis& diagnosis) {
+  toml::table tree;
+  try {
+    tree = toml::parse(text, diagnosis.source());
+  } catch (const toml::parse_error& failure) {
+    return Problem{place_of(failure.source(), diagnosis.source()), "",
+                   "not TOML: " + std::string(failure.description()), "", ""};
+  }
+  apply_settings(tree, settings, tables, diagnosis);
+  Walker(tree, tables, sink, diagnosis).walk();
+  return std::nullopt;
+}
+
+std::variant<std::string, Problem> text_of(const std::filesystem::path& file) {
+  std::error_code failure;
+  if (std::filesystem::is_directory(file, failure)) return unreadable(file, "it is a folder");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return unreadable(file, std::strerror(errno));
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (stream.bad()) return unreadable(file, std::strerror(errno));
+  return text.str();
+}
+
+bool has_table(std::string_view text, std::string_view name) {
+  try {
+    return toml::parse(text).contains(name);
+  } catch (const toml::parse_error&) {
+    return false;
+  }
+}
+
+}  // namespace tables

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "tables/problem.hpp"
+#include "tables/table.hpp"
+
+namespace tables {
+
+/// Takes what is read along a list of tables.
+struct TableSink {
+  /// A repeated table has so many entries.
+  std::function<void(const TableInfo& table, std::size_t count)> resize;
+  /// The value of a key that was given, of the kind and in the range its field allows.
+  std::function<void(const TableInfo& table, std::size_t index, const Field& field,
+                     const Value& value)>
+      write;
+};
+
+/// Reads TOML text along a list of tables, settings (`--set`) applied first. Unknown and missing
+/// names and values that are not allowed become errors of the diagnosis, which also learns where
+/// each key was written.
+/// @return the problem if the text is no TOML; nothing else was read then.
+[[nodiscard]] std::optional<Problem> read_tables(std::string_view text,
+                                                 std::span<const std::string> settings,
+                                                 const std::vector<TableInfo>& tables,
+                                                 const TableSink& sink, Diagnosis& diagnosis);
+
+/// The text of a file, or why it cannot be read, with a file of a similar name.
+[[nodiscard]] std::variant<std::string, Problem> text_of(const std::filesystem::path& file);
+
+/// Whether TOML text has something of this name at its top level; false if it is no TOML.
+[[nodiscard]] bool has_table(std::string_view text, std::string_view name);
+
+}  // namespace tables

@@ -1,0 +1,139 @@
+#include "tables/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tables {
+
+bool Range::holds(double value) const {
+  const bool above = lower_open ? value > lower : value >= lower;
+  const bool below = upper_open ? value < upper : value <= upper;
+  return above && below;
+}
+
+std::string Range::text() const {
+  const bool has_lower = std::isfinite(lower), has_upper = std::isfinite(upper);
+  if (has_lower && has_upper) {
+    if (!lower_open && !upper_open) return fmt::format("{} .. {}", lower, upper);
+    return fmt::format("{} {} value {} {}", lower,
+                       lower_open ? "<" : "<=", upper_open ? "<" : "<=", upper);
+  }
+  if (has_lower) return fmt::format("{} {}", lower_open ? ">" : ">=", lower);
+  if (has_upper) return fmt::format("{} {}", upper_open ? "<" : "<=", upper);
+  return "";
+}
+
+std::string Field::allowed_text() const {
+  std::string text;
+  switch (kind) {
+    case ValueKind::boolean:
+      return "true or false";
+    case ValueKind::integer:
+      text = "a whole number";
+      break;
+    case ValueKind::number:
+      text = "a number";
+      break;
+    case ValueKind::text:
+      return "a text in quotes";
+    case ValueKind::choice:
+      return "one of " + joined(choices);
+    case ValueKind::numbers:
+      text = "a list of numbers";
+      break;
+    case ValueKind::texts:
+      return "a list of texts in quotes";
+    case ValueKind::choices:
+      return "a list of " + joined(choices);
+    case ValueKind::points:
+      text = "a list of points [x, y]";
+      break;
+  }
+  if (const std::string range = notes.range.text(); !range.empty()) text += " " + range;
+  if (!notes.unit.empty()) text += fmt::format(" [{}]", notes.unit);
+  return text;
+}
+
+const Field* TableInfo::find(std::string_view key) const {
+  const auto found = std::find_if(fields.begin(), fields.end(),
+                                  [&](const Field& field) { return field.key == key; });
+  return found == fields.end() ? nullptr : &*found;
+}
+
+std::string TableInfo::title() const {
+  if (name.empty()) return "the top level";
+  return repeated ? fmt::format("[[{}]]", name) : fmt::format("[{}]", name);
+}
+
+std::string TableInfo::path(std::size_t index, std::string_view key) const {
+  std::string path(name);
+  if (repeated) path += fmt::format(".{}", index);
+  if (key.empty()) return path;
+  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+}
+
+const TableInfo* find_table(const std::vector<TableInfo>& tables, std::string_view name) {
+  for (const TableInfo& table : tables) {
+    if (table.name == name) return &table;
+  }
+  return nullptr;
+}
+
+std::string number_text(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+namespace {
+
+/// A TOML basic string; control characters escaped, UTF-8 as it is.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (code < 0x20 || code == 0x7f) {
+      out += fmt::format("\\u{:04X}", static_cast<unsigned>(code));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+template <class Item, class Show>
+std::string list_text(const std::vector<Item>& items, Show show) {
+  std::string out = "[";
+  for (std::size_t i = 0; i < items.size(); ++i) out += (i == 0 ? "" : ", ") + show(items[i]);
+  return out + "]";
+}
+
+}  // namespace
+
+std::string value_text(const Value& value) {
+  struct Show {
+    std::string operator()(bool v) const { return v ? "true" : "false"; }
+    std::string operator()(std::int64_t v) const { return fmt::format("{}", v); }
+    std::string operator()(double v) const { return number_text(v); }
+    std::string operator()(const std::string& v) const { return quoted(v); }
+    std::string operator()(const std::vector<double>& v) const { return list_text(v, number_text); }
+    std::string operator()(const std::vector<std::string>& v) const { return list_text(v, quoted); }
+  };
+  return std::visit(Show{}, value);
+}
+
+std::string joined(std::span<const std::string_view> items) {
+  std::string out;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i != 0) out += ", ";
+    out += items[i];
+  }
+  return out;
+}
+
+}  // namespace tables

@@ -1,0 +1,26 @@
+#pragma once
+
+// Private to the scene reader: the only header of the project that sees toml++.
+
+#include <toml++/toml.h>
+
+#include <span>
+#include <string>
+
+#include "tables/problem.hpp"
+#include "tables/table.hpp"
+
+namespace tables {
+
+/// Reads a TOML value of any kind as `field` wants it; reports under `key` if it is not allowed.
+[[nodiscard]] std::optional<Value> convert(const toml::node& node, const Field& field,
+                                           const std::string& key, Diagnosis& diagnosis);
+
+/// A short description of a value for messages: `the text "abc"`, `-0.01`, `a table`.
+[[nodiscard]] std::string describe(const toml::node& node);
+
+/// Puts `key=value` settings into the tree; places and problems name `--set key=value`.
+void apply_settings(toml::table& tree, std::span<const std::string> settings,
+                    const std::vector<TableInfo>& tables, Diagnosis& diagnosis);
+
+}  // namespace tables

@@ -1,0 +1,83 @@
+#include "limit/command_line.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace {
+
+using program::ExitCode;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+struct Outcome {
+  ExitCode code;
+  std::string out, err;
+};
+
+Outcome run(const std::vector<std::string>& arguments) {
+  std::ostringstream out, err;
+  const ExitCode code = limit::fpm_limit(arguments, out, err);
+  return {code, out.str(), err.str()};
+}
+
+TEST(FpmLimit, RefusesWhatItCannotBracketWithTheReason) {
+  for (const auto& [arguments, reason] :
+       std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{}, "SCENE or --strip is missing"},
+           {{"--strip"}, "neither cohesion nor friction"},
+           {{"--strip", "--phi", "30", "--gamma", "18e3"}, "no strength"},
+           {{"--strip", "--c", "-1"}, "cohesion: found -1; allowed is at least 0"},
+           {{"--strip", "--c", "1", "--phi", "60"}, "friction angle [deg]: found 60"},
+           {{"--strip", "--c", "1", "--half-width", "0"}, "half width: found 0"},
+           {{"--strip", "--c", "nan"}, "cohesion"},
+           {{"--strip", "--c", "1", "--rough", "--smooth"}, "exclude each other"},
+           {{FPM_SHARE_DIR "/scenes/limit/inclined.toml", "--no-tension"}, "the key tension"},
+           {{"--strip", "--c", "1", "--gap", "0%"}, "--gap: found 0%"},
+           {{"--strip", "--c", "1", "--gap", "2x"}, "--gap: found 2x"},
+           {{"--strip", "--c", "1", "--phi", "20", "--psi", "30"}, "--psi: found 30"},
+           {{"--strip", "--c", "1", "--box-width", "1"}, "box: found 1"},
+           {{"--strip", "--c", "1", "--surchage", "1"}, "did you mean \"--surcharge\""},
+           {{"--strip", "--c", "1", "--solver", "mosek"}, "--solver: found mosek"},
+           {{"--strip", "--c", "1", "--max-triangles", "0"}, "--max-triangles: found 0"}}) {
+    const Outcome refused = run(arguments);
+    EXPECT_EQ(refused.code, ExitCode::input_refused) << reason;
+    EXPECT_THAT(refused.err, HasSubstr(reason));
+    EXPECT_EQ(refused.out, "");
+  }
+}
+
+TEST(FpmLimit, PrintsBoundsThatAreWiderThanAskedAndSaysSo) {
+  const auto file = std::filesystem::temp_directory_path() / "fpm_limit_cli_test.json";
+  const Outcome wide = run({"--strip", "--c", "1e3", "--phi", "10", "--psi", "0", "--max-triangles",
+                            "1", "--gap", "0.1%", "--json", file.string()});
+  EXPECT_EQ(wide.code, ExitCode::not_converged);
+  EXPECT_THAT(wide.out, AllOf(HasSubstr("lower bound"), HasSubstr("upper bound"),
+                              HasSubstr("wider than the gap asked for"), HasSubstr("Terzaghi"),
+                              HasSubstr("not rigorous"), HasSubstr("cone form, solved")));
+  std::ifstream stream(file);
+  const auto json = nlohmann::json::parse(stream);
+  std::filesystem::remove(file);
+  // N_c = 8.344926 at 10 degrees.
+  EXPECT_LT(json["lower_bound"].get<double>(), 8344.926);
+  EXPECT_GT(json["upper_bound"].get<double>(), 8344.926);
+  EXPECT_EQ(json["status"], "wider than asked");
+  EXPECT_EQ(json["certified"], true);
+  EXPECT_EQ(json["davis_reduced"]["rigorous"], false);
+  EXPECT_LT(json["davis_reduced"]["upper_bound"].get<double>(), json["upper_bound"].get<double>());
+  EXPECT_EQ(json["attempts"].size(), 2U);
+}
+
+TEST(FpmLimit, EndsWellOnceTheGapIsReached) {
+  const Outcome reached = run({"--strip", "--c", "1", "--gap", "10%", "--smooth"});
+  EXPECT_EQ(reached.code, ExitCode::done);
+  EXPECT_THAT(reached.out, HasSubstr("smooth base: no shear stress; bonded"));
+  const Outcome lifting = run({"--strip", "--c", "1", "--gap", "10%", "--no-tension"});
+  EXPECT_EQ(lifting.code, ExitCode::done);
+  EXPECT_THAT(lifting.out, HasSubstr("no tension, the footing may lift off"));
+}
+
+}  // namespace

@@ -1,0 +1,101 @@
+#include "scene/derived.hpp"
+
+#include <gtest/gtest.h>
+
+namespace scene {
+namespace {
+
+Scene scene_of(MaterialModel model, int dimension = 2) {
+  Scene scene;
+  scene.geometry.dimension = dimension;
+  scene.material.resize(1);
+  scene.material[0].model = model;
+  return scene;
+}
+
+TEST(HourglassControl, AutoFollowsMaterialAndDimension) {
+  using C = HourglassControl;
+  EXPECT_EQ(resolve_control(scene_of(MaterialModel::elastic)), C::stiffness);
+  EXPECT_EQ(resolve_control(scene_of(MaterialModel::elastic, 3)), C::stiffness);
+  EXPECT_EQ(resolve_control(scene_of(MaterialModel::von_mises)), C::mixed);
+  EXPECT_EQ(resolve_control(scene_of(MaterialModel::drucker_prager)), C::mixed);
+  EXPECT_EQ(resolve_control(scene_of(MaterialModel::drucker_prager, 3)), C::incremental);
+  EXPECT_EQ(resolve_control(scene_of(MaterialModel::mohr_coulomb)), C::incremental);
+}
+
+TEST(HourglassControl, AutoIsIncrementalForElasticPartsInAYieldingBody) {
+  Scene scene = scene_of(MaterialModel::drucker_prager);
+  scene.material.emplace_back().model = MaterialModel::elastic;
+  EXPECT_EQ(resolve_control(scene), HourglassControl::incremental);
+}
+
+TEST(HourglassControl, HasItsStiffnessRatioUnlessTheSceneSaysOtherwise) {
+  Scene scene = scene_of(MaterialModel::drucker_prager);
+  EXPECT_EQ(resolve_stiffness_ratio(scene), 0.01);
+  scene.hourglass.control = HourglassControl::incremental;
+  EXPECT_EQ(resolve_stiffness_ratio(scene), 0.1);
+  scene.hourglass.stiffness_ratio = 0.0;
+  EXPECT_EQ(resolve_stiffness_ratio(scene), 0.0);
+  scene.hourglass = {};
+  scene.hourglass.control = HourglassControl::viscosity;
+  EXPECT_EQ(resolve_stiffness_ratio(scene), 0.0);
+}
+
+TEST(Solver, PresetFillsAbsentKeysOnly) {
+  Solver solver;
+  EXPECT_EQ(resolve_solver(solver).method, SolverMethod::hybrid);
+  solver.preset = SolverPreset::appendix_a;
+  solver.jacobian = JacobianKind::analytic;
+  const SolverSettings paper = resolve_solver(solver);
+  EXPECT_EQ(paper.method, SolverMethod::newton_krylov);
+  EXPECT_EQ(paper.preconditioner, PreconditionerKind::none);
+  EXPECT_EQ(paper.jacobian, JacobianKind::analytic);
+}
+
+TEST(Lattice, CountsCellsOrVertices) {
+  Geometry geometry{.min = {0.0, -0.66}, .max = {1.1, 0.0}, .spacing = 0.01};
+  EXPECT_EQ(particle_count(geometry), 7260);
+  geometry.layout = Layout::vertex;
+  EXPECT_EQ(particle_count(geometry), 111 * 67);
+  const Geometry block{.dimension = 3, .min = {0, 0, 0}, .max = {1, 2, 3}, .spacing = 0.5};
+  EXPECT_EQ(particle_count(block), 2 * 4 * 6);
+}
+
+TEST(Programme, TakesStepsFromTheSpacingWhenNoneAreGiven) {
+  Scene scene = scene_of(MaterialModel::elastic);
+  scene.geometry.spacing = 0.01;
+  scene.drive.kind = DriveKind::displacement;
+  scene.drive.target = 0.033;
+  EXPECT_EQ(nominal_steps(scene), 165);
+  scene.drive.target = 0.0331;
+  EXPECT_EQ(nominal_steps(scene), 166);
+  scene.programme.steps = 0;
+  EXPECT_EQ(nominal_steps(scene), 166);
+  scene.programme.steps = 40;
+  EXPECT_EQ(nominal_steps(scene), 40);
+  scene.drive.kind = DriveKind::none;
+  scene.programme.steps.reset();
+  EXPECT_EQ(nominal_steps(scene), 1);
+}
+
+TEST(Consistency, AutoIsOnForJitteredSetsOnly) {
+  Scene scene;
+  EXPECT_FALSE(resolve_consistency(scene));
+  scene.geometry.jitter = 0.2;
+  EXPECT_TRUE(resolve_consistency(scene));
+  scene.approximation.consistency = Switch::off;
+  EXPECT_FALSE(resolve_consistency(scene));
+}
+
+TEST(Side, KnowsItsAxisAndEnd) {
+  const Geometry geometry{.dimension = 3, .min = {1, 2, 3}, .max = {4, 5, 6}};
+  EXPECT_EQ(side_position(geometry, Side::left), 1);
+  EXPECT_EQ(side_position(geometry, Side::right), 4);
+  EXPECT_EQ(side_position(geometry, Side::bottom), 2);
+  EXPECT_EQ(side_position(geometry, Side::top), 5);
+  EXPECT_EQ(side_position(geometry, Side::front), 3);
+  EXPECT_EQ(side_position(geometry, Side::back), 6);
+}
+
+}  // namespace
+}  // namespace scene

@@ -1,0 +1,109 @@
+#include <gmock/gmock.h>
+
+#include "scene/reader.hpp"
+#include "support/sample_scene.hpp"
+
+namespace scene {
+namespace {
+
+SceneReading with(const std::vector<std::string>& settings) {
+  return parse_scene(support::sample_scene, "s.toml", settings);
+}
+
+std::string only_error(const std::vector<std::string>& settings) {
+  const auto reading = with(settings);
+  return reading.errors.size() == 1 ? reading.errors[0].text() : "not one error";
+}
+
+TEST(SceneSettings, OverrideWhatTheFileSays) {
+  const auto reading = with({"geometry.spacing=0.05", "title=\"finer\"", "drive.lateral=free"});
+  ASSERT_TRUE(reading.scene);
+  EXPECT_EQ(reading.scene->geometry.spacing, 0.05);
+  EXPECT_EQ(reading.scene->title, "finer");
+  EXPECT_EQ(reading.scene->drive.lateral, Lateral::free);
+}
+
+TEST(SceneSettings, ReachTablesTheFileDoesNotHave) {
+  const auto reading = with({"research.enabled=true", "solver.tolerance=1e-4"});
+  ASSERT_TRUE(reading.scene);
+  EXPECT_TRUE(reading.scene->research.enabled);
+  EXPECT_EQ(reading.scene->solver.tolerance, 1e-4);
+}
+
+TEST(SceneSettings, ReachEntriesByNumberAndByName) {
+  const auto by_number = with({"material.0.cohesion=3e3", "support.0.directions=[\"y\"]"});
+  const auto by_name = with({"material.soil.cohesion=3e3", "support.base.directions=y"});
+  ASSERT_TRUE(by_number.scene && by_name.scene);
+  EXPECT_EQ(by_number.scene->material[0].cohesion, 3e3);
+  EXPECT_EQ(*by_number.scene, *by_name.scene);
+}
+
+TEST(SceneSettings, ApplyInOrderTheLastWins) {
+  const auto reading = with({"drive.target=0.02", "drive.target=0.03"});
+  ASSERT_TRUE(reading.scene);
+  EXPECT_EQ(reading.scene->drive.target, 0.03);
+}
+
+TEST(SceneSettings, AllowSpacesAndBareWords) {
+  const auto reading = with({" hourglass.control = incremental "});
+  ASSERT_TRUE(reading.scene);
+  EXPECT_EQ(reading.scene->hourglass.control, HourglassControl::incremental);
+}
+
+TEST(SceneSettings, RepairAFaultOfTheFile) {
+  const std::vector<std::string> settings{"geometry.spacing=0.1"};
+  const auto reading =
+      parse_scene(support::sample_with("spacing = 0.1", "spacing = 0.3"), "s.toml", settings);
+  EXPECT_TRUE(reading.scene);
+}
+
+TEST(SceneSettings, AreNamedInTheirErrors) {
+  EXPECT_EQ(only_error({"geometry.spacing=-1"}),
+            "--set geometry.spacing=-1: geometry.spacing: found -1; allowed is a number > 0 [m]");
+  EXPECT_EQ(only_error({"material.soil.friction_angle=5"}),
+            "s.toml:14:18: material.0.dilation_angle: found 10; it must not exceed the friction "
+            "angle, 5");
+  EXPECT_EQ(only_error({"geometry.spacing=fine"}),
+            "--set geometry.spacing=fine: geometry.spacing: found `fine`, which is no TOML value; "
+            "allowed is a number > 0 [m]");
+  EXPECT_EQ(only_error({"geometry.spacing="}),
+            "--set geometry.spacing=: geometry.spacing: found ``, which is no TOML value; allowed "
+            "is a number > 0 [m]");
+}
+
+TEST(SceneSettings, OfferTheNearestName) {
+  EXPECT_EQ(only_error({"geometry.spacin=1"}),
+            "--set geometry.spacin=1: geometry.spacin: no such key; keys of [geometry] are "
+            "dimension, min, max, spacing, layout, jitter, seed; did you mean \"spacing\"?");
+  EXPECT_THAT(only_error({"geometri.spacing=1"}),
+              ::testing::EndsWith("; did you mean \"geometry\"?"));
+  EXPECT_EQ(only_error({"material.sol.cohesion=1"}),
+            "--set material.sol.cohesion=1: material.sol.cohesion: no entry sol in [[material]]; "
+            "entries are 0 (soil); did you mean \"soil\"?");
+}
+
+TEST(SceneSettings, RefuseWhatNamesNoKey) {
+  EXPECT_EQ(only_error({"spacing"}),
+            "--set spacing: spacing: names no key and value; the form is table.key=value");
+  EXPECT_EQ(only_error({"=1"}),
+            "--set =1: =1: names no key and value; the form is table.key=value");
+  EXPECT_EQ(only_error({"geometry=1"}),
+            "--set geometry=1: geometry: names no key; the form is geometry.key=value");
+  EXPECT_EQ(only_error({"material.cohesion=1"}),
+            "--set material.cohesion=1: material.cohesion: names no key; the form is "
+            "material.0.key=value or material.NAME.key=value");
+  EXPECT_EQ(only_error({"material.3.cohesion=1"}),
+            "--set material.3.cohesion=1: material.3.cohesion: no entry 3 in [[material]]; entries "
+            "are 0 (soil)");
+  EXPECT_EQ(only_error({"traction.0.value=[0.0, 1.0]"}),
+            "--set traction.0.value=[0.0, 1.0]: traction.0.value: no entry 0 in [[traction]]; "
+            "there is none");
+}
+
+TEST(SceneSettings, CannotSmuggleFurtherKeysIn) {
+  EXPECT_FALSE(with({"drive.target=0.02\ndirection = [1.0, 0.0]"}).scene);
+  EXPECT_FALSE(with({"title=\"a\"\n[research]\nenabled = true"}).scene);
+}
+
+}  // namespace
+}  // namespace scene
