@@ -15,7 +15,8 @@ bool Solve::record(Iteration line, const Iterate& at) const {
   line.index = static_cast<int>(report.history.size());
   line.residual_norm = at.norm;
   line.reference_norm = at.reference;
-  const bool set_aside = course.doubted && !course.suspended && work.aside.norm < work.best.norm;
+  const bool set_aside = course.preconditioner.doubted && !course.preconditioner.suspended &&
+                         work.aside.norm < work.best.norm;
   line.best_residual_norm = set_aside ? work.aside.norm : work.best.norm;
   line.evaluations = report.counts.total();
   report.history.push_back(line);
@@ -116,11 +117,12 @@ void describe_best(Solve& solve) {
 
 void finish(Solve& solve, Status status) {
   Report& report = solve.report;
-  const bool set_aside = solve.course.doubted && !solve.course.suspended;
+  const bool set_aside =
+      solve.course.preconditioner.doubted && !solve.course.preconditioner.suspended;
   if (set_aside && status != Status::converged && solve.work.aside.norm < solve.work.best.norm) {
     std::swap(solve.work.best, solve.work.aside);
   }
-  solve.course.stage = Stage::ended;
+  solve.course.stage.kind = Stage::ended;
   report.status = status;
   if (!report.history.empty()) {
     describe_best(solve);
@@ -285,7 +287,7 @@ bool Solver::start_erased(const ResidualRef& residual, const Vector& u,
 bool Solver::step_erased(const ResidualRef& residual, const PreconditionerRef& preconditioner,
                          const ObserverRef& observer) {
   Memory& m = *memory_;
-  if (m.course.stage == detail::Stage::ended) return false;
+  if (m.course.stage.kind == detail::Stage::ended) return false;
   detail::Evaluator evaluator(residual, preconditioner, m.options, m.report.counts,
                               m.work.evaluator, m.work.evaluator_state);
   detail::Solve solve{m.options, evaluator, observer, m.work, m.course, m.report};
