@@ -211,9 +211,12 @@ bool start(Solve& solve) {
   const Outcome outcome = finite ? solve.evaluator.evaluate_start(first) : Outcome::out_of_domain;
   if (outcome != Outcome::ok) {
     if (outcome == Outcome::out_of_domain) {
-      report.worst_component = first_not_finite(finite ? first.r : first.u);
+      report.worst_component =
+          finite ? first_not_finite(first.r, solve.evaluator.refused()) : first_not_finite(first.u);
     }
     finish(solve, outcome == Outcome::stopped ? Status::stopped : Status::out_of_domain_at_start);
+    const Eigen::Index worst = report.worst_component;
+    if (finite && worst >= 0 && is_unwritten(first.r[worst])) report.reason = unwritten_text(worst);
     return false;
   }
   report.initial_residual_norm = first.norm;
