@@ -9,6 +9,7 @@
 
 #include "evaluator.hpp"
 #include "noise_level.hpp"
+#include "outcome_text.hpp"
 
 namespace jfnk {
 namespace {
@@ -91,6 +92,7 @@ void check_action(Examination& e, int number_of_direction) {
   const InnerProductRef& product = e.evaluator.product();
   detail::random_direction(10 + number_of_direction % 4, product, e.direction);
   if (e.evaluator.linearise(e.base) != Outcome::ok) return;
+  e.action.setConstant(detail::unwritten());
   if (e.evaluator.action(e.direction, e.action) != Outcome::ok) return;
   const double length = product.norm(e.action);
 
@@ -124,6 +126,15 @@ void check_action(Examination& e, int number_of_direction) {
   e.scratch = (e.scratch - e.trial.r) / (2.0 * t) - e.action;
   const double error = product.norm(e.scratch) / std::max(length, 1e-300);
   e.report.action_error = std::max(e.report.action_error, error);
+}
+
+/// Why F has no value at u.
+std::string why_not_evaluable(const Iterate& base, bool refused) {
+  if (!base.u.allFinite()) return "u is not finite";
+  const Eigen::Index place = detail::first_not_finite(base.r, refused);
+  if (place < 0) return "F cannot be evaluated at u";
+  if (detail::is_unwritten(base.r[place])) return detail::unwritten_text(place);
+  return "F cannot be evaluated at u: component " + std::to_string(place) + " is not finite";
 }
 
 /// Puts the numbers into words.
@@ -194,7 +205,7 @@ CheckReport check(const ResidualRef& residual, const Vector& u, const Options& o
   evaluator.to_solver_units(e.base.u);
   report.evaluable = u.allFinite() && evaluator.evaluate_start(e.base) == Outcome::ok;
   if (!report.evaluable) {
-    report.findings.push_back("F cannot be evaluated at u");
+    report.findings.push_back(why_not_evaluable(e.base, evaluator.refused()));
     report.evaluations = counts.total();
     return report;
   }

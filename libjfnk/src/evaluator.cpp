@@ -55,7 +55,9 @@ bool Evaluator::within_bounds(const Vector& u) {
 
 Outcome Evaluator::call(const Vector& u, Vector& r) {
   const Vector& point = physical(u);
+  r.setConstant(unwritten());
   const Outcome outcome = translate(residual_(point, r));
+  refused_ = outcome == Outcome::out_of_domain;
   require_size(r, u.size(), "the residual");
   if (f_scaled()) r.array() /= options_.f_scale.array();
   return outcome;
@@ -73,7 +75,6 @@ Outcome Evaluator::evaluate(Iterate& point, int Counts::*purpose) {
 }
 
 Outcome Evaluator::evaluate_start(Iterate& point) {
-  point.r.setZero();
   const Outcome outcome = evaluate(point, &Counts::start);
   state_.start_norm = point.norm;
   if (outcome == Outcome::ok && !residual_.has_reference_norm()) {

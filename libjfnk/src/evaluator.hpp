@@ -118,6 +118,9 @@ class Evaluator {
   /// Whether the last refusal was the evaluation limit.
   [[nodiscard]] bool limit_reached() const { return counts_.total() >= options_.max_evaluations; }
 
+  /// Whether the residual itself declared the last point out of its domain; r need not be written.
+  [[nodiscard]] bool refused() const { return refused_; }
+
   /// Whether J v comes from differences.
   [[nodiscard]] bool differences() const {
     return options_.jacobian.source != Jacobian::Source::user_if_available ||
@@ -125,6 +128,7 @@ class Evaluator {
   }
 
  private:
+  /// F(u) into r, which arrives full of NaN: what F forgets to write is never taken for a value.
   Outcome call(const Vector& u, Vector& r);
   Outcome difference(const Vector& v, Vector& Jv);
   [[nodiscard]] double difference_step(double v_norm) const;
@@ -141,6 +145,7 @@ class Evaluator {
   const PreconditionerRef learnt_;
   const Iterate* base_ = nullptr;
   double base_u_norm_ = 0.0;
+  bool refused_ = false;
 };
 
 /// The preconditioner in the solver's units, counted.

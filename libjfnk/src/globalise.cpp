@@ -20,8 +20,8 @@ constexpr double least_fraction = 1e-6;
 double yardstick(const Solve& solve) {
   const Course& course = solve.course;
   double highest = solve.work.base.norm;
-  for (int i = 0; i < course.last_norms_count; ++i) {
-    highest = std::max(highest, course.last_norms[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < course.newton.last_norms_count; ++i) {
+    highest = std::max(highest, course.newton.last_norms[static_cast<std::size_t>(i)]);
   }
   return highest;
 }
@@ -30,12 +30,12 @@ void remember_norm(Solve& solve, double norm) {
   Course& course = solve.course;
   const int kept = solve.options.globalisation.window - 1;
   if (kept <= 0) return;
-  auto& norms = course.last_norms;
-  for (int i = std::min(course.last_norms_count, kept - 1); i > 0; --i) {
+  auto& norms = course.newton.last_norms;
+  for (int i = std::min(course.newton.last_norms_count, kept - 1); i > 0; --i) {
     norms[static_cast<std::size_t>(i)] = norms[static_cast<std::size_t>(i) - 1];
   }
   norms[0] = norm;
-  course.last_norms_count = std::min(course.last_norms_count + 1, kept);
+  course.newton.last_norms_count = std::min(course.newton.last_norms_count + 1, kept);
 }
 
 /// Cut of a step by the parabola through ||F||^2 at its ends and its slope -2 ||F|| (||F|| -
@@ -104,7 +104,7 @@ Ending search_dogleg(Solve& solve, Iteration& line) {
   const double full = work.gmres.length();
   const double norm = work.base.norm;
   const double highest = yardstick(solve);
-  double length = course.radius > 0.0 ? std::min(full, course.radius) : full;
+  double length = course.newton.radius > 0.0 ? std::min(full, course.newton.radius) : full;
   double predicted = norm * std::min(1.0, line.linear_residual);
   CountedPreconditioner counted{&solve.evaluator};
   const PreconditionerRef P = counted.ref();
@@ -118,12 +118,12 @@ Ending search_dogleg(Solve& solve, Iteration& line) {
     if (outcome == Outcome::ok && work.trial.norm <= highest - rule.sufficient_decrease * hoped) {
       const double ratio = (norm - work.trial.norm) / hoped;
       if (ratio < poor) {
-        course.radius = rule.greatest_cut * length;
+        course.newton.radius = rule.greatest_cut * length;
       } else if (ratio > good || cut == 0) {
-        course.radius = std::max(course.radius > 0.0 ? course.radius : full,
-                                 (ratio > good ? radius_growth : 1.0) * length);
+        course.newton.radius = std::max(course.newton.radius > 0.0 ? course.newton.radius : full,
+                                        (ratio > good ? radius_growth : 1.0) * length);
       } else {
-        course.radius = length;
+        course.newton.radius = length;
       }
       line.step_norm = product.norm(work.direction);
       take_trial(solve, length / full, line);
@@ -131,7 +131,7 @@ Ending search_dogleg(Solve& solve, Iteration& line) {
     }
     length *= outcome == Outcome::ok ? parabola_cut(rule, norm, predicted, work.trial.norm)
                                      : rule.domain_factor;
-    course.radius = length;
+    course.newton.radius = length;
     if (length < least_fraction * full) break;
   }
   return Ending::line_search_failed;
@@ -140,8 +140,8 @@ Ending search_dogleg(Solve& solve, Iteration& line) {
 }  // namespace
 
 Ending globalise(Solve& solve, bool gmres, Iteration& line) {
-  const bool dogleg =
-      solve.options.globalisation.rule == Globalisation::Rule::dogleg && !solve.course.by_lines;
+  const bool dogleg = solve.options.globalisation.rule == Globalisation::Rule::dogleg &&
+                      !solve.course.newton.by_lines;
   return dogleg && gmres ? search_dogleg(solve, line) : search_line(solve, line);
 }
 

@@ -182,27 +182,28 @@ bool wants_to_learn(const Solve& solve) {
   const bool possible = rule.enabled && solve.options.method == Method::hybrid &&
                         !residual.is_distributed() &&
                         solve.work.base.u.size() >= rule.least_unknowns;
-  if (!possible || course.learning_tried) return false;
-  if (course.stage == Stage::pseudo_transient || solve.report.measured_noise > 0.0) return false;
+  if (!possible || course.preconditioner.learning_tried) return false;
+  if (course.stage.kind == Stage::pseudo_transient || solve.report.measured_noise > 0.0)
+    return false;
   const int spent = solve.evaluations();
   const bool plain = solve.evaluator.preconditioner().is_identity();
   const int earliest = plain ? rule.after : rule.after_preconditioned;
-  if (spent < earliest && (plain || course.round == 0)) return false;
+  if (spent < earliest && (plain || course.stage.round == 0)) return false;
   return evaluations_left(solve) > rule.worth;
 }
 
 Ending learn(Solve& solve) {
   Workspace& work = solve.work;
   Course& course = solve.course;
-  course.learning_tried = true;
+  course.preconditioner.learning_tried = true;
   const Finding finding = learn_jacobian(solve);
   if (finding != Finding::ok) return ending_of(finding);
   use_learnt_jacobian(work, solve.options);
-  course.setup_evaluations = solve.evaluations();
-  course.setup_norm = work.best.norm;
-  course.setup_best_rate = 0.0;
-  course.stale = 0;
-  course.suspended = false;
+  course.preconditioner.setup_evaluations = solve.evaluations();
+  course.preconditioner.setup_norm = work.best.norm;
+  course.preconditioner.setup_best_rate = 0.0;
+  course.preconditioner.stale = 0;
+  course.preconditioner.suspended = false;
   begin_rounds(solve);
   return Ending::go_on;
 }
@@ -210,7 +211,7 @@ Ending learn(Solve& solve) {
 Ending renew_learnt_jacobian(Solve& solve, double shift, bool& usable) {
   const Finding finding = find_entries(solve, solve.work.base, shift);
   usable = finding == Finding::ok;
-  solve.course.stale = 0;
+  solve.course.preconditioner.stale = 0;
   return ending_of(finding);
 }
 

@@ -62,7 +62,7 @@ LinearSolution find_direction(Solve& solve, double eta, double shift, Iteration&
   line.linear_residual = result.relative_residual;
   line.krylov_iterations = result.iterations;
   solve.report.krylov_iterations += result.iterations;
-  solve.course.stale += std::max(result.iterations - 1, 0);
+  solve.course.preconditioner.stale += std::max(result.iterations - 1, 0);
   if (last == Outcome::stopped) return {Ending::stopped};
   if (last == Outcome::limit) return {Ending::limit};
   const double length = evaluator.product().norm(work.direction);

@@ -21,7 +21,7 @@ int patience(const Solve& solve) {
   if (chosen > 0) return chosen;
   const bool plain = solve.evaluator.preconditioner().is_identity();
   const int most = plain ? unpreconditioned : preconditioned;
-  const int cost = solve.course.round_cost;
+  const int cost = solve.course.rescue.round_cost;
   return cost > 0 ? std::clamp(cost, least, most) : most;
 }
 
@@ -44,13 +44,13 @@ void invert_by_least_squares(Solve& solve, const Vector& r, Vector& z) {
   Vector& remainder = work.evaluator.probe;
   work.secants.project(r, z, remainder, solve.evaluator.product());
   solve.evaluator.precondition(remainder, work.direction);
-  z = solve.course.mixing * work.direction - z;
+  z = solve.course.multisecant.mixing * work.direction - z;
 }
 
 /// H r by rank-one updates of mixing P.
 void invert_by_broyden(Solve& solve, const Vector& r, Vector& z) {
   solve.evaluator.precondition(r, z);
-  z *= solve.course.mixing;
+  z *= solve.course.multisecant.mixing;
   solve.work.broyden.improve(z, solve.evaluator.product());
 }
 
@@ -59,10 +59,10 @@ bool trusts_broyden(const Solve& solve) {
   // Broyden, Dennis & Moré (1973) ask ||I - H J|| < 1/2 of H; 0.4 to 0.6 serve alike.
   constexpr double greatest_error = 0.6;
   const Course& course = solve.course;
-  const bool drawn = course.lead == 0.0;
-  const bool leads =
-      drawn ? solve.work.broyden.size() >= solve.work.secants.size() : course.lead < 0.0;
-  return leads && course.broyden_error <= greatest_error;
+  const bool drawn = course.multisecant.lead == 0.0;
+  const bool leads = drawn ? solve.work.broyden.size() >= solve.work.secants.size()
+                           : course.multisecant.lead < 0.0;
+  return leads && course.multisecant.broyden_error <= greatest_error;
 }
 
 /// The step from work.base into work.step.
@@ -73,7 +73,7 @@ void find_step(Solve& solve) {
     work.step *= -1.0;
   } else {
     invert_by_least_squares(solve, work.base.r, work.by_least_squares);
-    if (!solve.course.inverted) invert_by_broyden(solve, work.base.r, work.by_broyden);
+    if (!solve.course.multisecant.inverted) invert_by_broyden(solve, work.base.r, work.by_broyden);
     work.step = trusts_broyden(solve) ? -work.by_broyden : -work.by_least_squares;
   }
   solve.evaluator.filter(work.base.u, work.step);
@@ -119,13 +119,15 @@ void compare_models(Solve& solve) {
   invert_by_broyden(solve, work.base.r, work.image);
   work.by_broyden = work.image - work.by_broyden;
   const double by_broyden = error(work.by_broyden);
-  course.lead = memory * course.lead + std::log(by_broyden / by_least_squares);
-  course.broyden_error = std::max(error_memory * course.broyden_error, by_broyden);
+  course.multisecant.lead =
+      memory * course.multisecant.lead + std::log(by_broyden / by_least_squares);
+  course.multisecant.broyden_error =
+      std::max(error_memory * course.multisecant.broyden_error, by_broyden);
   if (work.broyden.full()) work.broyden.clear();
   // The first pair after a restart was foretold by another H.
-  course.inverted =
+  course.multisecant.inverted =
       work.broyden.add(work.step, work.by_broyden, product) && work.broyden.size() > 1;
-  if (!course.inverted) return;
+  if (!course.multisecant.inverted) return;
   work.by_broyden = work.image;
   work.broyden.improve_by_last(work.by_broyden, product);
 }
@@ -159,8 +161,9 @@ Ending measure_mixing(Solve& solve) {
   const double length = product.norm(work.direction);
   const double along = product.dot(work.direction, work.step);
   if (outcome != Outcome::ok || !std::isfinite(length) || along == 0.0) return Ending::go_on;
-  solve.course.mixing *= along / length / length;
-  solve.course.expected_change = std::abs(solve.course.mixing) * length * work.base.norm;
+  solve.course.multisecant.mixing *= along / length / length;
+  solve.course.multisecant.expected_change =
+      std::abs(solve.course.multisecant.mixing) * length * work.base.norm;
   work.secants.add(work.step, work.direction, solve.options.multisecant.max_condition, product);
   return Ending::go_on;
 }
@@ -181,17 +184,17 @@ void begin_multisecant(Solve& solve) {
   Course& course = solve.course;
   const bool alone = solve.options.method == Method::multisecant;
   solve.return_to_best();
-  course.stage = Stage::multisecant;
-  course.stage_iterations = 0;
-  course.stage_limit = alone ? solve.options.max_iterations : std::numeric_limits<int>::max();
-  course.stage_start_norm = solve.work.best.norm;
-  course.stage_start_evaluations = solve.evaluations();
-  course.wild = 0;
-  course.lead = 0.0;
-  course.broyden_error = 0.0;
-  course.inverted = false;
-  course.mark = solve.work.best.norm;
-  course.last_fall = solve.evaluations();
+  course.stage.kind = Stage::multisecant;
+  course.stage.iterations = 0;
+  course.stage.limit = alone ? solve.options.max_iterations : std::numeric_limits<int>::max();
+  course.stage.start_norm = solve.work.best.norm;
+  course.stage.start_evaluations = solve.evaluations();
+  course.multisecant.wild = 0;
+  course.multisecant.lead = 0.0;
+  course.multisecant.broyden_error = 0.0;
+  course.multisecant.inverted = false;
+  course.multisecant.mark = solve.work.best.norm;
+  course.multisecant.last_fall = solve.evaluations();
   solve.work.broyden.clear();
   if (solve.options.multisecant.renew && solve.work.gmres.can_shorten()) renew_memory(solve);
 }
@@ -200,9 +203,9 @@ Ending multisecant_step(Solve& solve) {
   Workspace& work = solve.work;
   Course& course = solve.course;
   const Multisecant& rule = solve.options.multisecant;
-  if (!course.mixing_known) {
-    course.mixing_known = true;
-    course.mixing = rule.mixing;
+  if (!course.multisecant.mixing_known) {
+    course.multisecant.mixing_known = true;
+    course.multisecant.mixing = rule.mixing;
     if (rule.scale_mixing && solve.evaluator.preconditioner().is_identity()) {
       if (const Ending ending = measure_mixing(solve); ending != Ending::go_on) return ending;
     }
@@ -213,28 +216,30 @@ Ending multisecant_step(Solve& solve) {
   find_step(solve);
   if (const Ending ending = look(solve, line); ending != Ending::go_on) return ending;
   const double change = move(solve, line);
-  const double expected = std::exchange(course.expected_change, 0.0);
+  const double expected = std::exchange(course.multisecant.expected_change, 0.0);
   if (change < far_less * expected && may_measure_noise(solve)) {
     Ending ending = Ending::go_on;
     if (adapt_to_noise(solve, ending)) {
       solve.return_to_best();
-      course.inverted = false;
+      course.multisecant.inverted = false;
       return Ending::go_on;
     }
     if (ending != Ending::go_on) return ending;
   }
   ++solve.report.multisecant_iterations;
   if (const Ending ending = solve.accept_base(line); ending != Ending::go_on) return ending;
-  if (work.best.norm < rule.progress * course.mark) {
-    course.mark = work.best.norm;
-    course.last_fall = solve.evaluations();
+  if (work.best.norm < rule.progress * course.multisecant.mark) {
+    course.multisecant.mark = work.best.norm;
+    course.multisecant.last_fall = solve.evaluations();
   }
-  if (solve.evaluations() - course.last_fall >= patience(solve)) return Ending::patience_lost;
-  course.wild = work.base.norm > rule.wild * work.best.norm ? course.wild + 1 : 0;
-  if (course.wild >= wild_patience(solve)) return Ending::patience_lost;
+  if (solve.evaluations() - course.multisecant.last_fall >= patience(solve))
+    return Ending::patience_lost;
+  course.multisecant.wild =
+      work.base.norm > rule.wild * work.best.norm ? course.multisecant.wild + 1 : 0;
+  if (course.multisecant.wild >= wild_patience(solve)) return Ending::patience_lost;
   if (work.base.norm > rule.rejection * work.best.norm) {
     solve.return_to_best();
-    course.inverted = false;
+    course.multisecant.inverted = false;
   }
   return Ending::go_on;
 }

@@ -16,19 +16,20 @@ Ending judge_progress(Solve& solve, double norm_before, const Iteration& line) {
   Course& course = solve.course;
   const double norm = solve.work.base.norm;
   const double promised = norm_before * (1.0 - line.linear_residual);
-  course.poor_steps = norm_before - norm < poor * promised ? course.poor_steps + 1 : 0;
-  const bool suspicious =
-      course.poor_steps >= too_many_poor || (course.poor_steps > 0 && line.step_length < too_short);
+  course.newton.poor_steps =
+      norm_before - norm < poor * promised ? course.newton.poor_steps + 1 : 0;
+  const bool suspicious = course.newton.poor_steps >= too_many_poor ||
+                          (course.newton.poor_steps > 0 && line.step_length < too_short);
   if (suspicious && may_measure_noise(solve)) {
     Ending interrupted = Ending::go_on;
-    if (adapt_to_noise(solve, interrupted)) course.poor_steps = 0;
+    if (adapt_to_noise(solve, interrupted)) course.newton.poor_steps = 0;
     if (interrupted != Ending::go_on) return interrupted;
   }
   const Stagnation& rule = solve.options.stagnation;
-  if (++course.window_steps < rule.window) return Ending::go_on;
-  const bool stagnated = rule.left < 1.0 && norm > rule.left * course.window_norm;
-  course.window_steps = 0;
-  course.window_norm = norm;
+  if (++course.newton.window_steps < rule.window) return Ending::go_on;
+  const bool stagnated = rule.left < 1.0 && norm > rule.left * course.newton.window_norm;
+  course.newton.window_steps = 0;
+  course.newton.window_norm = norm;
   return stagnated ? Ending::stagnated : Ending::go_on;
 }
 
@@ -38,31 +39,31 @@ void begin_newton_afresh(Solve& solve, int steps) {
   begin_newton(solve, steps);
   solve.work.base = solve.work.first;
   solve.evaluator.accept(solve.work.base.u);
-  solve.course.window_norm = solve.work.base.norm;
-  solve.course.by_lines = true;
+  solve.course.newton.window_norm = solve.work.base.norm;
+  solve.course.newton.by_lines = true;
 }
 
 void begin_newton(Solve& solve, int steps) {
   Course& course = solve.course;
   solve.return_to_best();
-  course.stage = Stage::newton;
-  course.stage_iterations = 0;
-  course.stage_limit = steps;
-  course.stage_start_norm = solve.work.best.norm;
-  course.stage_start_evaluations = solve.evaluations();
-  course.forcing = {};
-  course.radius = 0.0;
-  course.last_norms_count = 0;
-  course.window_norm = solve.work.best.norm;
-  course.window_steps = 0;
-  course.poor_steps = 0;
+  course.stage.kind = Stage::newton;
+  course.stage.iterations = 0;
+  course.stage.limit = steps;
+  course.stage.start_norm = solve.work.best.norm;
+  course.stage.start_evaluations = solve.evaluations();
+  course.newton.forcing = {};
+  course.newton.radius = 0.0;
+  course.newton.last_norms_count = 0;
+  course.newton.window_norm = solve.work.best.norm;
+  course.newton.window_steps = 0;
+  course.newton.poor_steps = 0;
 }
 
 Ending newton_step(Solve& solve) {
   Iteration line;
   line.phase = Phase::newton;
   const double norm = solve.work.base.norm;
-  const double eta = next_forcing(solve.options.krylov.forcing, solve.course.forcing, norm,
+  const double eta = next_forcing(solve.options.krylov.forcing, solve.course.newton.forcing, norm,
                                   solve.evaluator.tolerance(solve.work.base));
   const LinearSolution solution = find_direction(solve, eta, 0.0, line);
   if (solution.ending != Ending::go_on) return solution.ending;

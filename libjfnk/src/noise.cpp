@@ -62,7 +62,7 @@ bool adapt_to_noise(Solve& solve, Ending& ending) {
   constexpr double span_change = 100.0;
   Workspace& work = solve.work;
   const InnerProductRef& product = solve.evaluator.product();
-  solve.course.noise_measured = true;
+  solve.course.rescue.noise_measured = true;
   random_direction(noise_projections, product, work.step);
   const double scale = std::sqrt(1.0 + product.norm(work.best.u));
   NoiseSamples samples{};
@@ -100,8 +100,8 @@ bool adapt_to_noise(Solve& solve, Ending& ending) {
   state.noise = b;
   // What was learnt with the step of before is worth nothing.
   work.secants.clear();
-  solve.course.mixing_known = false;
-  solve.course.radius = 0.0;
+  solve.course.multisecant.mixing_known = false;
+  solve.course.newton.radius = 0.0;
   return true;
 }
 

@@ -9,7 +9,11 @@
 namespace jfnk::detail {
 
 /// Index of the first NaN or infinity, -1 if there is none.
-[[nodiscard]] Eigen::Index first_not_finite(const Vector& v);
+/// @param written_only  pass over what the residual did not write
+[[nodiscard]] Eigen::Index first_not_finite(const Vector& v, bool written_only = false);
+
+/// What is wrong with an F that did not overwrite a component of r.
+[[nodiscard]] std::string unwritten_text(Eigen::Index component);
 
 /// One sentence on why the solve ended, with its numbers, and what to try if it failed.
 [[nodiscard]] std::string reason(const Report& report, const Options& options);

@@ -22,7 +22,8 @@ Ending renew_shifted_factors(Solve& solve, double shift) {
   LearntJacobian& jacobian = solve.work.evaluator.learnt;
   bool usable = true;
   Ending ending = Ending::go_on;
-  if (solve.course.stage_iterations == 0 || 2.0 * solve.course.stale >= jacobian.groups()) {
+  if (solve.course.stage.iterations == 0 ||
+      2.0 * solve.course.preconditioner.stale >= jacobian.groups()) {
     ending = renew_learnt_jacobian(solve, shift, usable);
   } else if (shift != jacobian.shift()) {
     usable = jacobian.factorise(shift);
@@ -37,34 +38,35 @@ void begin_pseudo_transient(Solve& solve) {
   Course& course = solve.course;
   const InnerProductRef& product = solve.evaluator.product();
   solve.return_to_best();
-  course.stage = Stage::pseudo_transient;
-  course.stage_iterations = 0;
-  course.stage_limit = solve.options.pseudo_transient.max_steps;
-  course.stage_start_norm = solve.work.best.norm;
-  course.transient_tried = true;
-  course.time_step = 0.0;
-  course.time_step = first_change * (1.0 + product.norm(solve.work.base.u)) / solve.work.base.norm;
-  course.shift_sign = 0.0;
+  course.stage.kind = Stage::pseudo_transient;
+  course.stage.iterations = 0;
+  course.stage.limit = solve.options.pseudo_transient.max_steps;
+  course.stage.start_norm = solve.work.best.norm;
+  course.rescue.transient_tried = true;
+  course.transient.time_step = 0.0;
+  course.transient.time_step =
+      first_change * (1.0 + product.norm(solve.work.base.u)) / solve.work.base.norm;
+  course.transient.shift_sign = 0.0;
 }
 
 Ending pseudo_transient_step(Solve& solve) {
   Workspace& work = solve.work;
   Course& course = solve.course;
   const InnerProductRef& product = solve.evaluator.product();
-  if (course.shift_sign == 0.0) {
+  if (course.transient.shift_sign == 0.0) {
     // The flow du/dt = -F settles if J is positive along F, du/dt = F if it is negative.
-    course.shift_sign = 1.0;
+    course.transient.shift_sign = 1.0;
     if (solve.evaluator.linearise(work.base) == Outcome::ok) {
       const Outcome outcome = solve.evaluator.action(work.base.r, work.direction);
       if (outcome == Outcome::stopped) return Ending::stopped;
       if (outcome == Outcome::limit) return Ending::limit;
       if (outcome == Outcome::ok && product.dot(work.direction, work.base.r) < 0.0) {
-        course.shift_sign = -1.0;
+        course.transient.shift_sign = -1.0;
       }
     }
   }
   for (int cut = 0; cut <= max_cuts; ++cut) {
-    const double shift = course.shift_sign / course.time_step;
+    const double shift = course.transient.shift_sign / course.transient.time_step;
     if (solve.evaluator.preconditioned_by_learning()) {
       const Ending ending = renew_shifted_factors(solve, shift);
       if (ending != Ending::go_on) return ending;
@@ -80,7 +82,7 @@ Ending pseudo_transient_step(Solve& solve) {
       if (outcome == Outcome::stopped) return Ending::stopped;
       if (outcome == Outcome::limit) return Ending::limit;
       if (outcome == Outcome::ok && work.trial.norm <= greatest_rise * work.base.norm) {
-        course.time_step *=
+        course.transient.time_step *=
             std::min(steady_growth * work.base.norm / work.trial.norm, greatest_growth);
         line.step_length = 1.0;
         line.step_norm = product.norm(work.direction);
@@ -89,7 +91,7 @@ Ending pseudo_transient_step(Solve& solve) {
         return solve.accept_base(line);
       }
     }
-    course.time_step *= time_cut;
+    course.transient.time_step *= time_cut;
   }
   return Ending::transient_failed;
 }

@@ -104,11 +104,16 @@ const char* linear_advice(const Report& report) {
 
 }  // namespace
 
-Eigen::Index first_not_finite(const Vector& v) {
+Eigen::Index first_not_finite(const Vector& v, bool written_only) {
   for (Eigen::Index i = 0; i < v.size(); ++i) {
-    if (!std::isfinite(v[i])) return i;
+    if (!std::isfinite(v[i]) && !(written_only && is_unwritten(v[i]))) return i;
   }
   return -1;
+}
+
+std::string unwritten_text(Eigen::Index component) {
+  return "the residual did not write component " + std::to_string(component) +
+         " of r, or added to what was there (r arrives full of NaN): it must overwrite all of r";
 }
 
 std::string reason(const Report& report, const Options& options) {

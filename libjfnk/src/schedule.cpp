@@ -16,7 +16,7 @@ bool alone(const Solve& solve) {
 }
 
 bool in_final_newton(const Solve& solve) {
-  return alone(solve) || solve.course.round >= solve.options.hybrid.rounds;
+  return alone(solve) || solve.course.stage.round >= solve.options.hybrid.rounds;
 }
 
 int final_newton_steps(const Options& options) {
@@ -29,19 +29,19 @@ bool doubts_preconditioner(const Solve& solve) {
   const Course& course = solve.course;
   const Options& options = solve.options;
   const bool gained =
-      solve.work.best.norm <= options.multisecant.progress * course.stage_start_norm;
-  return options.stagnation.restart && course.round == 0 && !course.doubted && !gained &&
-         !solve.evaluator.preconditioner().is_identity() &&
+      solve.work.best.norm <= options.multisecant.progress * course.stage.start_norm;
+  return options.stagnation.restart && course.stage.round == 0 && !course.preconditioner.doubted &&
+         !gained && !solve.evaluator.preconditioner().is_identity() &&
          !solve.evaluator.preconditioned_by_learning();
 }
 
 /// A round of multisecant without the preconditioner, from the best point.
 void begin_without_preconditioner(Solve& solve) {
   Course& course = solve.course;
-  course.doubted = true;
-  course.suspended = true;
+  course.preconditioner.doubted = true;
+  course.preconditioner.suspended = true;
   solve.work.aside = solve.work.best;
-  course.mixing_known = false;
+  course.multisecant.mixing_known = false;
   solve.evaluator.drop_preconditioner();
   solve.work.secants.clear();
   begin_multisecant(solve);
@@ -50,8 +50,8 @@ void begin_without_preconditioner(Solve& solve) {
 /// The preconditioner fits where it was set up: a round without it that failed is undone.
 void end_without_preconditioner(Solve& solve) {
   Course& course = solve.course;
-  course.suspended = false;
-  course.mixing_known = false;
+  course.preconditioner.suspended = false;
+  course.multisecant.mixing_known = false;
   solve.evaluator.resume_preconditioner();
   solve.work.secants.clear();
   solve.undo_round();
@@ -59,8 +59,8 @@ void end_without_preconditioner(Solve& solve) {
 
 /// The next round, or the last Newton steps.
 void next_round(Solve& solve) {
-  ++solve.course.round;
-  if (solve.course.round < solve.options.hybrid.rounds) {
+  ++solve.course.stage.round;
+  if (solve.course.stage.round < solve.options.hybrid.rounds) {
     begin_multisecant(solve);
   } else {
     begin_newton(solve, final_newton_steps(solve.options));
@@ -69,7 +69,7 @@ void next_round(Solve& solve) {
 
 /// Rounds are over: Newton alone.
 void begin_final_newton(Solve& solve) {
-  solve.course.round = solve.options.hybrid.rounds;
+  solve.course.stage.round = solve.options.hybrid.rounds;
   begin_newton(solve, final_newton_steps(solve.options));
 }
 
@@ -81,7 +81,7 @@ void begin_again(Solve& solve) {
     begin_rounds(solve);
   }
   solve.work.base = solve.work.first;
-  solve.course.mark = solve.work.first.norm;
+  solve.course.multisecant.mark = solve.work.first.norm;
   solve.evaluator.accept(solve.work.base.u);
 }
 
@@ -93,25 +93,25 @@ void begin_again_plainly(Solve& solve) {
 
 bool try_transient(Solve& solve) {
   Course& course = solve.course;
-  course.by_lines = false;
-  if (!solve.options.pseudo_transient.enabled || course.transient_tried) return false;
+  course.newton.by_lines = false;
+  if (!solve.options.pseudo_transient.enabled || course.rescue.transient_tried) return false;
   begin_pseudo_transient(solve);
   return true;
 }
 
 bool try_first_point_by_lines(Solve& solve) {
   Course& course = solve.course;
-  if (!solve.options.stagnation.restart || course.restarted) return false;
-  course.restarted = true;
-  course.round = solve.options.hybrid.rounds;
+  if (!solve.options.stagnation.restart || course.rescue.restarted) return false;
+  course.rescue.restarted = true;
+  course.stage.round = solve.options.hybrid.rounds;
   begin_newton_afresh(solve, final_newton_steps(solve.options));
   return true;
 }
 
 /// The plain method and its rescues, as if nothing had been learnt.
 void begin_unlearnt(Solve& solve) {
-  solve.course.restarted = false;
-  solve.course.transient_tried = false;
+  solve.course.rescue.restarted = false;
+  solve.course.rescue.transient_tried = false;
   begin_again_plainly(solve);
 }
 
@@ -123,7 +123,7 @@ void rescue_with_learnt_factors(Solve& solve) {
 /// What is left when Newton has failed where it stands: another start, then another path.
 Ending rescue(Solve& solve, Ending failure) {
   Course& course = solve.course;
-  if (course.newton_failure == Ending::go_on) course.newton_failure = failure;
+  if (course.rescue.newton_failure == Ending::go_on) course.rescue.newton_failure = failure;
   if (solve.evaluator.preconditioned_by_learning()) {
     rescue_with_learnt_factors(solve);
     return Ending::go_on;
@@ -133,12 +133,12 @@ Ending rescue(Solve& solve, Ending failure) {
     return Ending::go_on;
   }
   if (try_first_point_by_lines(solve) || try_transient(solve)) return Ending::go_on;
-  return course.newton_failure;
+  return course.rescue.newton_failure;
 }
 
 Ending after_newton(Solve& solve, Ending ending) {
   Course& course = solve.course;
-  course.round_cost = solve.evaluations() - course.stage_start_evaluations;
+  course.rescue.round_cost = solve.evaluations() - course.stage.start_evaluations;
   if (ending == Ending::schedule_done) {
     if (in_final_newton(solve)) return ending;
     next_round(solve);
@@ -146,7 +146,7 @@ Ending after_newton(Solve& solve, Ending ending) {
   }
   if (may_measure_noise(solve)) {
     Ending interrupted = Ending::go_on;
-    const int left = course.stage_limit - course.stage_iterations;
+    const int left = course.stage.limit - course.stage.iterations;
     if (adapt_to_noise(solve, interrupted)) {
       begin_newton(solve, std::max(left, 1));
       return Ending::go_on;
@@ -154,7 +154,7 @@ Ending after_newton(Solve& solve, Ending ending) {
     if (interrupted != Ending::go_on) return interrupted;
   }
   // Newton would fail again from where it has just failed without moving.
-  const bool moved = solve.work.best.norm < course.stage_start_norm;
+  const bool moved = solve.work.best.norm < course.stage.start_norm;
   if (!in_final_newton(solve) && moved && ending != Ending::stagnated) {
     next_round(solve);
     return Ending::go_on;
@@ -163,11 +163,13 @@ Ending after_newton(Solve& solve, Ending ending) {
 }
 
 Ending after_pseudo_transient(Solve& solve) {
-  const bool gained = solve.work.best.norm < solve.course.stage_start_norm;
+  const bool gained = solve.work.best.norm < solve.course.stage.start_norm;
   const bool learnt = solve.evaluator.preconditioned_by_learning();
-  if (!gained && learnt) return rescue(solve, solve.course.newton_failure);
-  if (!gained) return solve.course.newton_failure;
-  if (learnt) solve.course.stale = solve.work.evaluator.learnt.groups();  // its factors are shifted
+  if (!gained && learnt) return rescue(solve, solve.course.rescue.newton_failure);
+  if (!gained) return solve.course.rescue.newton_failure;
+  if (learnt)
+    solve.course.preconditioner.stale =
+        solve.work.evaluator.learnt.groups();  // its factors are shifted
   begin_final_newton(solve);
   return Ending::go_on;
 }
@@ -179,20 +181,21 @@ bool setup_pays(Solve& solve, double cost) {
   constexpr double fallen = 0.8;
   constexpr double patience = 3.0;  // in setups, where nothing was gained at all
   Course& course = solve.course;
-  const double spent = cost + solve.evaluations() - course.setup_evaluations;
-  const double gain = std::log(course.setup_norm / solve.work.best.norm);
-  if (gain <= 0.0) return course.stage_iterations > 0 && spent > patience * (cost + 1.0);
+  const double spent = cost + solve.evaluations() - course.preconditioner.setup_evaluations;
+  const double gain = std::log(course.preconditioner.setup_norm / solve.work.best.norm);
+  if (gain <= 0.0) return course.stage.iterations > 0 && spent > patience * (cost + 1.0);
   const double rate = gain / spent;
-  course.setup_best_rate = std::max(course.setup_best_rate, rate);
-  return rate < fallen * course.setup_best_rate;
+  course.preconditioner.setup_best_rate = std::max(course.preconditioner.setup_best_rate, rate);
+  return rate < fallen * course.preconditioner.setup_best_rate;
 }
 
 bool setup_is_due(Solve& solve) {
-  const bool newton = solve.course.stage == Stage::newton;
+  const bool newton = solve.course.stage.kind == Stage::newton;
   if (solve.evaluator.preconditioned_by_learning()) {
     const int cost = solve.work.evaluator.learnt.groups();
     constexpr double head_start = 2.0;  // its cost is known, and small
-    return newton ? head_start * solve.course.stale >= cost : setup_pays(solve, cost);
+    return newton ? head_start * solve.course.preconditioner.stale >= cost
+                  : setup_pays(solve, cost);
   }
   if (!solve.evaluator.preconditioner().has_setup()) return false;
   switch (solve.options.preconditioner_setup) {
@@ -200,7 +203,8 @@ bool setup_is_due(Solve& solve) {
       return newton && solve.report.newton_iterations > 0;
     case PreconditionerSetup::when_it_pays:
       return setup_pays(solve, solve.options.setup_cost) ||
-             (newton && solve.course.stale > 0 && solve.course.stale >= solve.options.setup_cost);
+             (newton && solve.course.preconditioner.stale > 0 &&
+              solve.course.preconditioner.stale >= solve.options.setup_cost);
     default:
       return false;
   }
@@ -222,13 +226,13 @@ Ending renew_preconditioner(Solve& solve) {
     solve.work.setup_point = solve.work.base.u;
     solve.evaluator.setup(solve.work.base.u);
   }
-  course.setup_evaluations = solve.evaluations();
-  course.setup_norm = solve.work.best.norm;
-  course.setup_best_rate = 0.0;
-  course.radius = 0.0;  // it is measured through the preconditioner
+  course.preconditioner.setup_evaluations = solve.evaluations();
+  course.preconditioner.setup_norm = solve.work.best.norm;
+  course.preconditioner.setup_best_rate = 0.0;
+  course.newton.radius = 0.0;  // it is measured through the preconditioner
   // as are Broyden's updates
   solve.work.broyden.clear();
-  course.inverted = false;
+  course.multisecant.inverted = false;
   return Ending::go_on;
 }
 
@@ -237,10 +241,10 @@ Ending renew_preconditioner(Solve& solve) {
 void begin_rounds(Solve& solve) {
   Course& course = solve.course;
   solve.work.secants.clear();
-  course.mixing_known = false;
-  course.by_lines = false;
-  course.round = 0;
-  course.round_cost = 0;
+  course.multisecant.mixing_known = false;
+  course.newton.by_lines = false;
+  course.stage.round = 0;
+  course.rescue.round_cost = 0;
   begin_multisecant(solve);
 }
 
@@ -250,8 +254,8 @@ void begin_schedule(Solve& solve) {
     solve.work.setup_point = solve.work.best.u;
     solve.evaluator.setup(solve.work.best.u);
   }
-  course.setup_evaluations = solve.evaluations();
-  course.setup_norm = solve.work.best.norm;
+  course.preconditioner.setup_evaluations = solve.evaluations();
+  course.preconditioner.setup_norm = solve.work.best.norm;
   if (alone(solve)) {
     begin_newton(solve, final_newton_steps(solve.options));
   } else {
@@ -261,7 +265,7 @@ void begin_schedule(Solve& solve) {
 
 Ending advance(Solve& solve) {
   Course& course = solve.course;
-  if (course.stage == Stage::newton && course.stage_iterations >= course.stage_limit) {
+  if (course.stage.kind == Stage::newton && course.stage.iterations >= course.stage.limit) {
     return after_newton(solve, Ending::schedule_done);
   }
   if (wants_to_learn(solve)) {
@@ -269,7 +273,7 @@ Ending advance(Solve& solve) {
   }
   Ending ending = renew_preconditioner(solve);
   if (ending != Ending::go_on) return ending;
-  switch (course.stage) {
+  switch (course.stage.kind) {
     case Stage::multisecant:
       ending = multisecant_step(solve);
       break;
@@ -284,22 +288,22 @@ Ending advance(Solve& solve) {
   }
   if (is_final(ending)) return ending;
   if (ending == Ending::go_on) {
-    ++course.stage_iterations;
+    ++course.stage.iterations;
     const bool cured =
-        course.stage == Stage::pseudo_transient &&
-        solve.work.best.norm <= solve.options.pseudo_transient.gain * course.stage_start_norm;
-    if (course.stage_iterations < course.stage_limit && !cured) return Ending::go_on;
+        course.stage.kind == Stage::pseudo_transient &&
+        solve.work.best.norm <= solve.options.pseudo_transient.gain * course.stage.start_norm;
+    if (course.stage.iterations < course.stage.limit && !cured) return Ending::go_on;
     ending = Ending::schedule_done;
   }
-  switch (course.stage) {
+  switch (course.stage.kind) {
     case Stage::multisecant:
       if (solve.options.method == Method::multisecant) return ending;
       if (doubts_preconditioner(solve)) {
         begin_without_preconditioner(solve);
         return Ending::go_on;
       }
-      if (course.suspended) end_without_preconditioner(solve);
-      begin_newton(solve, newton_steps(solve.options, course.round));
+      if (course.preconditioner.suspended) end_without_preconditioner(solve);
+      begin_newton(solve, newton_steps(solve.options, course.stage.round));
       return Ending::go_on;
     case Stage::newton:
       return after_newton(solve, ending);

@@ -1,3 +1,4 @@
+#include <array>
 #include <limits>
 #include <stdexcept>
 #include <type_traits>
@@ -20,6 +21,14 @@ struct Writer {
   }
   void operator()(double value) { out.reals.push_back(value); }
   void operator()(const Vector& v) { out.reals.insert(out.reals.end(), v.begin(), v.end()); }
+  template <std::size_t size>
+  void operator()(const std::array<double, size>& values) {
+    out.reals.insert(out.reals.end(), values.begin(), values.end());
+  }
+  template <Listed T>
+  void operator()(T& part) {
+    part.for_each_field(*this);
+  }
 };
 
 struct Reader {
@@ -39,68 +48,43 @@ struct Reader {
   void operator()(Vector& v) {
     for (double& value : v) (*this)(value);
   }
+  template <std::size_t size>
+  void operator()(std::array<double, size>& values) {
+    for (double& value : values) (*this)(value);
+  }
+  template <Listed T>
+  void operator()(T& part) {
+    part.for_each_field(*this);
+  }
   [[noreturn]] static void fail() {
     throw std::invalid_argument("jfnk::Solver::load: the snapshot is damaged");
   }
 };
 
-template <class Walker>
-void walk_course(Walker& walk, Course& c) {
-  walk(c.stage);
-  walk(c.stage_iterations);
-  walk(c.stage_limit);
-  walk(c.round);
-  walk(c.stage_start_norm);
-  walk(c.stage_start_evaluations);
-  walk(c.mark);
-  walk(c.last_fall);
-  walk(c.wild);
-  walk(c.mixing);
-  walk(c.mixing_known);
-  walk(c.expected_change);
-  walk(c.lead);
-  walk(c.broyden_error);
-  walk(c.inverted);
-  walk(c.forcing.previous_norm);
-  walk(c.forcing.previous_eta);
-  walk(c.forcing.first);
-  walk(c.radius);
-  for (double& norm : c.last_norms) walk(norm);
-  walk(c.last_norms_count);
-  walk(c.window_norm);
-  walk(c.window_steps);
-  walk(c.poor_steps);
-  walk(c.by_lines);
-  walk(c.newton_failure);
-  walk(c.noise_measured);
-  walk(c.restarted);
-  walk(c.transient_tried);
-  walk(c.round_cost);
-  walk(c.time_step);
-  walk(c.shift_sign);
-  walk(c.setup_evaluations);
-  walk(c.setup_norm);
-  walk(c.setup_best_rate);
-  walk(c.stale);
-  walk(c.doubted);
-  walk(c.suspended);
-  walk(c.learning_tried);
+/// Calls `walk` on each field.
+template <class Walker, class... Fields>
+void walk_all(Walker& walk, Fields&... fields) {
+  (walk(fields), ...);
 }
+
+// The bindings below do not compile when a member is added and not named.
 
 template <class Walker>
 void walk_line(Walker& walk, Iteration& line) {
-  walk(line.index);
-  walk(line.phase);
-  walk(line.residual_norm);
-  walk(line.reference_norm);
-  walk(line.best_residual_norm);
-  walk(line.step_norm);
-  walk(line.step_length);
-  walk(line.forcing);
-  walk(line.linear_residual);
-  walk(line.krylov_iterations);
-  walk(line.secant_pairs);
-  walk(line.evaluations);
+  auto& [index, phase, residual_norm, reference_norm, best_residual_norm, step_norm, step_length,
+         forcing, linear_residual, krylov_iterations, secant_pairs, evaluations] = line;
+  walk_all(walk, index, phase, residual_norm, reference_norm, best_residual_norm, step_norm,
+           step_length, forcing, linear_residual, krylov_iterations, secant_pairs, evaluations);
+}
+
+template <class Walker>
+void walk_counts(Walker& walk, Counts& counts) {
+  auto& [start, newton_trials, line_search, multisecant, pseudo_transient, noise,
+         difference_actions, user_actions, linearisations, preconditioner, preconditioner_setups,
+         learning] = counts;
+  walk_all(walk, start, newton_trials, line_search, multisecant, pseudo_transient, noise,
+           difference_actions, user_actions, linearisations, preconditioner, preconditioner_setups,
+           learning);
 }
 
 /// All but the history and what is only known at the end.
@@ -116,20 +100,15 @@ void walk_report(Walker& walk, Report& report) {
   walk(report.krylov_iterations);
   walk(report.last_linear_residual);
   walk(report.measured_noise);
-  Counts& counts = report.counts;
-  for (int* count : {&counts.start, &counts.newton_trials, &counts.line_search, &counts.multisecant,
-                     &counts.pseudo_transient, &counts.noise, &counts.difference_actions,
-                     &counts.user_actions, &counts.linearisations, &counts.preconditioner,
-                     &counts.preconditioner_setups, &counts.learning}) {
-    walk(*count);
-  }
+  walk_counts(walk, report.counts);
 }
 
 /// Whether this can be the course of a solve in progress.
 bool plausible_course(const Course& c) {
-  const auto kept = static_cast<int>(c.last_norms.size());
-  return c.stage >= Stage::multisecant && c.stage < Stage::ended && c.last_norms_count >= 0 &&
-         c.last_norms_count <= kept && c.round >= 0 && c.stage_iterations >= 0;
+  const auto kept = static_cast<int>(c.newton.last_norms.size());
+  return c.stage.kind >= Stage::multisecant && c.stage.kind < Stage::ended &&
+         c.newton.last_norms_count >= 0 && c.newton.last_norms_count <= kept &&
+         c.stage.round >= 0 && c.stage.iterations >= 0;
 }
 
 /// Whether the counts can be those of a solve.
@@ -146,16 +125,14 @@ bool plausible_counts(const Counts& c) {
 
 template <class Walker>
 void walk_iterate(Walker& walk, Iterate& point) {
-  walk(point.u);
-  walk(point.r);
-  walk(point.norm);
-  walk(point.reference);
+  auto& [u, r, norm, reference] = point;
+  walk_all(walk, u, r, norm, reference);
 }
 
 /// Every number between two steps that decides what follows, walked once for both directions.
 template <class Walker>
 void walk_state(Walker& walk, Workspace& work, Course& course, Report& report) {
-  walk_course(walk, course);
+  walk(course);
   walk_report(walk, report);
   walk_iterate(walk, work.base);
   walk_iterate(walk, work.best);
@@ -178,7 +155,7 @@ void walk_state(Walker& walk, Workspace& work, Course& course, Report& report) {
 
 Snapshot Solver::save() const {
   Memory& m = *memory_;
-  if (m.course.stage == detail::Stage::ended) {
+  if (m.course.stage.kind == detail::Stage::ended) {
     throw std::invalid_argument("jfnk::Solver::save: no solve is in progress");
   }
   Snapshot snapshot;

@@ -15,7 +15,8 @@ bool Solve::record(Iteration line, const Iterate& at) const {
   line.index = static_cast<int>(report.history.size());
   line.residual_norm = at.norm;
   line.reference_norm = at.reference;
-  const bool set_aside = course.doubted && !course.suspended && work.aside.norm < work.best.norm;
+  const bool set_aside = course.preconditioner.doubted && !course.preconditioner.suspended &&
+                         work.aside.norm < work.best.norm;
   line.best_residual_norm = set_aside ? work.aside.norm : work.best.norm;
   line.evaluations = report.counts.total();
   report.history.push_back(line);
@@ -116,11 +117,12 @@ void describe_best(Solve& solve) {
 
 void finish(Solve& solve, Status status) {
   Report& report = solve.report;
-  const bool set_aside = solve.course.doubted && !solve.course.suspended;
+  const bool set_aside =
+      solve.course.preconditioner.doubted && !solve.course.preconditioner.suspended;
   if (set_aside && status != Status::converged && solve.work.aside.norm < solve.work.best.norm) {
     std::swap(solve.work.best, solve.work.aside);
   }
-  solve.course.stage = Stage::ended;
+  solve.course.stage.kind = Stage::ended;
   report.status = status;
   if (!report.history.empty()) {
     describe_best(solve);
@@ -209,9 +211,12 @@ bool start(Solve& solve) {
   const Outcome outcome = finite ? solve.evaluator.evaluate_start(first) : Outcome::out_of_domain;
   if (outcome != Outcome::ok) {
     if (outcome == Outcome::out_of_domain) {
-      report.worst_component = first_not_finite(finite ? first.r : first.u);
+      report.worst_component =
+          finite ? first_not_finite(first.r, solve.evaluator.refused()) : first_not_finite(first.u);
     }
     finish(solve, outcome == Outcome::stopped ? Status::stopped : Status::out_of_domain_at_start);
+    const Eigen::Index worst = report.worst_component;
+    if (finite && worst >= 0 && is_unwritten(first.r[worst])) report.reason = unwritten_text(worst);
     return false;
   }
   report.initial_residual_norm = first.norm;
@@ -285,7 +290,7 @@ bool Solver::start_erased(const ResidualRef& residual, const Vector& u,
 bool Solver::step_erased(const ResidualRef& residual, const PreconditionerRef& preconditioner,
                          const ObserverRef& observer) {
   Memory& m = *memory_;
-  if (m.course.stage == detail::Stage::ended) return false;
+  if (m.course.stage.kind == detail::Stage::ended) return false;
   detail::Evaluator evaluator(residual, preconditioner, m.options, m.report.counts,
                               m.work.evaluator, m.work.evaluator_state);
   detail::Solve solve{m.options, evaluator, observer, m.work, m.course, m.report};

@@ -1,84 +1,14 @@
 #pragma once
 
-#include <array>
-
 #include "broyden_memory.hpp"
+#include "course.hpp"
 #include "evaluator.hpp"
-#include "forcing.hpp"
 #include "jfnk/bicgstab.hpp"
 #include "jfnk/gmres.hpp"
 #include "jfnk/solver.hpp"
 #include "secant_memory.hpp"
 
 namespace jfnk::detail {
-
-/// What an iteration of a stage came to.
-enum class Ending {
-  go_on,
-  converged,
-  schedule_done,         ///< the iterations allowed were made
-  patience_lost,         ///< multisecant only
-  line_search_failed,    ///< Newton only
-  stagnated,             ///< Newton only: steps hardly lower ||F|| any more
-  krylov_stalled,        ///< Newton only
-  linearisation_failed,  ///< Newton only
-  transient_failed,      ///< pseudo-transient only
-  stopped,
-  limit
-};
-
-/// Whether nothing more may be evaluated after such an ending.
-[[nodiscard]] inline bool is_final(Ending ending) {
-  return ending == Ending::converged || ending == Ending::stopped || ending == Ending::limit;
-}
-
-/// What the solver is at.
-enum class Stage { multisecant, newton, pseudo_transient, ended };
-
-/// Where a solve stands, besides its vectors and its report: all that decides what comes next.
-struct Course {
-  Stage stage = Stage::ended;
-  int stage_iterations = 0;
-  int stage_limit = 0;  ///< of stage_iterations
-  int round = 0;
-  double stage_start_norm = 0.0;  ///< lowest ||F|| when the stage began
-  int stage_start_evaluations = 0;
-  // multisecant
-  double mark = 0.0;  ///< see Multisecant::patience
-  int last_fall = 0;  ///< evaluations at the mark
-  int wild = 0;       ///< points in a row far above the best
-  double mixing = 1.0;
-  bool mixing_known = false;
-  double expected_change = 0.0;  ///< of F in the first step, if an action foretold it
-  double lead = 0.0;             ///< of least squares over Broyden; see Multisecant::broyden
-  double broyden_error = 0.0;    ///< likewise
-  bool inverted = false;         ///< work.by_broyden belongs to work.base
-  // Newton
-  ForcingState forcing;
-  double radius = 0.0;  ///< of the dogleg; 0: none
-  std::array<double, 10> last_norms{};
-  int last_norms_count = 0;
-  double window_norm = 0.0;  ///< ||F|| at the beginning of the window of stagnation
-  int window_steps = 0;
-  int poor_steps = 0;     ///< in a row, that kept little of what the linear model promised
-  bool by_lines = false;  ///< line searches only
-  Ending newton_failure = Ending::go_on;  ///< the first one, which the rescues shall mend
-  bool noise_measured = false;
-  bool restarted = false;
-  bool transient_tried = false;
-  int round_cost = 0;  ///< evaluations of the last round of Newton; 0: none yet
-  // pseudo-transient
-  double time_step = 0.0;
-  double shift_sign = 1.0;
-  // preconditioner
-  int setup_evaluations = 0;     ///< counts at the last setup
-  double setup_norm = 0.0;       ///< lowest ||F|| at the last setup
-  double setup_best_rate = 0.0;  ///< gain per evaluation soon after it
-  int stale = 0;                ///< Krylov iterations since then that new factors would have spared
-  bool doubted = false;         ///< a round without it was tried
-  bool suspended = false;       ///< such a round goes on
-  bool learning_tried = false;  ///< see Learning
-};
 
 /// Vectors that live from solve to solve.
 struct Workspace {
@@ -136,7 +66,7 @@ struct LinearSolution {
 
 /// Whether the noise has still to be measured if anything looks like it.
 [[nodiscard]] inline bool may_measure_noise(const Solve& solve) {
-  return solve.options.jacobian.measure_noise && !solve.course.noise_measured &&
+  return solve.options.jacobian.measure_noise && !solve.course.rescue.noise_measured &&
          solve.evaluator.differences();
 }
 

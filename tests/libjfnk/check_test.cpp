@@ -114,4 +114,15 @@ TEST(Check, SaysWhenThereIsNothingToCheck) {
   EXPECT_THROW((void)check([](const Vector&, Vector&) {}, Vector()), std::invalid_argument);
 }
 
+TEST(Check, NamesTheComponentThatFForgets) {
+  const auto F = [](const Vector& u, Vector& r) {
+    for (Eigen::Index i = 0; i < u.size(); ++i) {
+      if (i != 7) r[i] = u[i] - 1.0;
+    }
+  };
+  const CheckReport report = check(F, point);
+  EXPECT_FALSE(report.good);
+  EXPECT_TRUE(mentions(report, "did not write component 7"));
+}
+
 }  // namespace

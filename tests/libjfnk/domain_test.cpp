@@ -132,6 +132,52 @@ TEST(Domain, NanIsNeverASuccess) {
   }
 }
 
+// With zeros in r, whoever forgets a component would be told that it is solved.
+TEST(Domain, AComponentThatFForgetsIsNamedAndNeverASuccess) {
+  const auto forgets = [](const Vector& u, Vector& r) {
+    r[0] = u[0] - 1.0;
+    r[2] = u[2] - 1.0;
+  };
+  const auto adds = [](const Vector& u, Vector& r) { r += u - Vector::Ones(3); };
+  // Not at the start, but where it matters.
+  const auto forgets_later = [](const Vector& u, Vector& r) {
+    r[0] = u[0] - 1.0;
+    r[2] = u[2] - 1.0;
+    if (u[1] > 1.5) r[1] = u[1] - 2.0;
+  };
+  for (const jfnk::Method method : jfnk_test::all_methods) {
+    Options options;
+    options.method = method;
+    Vector u = Vector::Constant(3, 3.0);
+    Report report = jfnk::solve(forgets, u, options);
+    EXPECT_EQ(report.status, Status::out_of_domain_at_start);
+    EXPECT_EQ(report.worst_component, 1);
+    EXPECT_NE(report.reason.find("did not write component 1"), std::string::npos) << report.reason;
+    report = jfnk::solve(adds, u, options);
+    EXPECT_NE(report.reason.find("did not write component 0"), std::string::npos) << report.reason;
+    u = Vector::Constant(3, 3.0);
+    report = jfnk::solve(forgets_later, u, options);
+    EXPECT_TRUE(!report.converged() || u[1] > 1.5) << report.reason;
+  }
+  // By way of another kind of vector.
+  std::vector<float> v(3, 3.0F);
+  const Report report = jfnk::solve(
+      [](const std::vector<float>& x, std::vector<float>& r) { r[0] = x[0] - 1.0F; }, v);
+  EXPECT_NE(report.reason.find("did not write component 1"), std::string::npos) << report.reason;
+}
+
+TEST(Domain, ARefusalNeedNotWriteAnything) {
+  Vector u = Vector::Ones(3);
+  const auto refuses = [](const Vector& v, Vector& r) {
+    r[0] = v[0];
+    return false;
+  };
+  const Report report = jfnk::solve(refuses, u);
+  EXPECT_EQ(report.status, Status::out_of_domain_at_start);
+  EXPECT_EQ(report.worst_component, -1);
+  EXPECT_NE(report.reason.find("declared"), std::string::npos) << report.reason;
+}
+
 TEST(Domain, NanReferenceNormIsARefusal) {
   struct Strange {
     void operator()(const Vector& u, Vector& r) const { r = u; }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <bit>
 #include <concepts>
+#include <cstdint>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -19,6 +21,20 @@ enum class Evaluation {
 };
 
 namespace detail {
+
+/// What `r` is filled with before it is handed to F: a NaN that says where it comes from.
+[[nodiscard]] inline double unwritten() {
+  return std::bit_cast<double>(std::uint64_t{0x7ff86a666e6b0001});
+}
+/// Whether a value is still that one, or came of it by arithmetic or by way of a float.
+[[nodiscard]] inline bool is_unwritten(double value) {
+  constexpr int beyond_float = 29;  // digits of a double that a float lacks
+  constexpr std::uint64_t no_sign = ~std::uint64_t{0} >> 1U;
+  const auto bits = [](double x) {
+    return (std::bit_cast<std::uint64_t>(x) & no_sign) >> beyond_float;
+  };
+  return bits(value) == bits(unwritten());
+}
 
 template <class R>
 inline constexpr bool is_outcome =
@@ -42,7 +58,8 @@ Evaluation outcome_of(Call&& call) {
 
 /// Any callable `f(u, r)` that overwrites `r` and returns void, bool or Evaluation.
 ///
-/// `r` arrives with the size of `u` and must keep it. A NaN or an infinity in `r` counts as
+/// `r` arrives with the size of `u`, which it must keep, and full of NaN, so that a component that
+/// F forgets to write is found out. A NaN or an infinity in `r` counts as
 /// `Evaluation::out_of_domain`. Equal `u` must give equal `r`.
 template <class F>
 concept Residual = requires(F& f, const Vector& u, Vector& r) {

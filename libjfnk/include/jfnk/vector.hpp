@@ -72,6 +72,7 @@ class ForeignResidual {
 
   Evaluation operator()(const Vector& u, Vector& r) {
     Traits::write(u, in_);
+    if (Traits::size(out_) == r.size()) Traits::write(r, out_);  // full of NaN
     const Evaluation outcome = outcome_of([&] { return f_(std::as_const(in_), out_); });
     if (Traits::size(out_) != r.size()) {
       r.resize(Traits::size(out_));  // the solver names both sizes

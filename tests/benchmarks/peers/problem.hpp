@@ -60,15 +60,7 @@ void add_third_set(std::vector<Problem>& problems);
 /// The same once more, written when the results of the third set were known.
 void add_fourth_set(std::vector<Problem>& problems);
 
-inline std::vector<Problem> all_problems() {
-  std::vector<Problem> problems;
-  add_grids(problems);
-  add_classics(problems);
-  add_troubles(problems);
-  add_second_set(problems);
-  add_third_set(problems);
-  add_fourth_set(problems);
-  return problems;
-}
+/// All of them; from starts perturbed by up to 1e-3 if the environment has a PEERS_SEED.
+std::vector<Problem> all_problems();
 
 }  // namespace peers

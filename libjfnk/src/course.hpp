@@ -1,0 +1,192 @@
+#pragma once
+
+#include <array>
+
+#include "forcing.hpp"
+
+namespace jfnk::detail {
+
+/// What an iteration of a stage came to.
+enum class Ending {
+  go_on,
+  converged,
+  schedule_done,         ///< the iterations allowed were made
+  patience_lost,         ///< multisecant only
+  line_search_failed,    ///< Newton only
+  stagnated,             ///< Newton only: steps hardly lower ||F|| any more
+  krylov_stalled,        ///< Newton only
+  linearisation_failed,  ///< Newton only
+  transient_failed,      ///< pseudo-transient only
+  stopped,
+  limit
+};
+
+/// Whether nothing more may be evaluated after such an ending.
+[[nodiscard]] inline bool is_final(Ending ending) {
+  return ending == Ending::converged || ending == Ending::stopped || ending == Ending::limit;
+}
+
+/// What the solver is at.
+enum class Stage { multisecant, newton, pseudo_transient, ended };
+
+/// Counts the members that a list names; those that are lists themselves count as one.
+struct FieldCounter {
+  int count = 0;
+  template <class Field>
+  void operator()(Field&) {
+    ++count;
+  }
+};
+
+/// What lists its fields itself.
+template <class T>
+concept Listed = requires(T& part, FieldCounter& visit) {
+  part.for_each_field(visit);
+};
+
+// Each part of the course lists its fields once, in `for_each_field`: snapshots walk these lists,
+// and a test counts the members against them.
+
+/// The stage that goes on.
+struct StageCourse {
+  Stage kind = Stage::ended;
+  int iterations = 0;
+  int limit = 0;            ///< of iterations
+  int round = 0;            ///< of the hybrid, which the stage belongs to
+  double start_norm = 0.0;  ///< lowest ||F|| when the stage began
+  int start_evaluations = 0;
+
+  template <class Visitor>
+  void for_each_field(Visitor& visit) {
+    visit(kind);
+    visit(iterations);
+    visit(limit);
+    visit(round);
+    visit(start_norm);
+    visit(start_evaluations);
+  }
+};
+
+/// Of the multisecant stages.
+struct MultisecantCourse {
+  double mark = 0.0;  ///< see Multisecant::patience
+  int last_fall = 0;  ///< evaluations at the mark
+  int wild = 0;       ///< points in a row far above the best
+  double mixing = 1.0;
+  bool mixing_known = false;
+  double expected_change = 0.0;  ///< of F in the first step, if an action foretold it
+  double lead = 0.0;             ///< of least squares over Broyden; see Multisecant::broyden
+  double broyden_error = 0.0;    ///< likewise
+  bool inverted = false;         ///< work.by_broyden belongs to work.base
+
+  template <class Visitor>
+  void for_each_field(Visitor& visit) {
+    visit(mark);
+    visit(last_fall);
+    visit(wild);
+    visit(mixing);
+    visit(mixing_known);
+    visit(expected_change);
+    visit(lead);
+    visit(broyden_error);
+    visit(inverted);
+  }
+};
+
+/// Of the Newton stages.
+struct NewtonCourse {
+  ForcingState forcing;
+  double radius = 0.0;  ///< of the dogleg; 0: none
+  std::array<double, 10> last_norms{};
+  int last_norms_count = 0;
+  double window_norm = 0.0;  ///< ||F|| at the beginning of the window of stagnation
+  int window_steps = 0;
+  int poor_steps = 0;     ///< in a row, that kept little of what the linear model promised
+  bool by_lines = false;  ///< line searches only
+
+  template <class Visitor>
+  void for_each_field(Visitor& visit) {
+    visit(forcing);
+    visit(radius);
+    visit(last_norms);
+    visit(last_norms_count);
+    visit(window_norm);
+    visit(window_steps);
+    visit(poor_steps);
+    visit(by_lines);
+  }
+};
+
+/// What has been tried when Newton failed.
+struct RescueCourse {
+  Ending newton_failure = Ending::go_on;  ///< the first one, which the rescues shall mend
+  bool noise_measured = false;
+  bool restarted = false;
+  bool transient_tried = false;
+  int round_cost = 0;  ///< evaluations of the last round of Newton; 0: none yet
+
+  template <class Visitor>
+  void for_each_field(Visitor& visit) {
+    visit(newton_failure);
+    visit(noise_measured);
+    visit(restarted);
+    visit(transient_tried);
+    visit(round_cost);
+  }
+};
+
+/// Of the pseudo-transient stage.
+struct TransientCourse {
+  double time_step = 0.0;
+  double shift_sign = 1.0;
+
+  template <class Visitor>
+  void for_each_field(Visitor& visit) {
+    visit(time_step);
+    visit(shift_sign);
+  }
+};
+
+/// Of the preconditioner, the caller's or the learnt one.
+struct PreconditionerCourse {
+  int setup_evaluations = 0;     ///< counts at the last setup
+  double setup_norm = 0.0;       ///< lowest ||F|| at the last setup
+  double setup_best_rate = 0.0;  ///< gain per evaluation soon after it
+  int stale = 0;                ///< Krylov iterations since then that new factors would have spared
+  bool doubted = false;         ///< a round without it was tried
+  bool suspended = false;       ///< such a round goes on
+  bool learning_tried = false;  ///< see Learning
+
+  template <class Visitor>
+  void for_each_field(Visitor& visit) {
+    visit(setup_evaluations);
+    visit(setup_norm);
+    visit(setup_best_rate);
+    visit(stale);
+    visit(doubted);
+    visit(suspended);
+    visit(learning_tried);
+  }
+};
+
+/// Where a solve stands, besides its vectors and its report: all that decides what comes next.
+struct Course {
+  StageCourse stage;
+  MultisecantCourse multisecant;
+  NewtonCourse newton;
+  RescueCourse rescue;
+  TransientCourse transient;
+  PreconditionerCourse preconditioner;
+
+  template <class Visitor>
+  void for_each_field(Visitor& visit) {
+    visit(stage);
+    visit(multisecant);
+    visit(newton);
+    visit(rescue);
+    visit(transient);
+    visit(preconditioner);
+  }
+};
+
+}  // namespace jfnk::detail
