@@ -258,8 +258,14 @@ TEST(Resume, RefusesAnyDamagedCount) {
   solver.load(midway.good);
   const std::vector<std::int64_t>& all = midway.good.integers;
   const jfnk::Counts& counts = solver.report().counts;
-  const std::int64_t sought[] = {counts.start, counts.newton_trials, counts.line_search,
-                                 counts.multisecant};
+  const std::int64_t sought[] = {counts.start,
+                                 counts.newton_trials,
+                                 counts.line_search,
+                                 counts.multisecant,
+                                 counts.pseudo_transient,
+                                 counts.noise,
+                                 counts.difference_actions,
+                                 counts.user_actions};
   const auto place = std::search(all.begin() + 7, all.end(), std::begin(sought), std::end(sought));
   ASSERT_NE(place, all.end());
   for (std::ptrdiff_t i = 0; i < std::ssize(sought); ++i) {
