@@ -40,6 +40,7 @@ struct ProgrammeState {
     visit("hourglass_work", "J", hourglass_work);
     visit("external_work", "J", external_work);
   }
+  bool operator==(const ProgrammeState&) const = default;
 };
 
 /// The primary state of a run at a converged step; all else is rebuilt from it and the scene.

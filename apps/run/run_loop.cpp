@@ -190,7 +190,7 @@ class Run {
       recorder.say("changed: " + change.text());
   }
 
-  program::ExitCode advance(model::State<Dim>& state, stepping::LoadStepper<Dim>& stepper,
+  program::ExitCode advance(const model::State<Dim>& state, stepping::LoadStepper<Dim>& stepper,
                             Recorder<Dim>& recorder, const record::RunFolder& folder) {
     // Of the last converged step, whatever is tried after it.
     Eigen::VectorXd reaction = Eigen::VectorXd::Zero(model_.unknowns());
@@ -198,7 +198,6 @@ class Run {
     while (!stepper.finished()) {
       for (const std::string& line : limit.news()) recorder.say(line);
       if (!stop_.now().empty()) return interrupt(recorder, reaction);
-      const model::ProgrammeState before = state.programme;
       const stepping::StepResult result =
           stepper.advance([&](const jfnk::Iteration&) { return stop_.now().empty(); });
       if (result.outcome == stepping::StepOutcome::converged) {
@@ -206,8 +205,6 @@ class Run {
         recorder.take(result.record, reaction);
         continue;
       }
-      // What was tried in vain is forgotten: a run resumed from here tries the same.
-      state.programme = before;
       if (result.outcome == stepping::StepOutcome::stopped) return interrupt(recorder, reaction);
       return fail(state, result, recorder, reaction, folder, limit);
     }

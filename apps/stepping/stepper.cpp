@@ -130,6 +130,15 @@ bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult&
 
 template <int Dim>
 StepResult LoadStepper<Dim>::advance(const Watch& watch) {
+  const model::ProgrammeState before = state_.programme;
+  StepResult result = attempt(watch);
+  // What was tried in vain is forgotten: whoever goes on from here tries the same.
+  if (result.outcome != StepOutcome::converged) state_.programme = before;
+  return result;
+}
+
+template <int Dim>
+StepResult LoadStepper<Dim>::attempt(const Watch& watch) {
   model::ProgrammeState& programme = state_.programme;
   StepResult result;
   for (;;) {

@@ -67,6 +67,8 @@ class LoadStepper {
   LoadStepper(const scene::Scene& scene, const model::Model<Dim>& model, model::State<Dim>& state);
 
   bool finished() const;
+  /// Tries one step, with smaller increments as need be. The state is the new one if it converged,
+  /// else as it was, the programme's step sizes included.
   StepResult advance(const Watch& watch = {});
 
   /// Re-searches, if the scene's rule asks for it, as each converged step does at its end.
@@ -77,6 +79,7 @@ class LoadStepper {
   std::size_t bytes() const { return equilibrium_.bytes() + preconditioner_.bytes(); }
 
  private:
+  StepResult attempt(const Watch& watch);
   void set_prescribed(double increment, Eigen::VectorXd& u) const;
   bool predict_by_tangent(double increment, Eigen::VectorXd& u, StepRecord& record);
   bool solve(Eigen::VectorXd& u, const Watch& watch, StepResult& result);
