@@ -10,12 +10,8 @@ SceneReading parse_scene(std::string_view text, const std::string& source,
                          std::span<const std::string> settings) {
   SceneReading reading;
   Scene scene;
-  const tables::TableSink sink{
-      [&](const tables::TableInfo& table, std::size_t count) { table.resize(scene, count); },
-      [&](const tables::TableInfo&, std::size_t index, const tables::Field& field,
-          const tables::Value& value) { field.write(scene, index, value); }};
   tables::Diagnosis diagnosis(source);
-  if (const auto problem = tables::read_tables(text, settings, scene_tables(), sink, diagnosis)) {
+  if (const auto problem = tables::read_tables(text, settings, scene_tables(), scene, diagnosis)) {
     reading.errors.push_back(*problem);
     return reading;
   }
