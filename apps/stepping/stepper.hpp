@@ -28,7 +28,7 @@ struct StepRecord {
   int evaluations = 0;  // of all attempts at this step, predictors included
   int cuts = 0;
   Eigen::Index plastic_particles = 0;
-  Eigen::Index researched_rows = 0;
+  Eigen::Index re_searched_rows = 0;
   double residual_ratio = 0.0;  // |r_free| over the reference norm
   double max_plastic_strain = 0.0;
   double hourglass_work_ratio = 0.0;  // accumulated, over the work of the loads
@@ -73,9 +73,8 @@ class LoadStepper {
 
   /// Re-searches, if the scene's rule asks for it, as each converged step does at its end.
   /// @return the rows rebuilt
-  Eigen::Index research();
+  Eigen::Index re_search();
 
-  const equilibrium::Equilibrium<Dim>& equilibrium() const { return equilibrium_; }
   std::size_t bytes() const { return equilibrium_.bytes() + preconditioner_.bytes(); }
 
  private:
