@@ -16,6 +16,7 @@
 #include "limit/ground/ground_case.hpp"
 #include "limit/report.hpp"
 #include "program/version.hpp"
+#include "record/curve_file.hpp"
 #include "scene/reader.hpp"
 #include "tables/nearest_name.hpp"
 #include "tables/reader.hpp"
