@@ -206,8 +206,10 @@ void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
   programme.external_work += forces.external_work;
 
   record.step = programme.step;
-  record.load = programme.load;
+  record.load_parameter = programme.load;
   record.settlement = displaced ? length * programme.load : 0.0;
+  const double reference = scene_.drive.reference_length.value_or(0.0);
+  record.settlement_over_B = reference > 0.0 ? record.settlement / reference : 0.0;
   record.increment = length * increment;
   record.reaction = forces.reaction;
   const double width = scene_.drive.width.value_or(0.0);

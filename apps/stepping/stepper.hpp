@@ -8,31 +8,16 @@
 #include "jfnk/solver.hpp"
 #include "model/model.hpp"
 #include "model/state.hpp"
+#include "record/curve.hpp"
 #include "scene/scene.hpp"
 #include "stepping/patience.hpp"
 
 namespace stepping {
 
-/// What one converged step did; the curve and the progress line are made of it.
-struct StepRecord {
-  std::int64_t step = 0;
-  double load = 0.0;                // load parameter reached
-  double settlement = 0.0;          // [m] of the drive
-  double increment = 0.0;           // [m] of the drive, or of the load parameter in a load drive
-  double reaction = 0.0;            // [N/m or N]
-  double mean_pressure = 0.0;       // [Pa] reaction over width, if a width is given
-  double corrected_pressure = 0.0;  // [Pa] less what the hourglass control took
-  int newton_iterations = 0;
-  int residual_evaluations = 0;
-  int jacobian_actions = 0;
-  int evaluations = 0;  // of all attempts at this step, predictors included
-  int cuts = 0;
-  Eigen::Index plastic_particles = 0;
-  Eigen::Index re_searched_rows = 0;
-  double residual_ratio = 0.0;  // |r_free| over the reference norm
-  double max_plastic_strain = 0.0;
-  double hourglass_work_ratio = 0.0;  // accumulated, over the work of the loads
-  double max_displacement = 0.0;      // [m]
+/// What one converged step did: its row of the curve, but for the wall time, which is the
+/// recorder's, and what the curve does not show.
+struct StepRecord : record::CurveRow {
+  double max_displacement = 0.0;  // [m]
 };
 
 enum class StepOutcome {

@@ -8,6 +8,7 @@
 #include "files/hdf5_file.hpp"
 #include "model/checkpoint.hpp"
 #include "model/state_file.hpp"
+#include "record/curve_file.hpp"
 #include "restart.hpp"
 
 namespace restart {

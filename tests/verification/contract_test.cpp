@@ -69,7 +69,7 @@ const Settings coarse_footing = {"geometry.spacing=0.02"};
 struct Outcome {
   Eigen::MatrixXd displacement, stress;
   std::vector<double> curve;
-  std::vector<int> evaluations;
+  std::vector<std::int64_t> evaluations;
 };
 
 Outcome five_steps(int threads) {
