@@ -83,10 +83,10 @@ void place_particles(const scene::Scene& scene, Model<Dim>& model) {
 
 // The last material whose region holds the point; the first has no region.
 template <int Dim>
-std::uint8_t material_at(const scene::Scene& scene, const Eigen::Matrix<double, 1, Dim>& x) {
+MaterialIndex material_at(const scene::Scene& scene, const Eigen::Matrix<double, 1, Dim>& x) {
   std::size_t m = scene.material.size() - 1;
   while (m > 0 && !inside<Dim>(x, scene.material[m].region_min, scene.material[m].region_max)) --m;
-  return static_cast<std::uint8_t>(m);
+  return static_cast<MaterialIndex>(m);
 }
 
 template <int Dim>
