@@ -5,13 +5,11 @@
 #include <boost/program_options.hpp>
 #include <charconv>
 #include <cmath>
-#include <exception>
 #include <iostream>
 
 #include "compare/difference.hpp"
 #include "compare/report.hpp"
-#include "files/file_error.hpp"
-#include "program/exit_code.hpp"
+#include "program/command_line.hpp"
 #include "program/version.hpp"
 
 namespace {
@@ -19,6 +17,8 @@ namespace {
 namespace po = boost::program_options;
 using namespace comparison;
 using program::ExitCode;
+using program::texts;
+using program::UsageError;
 using Texts = std::vector<std::string>;
 
 constexpr std::string_view usage =
@@ -42,11 +42,6 @@ constexpr std::string_view notes =
     "\n"
     "Exit codes: 0 all pass, 1 internal error, 2 wrong use, 3 different, 4 a file is unusable.\n";
 
-/// The command line cannot be understood.
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 po::options_description options() {
   po::options_description all("Options");
   all.add_options()  //
@@ -62,27 +57,6 @@ po::options_description options() {
       ("version", po::bool_switch(), "print the version")                   //
       ("help", po::bool_switch(), "print this help");
   return all;
-}
-
-po::variables_map parse(const Texts& arguments) {
-  po::options_description all = options();
-  all.add_options()("file", po::value<Texts>());
-  po::positional_options_description positional;
-  positional.add("file", -1);
-  const int strict = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-  po::variables_map values;
-  try {
-    po::store(
-        po::command_line_parser(arguments).options(all).positional(positional).style(strict).run(),
-        values);
-  } catch (const po::error& failure) {
-    throw UsageError(failure.what());
-  }
-  return values;
-}
-
-Texts texts(const po::variables_map& values, const char* name) {
-  return values.count(name) == 0 ? Texts{} : values[name].as<Texts>();
 }
 
 std::vector<Tolerance> tolerances(const po::variables_map& values, const char* name) {
@@ -125,7 +99,7 @@ ExitCode compare(const po::variables_map& values) {
 }
 
 ExitCode run(const Texts& arguments) {
-  const po::variables_map values = parse(arguments);
+  const po::variables_map values = program::parse(arguments, options(), "file");
   if (values["help"].as<bool>()) {
     std::cout << usage << '\n' << options() << '\n' << notes;
     return ExitCode::done;
@@ -140,16 +114,7 @@ ExitCode run(const Texts& arguments) {
 }  // namespace
 
 int main(int count, char** words) {
-  try {
-    return program::to_int(run({words + 1, words + count}));
-  } catch (const UsageError& failure) {
-    std::cerr << "error: " << failure.what() << "\nTry fpm-compare --help.\n";
-    return program::to_int(ExitCode::input_refused);
-  } catch (const files::FileError& failure) {
-    std::cerr << "error: " << failure.what() << '\n';
-    return program::to_int(ExitCode::checkpoint_unusable);
-  } catch (const std::exception& failure) {
-    std::cerr << "internal error: " << failure.what() << "\nThis is a bug: please report it.\n";
-    return program::to_int(ExitCode::bug);
-  }
+  const Texts arguments(words + 1, words + count);
+  return program::to_int(
+      program::run_program("fpm-compare", std::cerr, [&] { return run(arguments); }));
 }

@@ -249,9 +249,9 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
   forces.hourglass_work = hourglass_work(loop_data());
   forces.external_work = step_.external.dot(increment);
   for (Eigen::Index k = 0; k < increment.size(); ++k) {
-    if (model_.prescribed[static_cast<std::size_t>(k)] != 0) {
-      forces.external_work += evaluation_.unmasked[k] * increment[k];
-    }
+    const bool given = model_.prescribed[static_cast<std::size_t>(k)] != 0;
+    state_.reaction.data()[k] = given ? evaluation_.unmasked[k] : 0.0;
+    if (given) forces.external_work += evaluation_.unmasked[k] * increment[k];
   }
   const LoopOutcome outcome = loops_.commit(loop_data());
   if (!outcome.ok()) {

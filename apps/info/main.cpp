@@ -1,17 +1,18 @@
 // fpm-info: says in plain text what a checkpoint, a frame or an output folder holds.
 
-#include <exception>
+#include <boost/program_options.hpp>
 #include <iostream>
 #include <string>
 #include <vector>
 
-#include "files/durable_file.hpp"
+#include "files/file_error.hpp"
 #include "info/describe.hpp"
-#include "program/exit_code.hpp"
+#include "program/command_line.hpp"
 #include "program/version.hpp"
 
 namespace {
 
+namespace po = boost::program_options;
 using namespace info;
 using program::ExitCode;
 
@@ -23,11 +24,20 @@ constexpr const char* usage =
     "step, when, why and by which versions it was written, from which others it comes, and what a\n"
     "run that goes on from it may change; then groups, datasets with type, shape and unit. Every\n"
     "byte of a checkpoint is checked. Of a folder: whether a run is at work in it, and each\n"
-    "checkpoint.\n"
-    "\n"
-    "  --scene  prints the scene that a checkpoint was written with, every key, as a scene file\n"
-    "\n"
-    "Exit codes: 0 done, 2 wrong use, 4 a file is unusable.\n";
+    "checkpoint.\n";
+
+po::options_description options() {
+  po::options_description all("Options");
+  all.add_options()  //
+      ("scene", po::bool_switch(),
+       "print the scene that a checkpoint was written with, every key, as a scene file")  //
+      ("version", po::bool_switch(), "print the version")                                 //
+      ("help", po::bool_switch(), "print this help");
+  return all;
+}
+
+constexpr const char* exit_codes =
+    "\nExit codes: 0 done, 1 internal error, 2 wrong use, 4 a file is unusable.\n";
 
 std::string described(const std::string& path, bool scene) {
   if (scene) return scene_in(path);
@@ -48,41 +58,24 @@ ExitCode describe_all(const std::vector<std::string>& paths, bool scene) {
 }
 
 ExitCode run(const std::vector<std::string>& arguments) {
-  std::vector<std::string> paths;
-  bool scene = false;
-  for (const std::string& argument : arguments) {
-    if (argument == "--scene") {
-      scene = true;
-      continue;
-    }
-    if (argument == "--help") {
-      std::cout << usage;
-      return ExitCode::done;
-    }
-    if (argument == "--version") {
-      std::cout << "fpm-info " << program::version << '\n';
-      return ExitCode::done;
-    }
-    if (argument.starts_with("--")) {
-      std::cerr << "error: " << argument << ": no such option\nTry fpm-info --help.\n";
-      return ExitCode::input_refused;
-    }
-    paths.push_back(argument);
+  const po::variables_map values = program::parse(arguments, options(), "path");
+  if (values["help"].as<bool>()) {
+    std::cout << usage << '\n' << options() << exit_codes;
+    return ExitCode::done;
   }
-  if (paths.empty()) {
-    std::cerr << "error: FILE or FOLDER is missing\nTry fpm-info --help.\n";
-    return ExitCode::input_refused;
+  if (values["version"].as<bool>()) {
+    std::cout << "fpm-info " << program::version << '\n';
+    return ExitCode::done;
   }
-  return describe_all(paths, scene);
+  const std::vector<std::string> paths = program::texts(values, "path");
+  if (paths.empty()) throw program::UsageError("FILE or FOLDER is missing");
+  return describe_all(paths, values["scene"].as<bool>());
 }
 
 }  // namespace
 
 int main(int count, char** words) {
-  try {
-    return program::to_int(run({words + 1, words + count}));
-  } catch (const std::exception& failure) {
-    std::cerr << "internal error: " << failure.what() << "\nThis is a bug: please report it.\n";
-    return program::to_int(ExitCode::bug);
-  }
+  const std::vector<std::string> arguments(words + 1, words + count);
+  return program::to_int(
+      program::run_program("fpm-info", std::cerr, [&] { return run(arguments); }));
 }

@@ -4,17 +4,15 @@
 
 #include <boost/program_options.hpp>
 #include <charconv>
-#include <exception>
 #include <iterator>
 #include <new>
 
-#include "files/file_error.hpp"
+#include "program/command_line.hpp"
 #include "program/version.hpp"
 #include "scene/derived.hpp"
 #include "scene/names.hpp"
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
-#include "tables/nearest_name.hpp"
 
 namespace run {
 
@@ -64,11 +62,6 @@ po::options_description options() {
   return all;
 }
 
-/// The command line cannot be understood.
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 /// Makes clear to Boost what --resume, whose value is optional, has for a value: the next word is
 /// it unless it is another option or the scene, which Boost would take as well.
 std::vector<std::string> with_clear_resume(std::span<const std::string> arguments) {
@@ -89,36 +82,6 @@ std::vector<std::string> with_clear_resume(std::span<const std::string> argument
   return clear;
 }
 
-po::variables_map parse(std::span<const std::string> arguments) {
-  po::options_description all = options();
-  all.add_options()("scene", po::value<std::vector<std::string>>());
-  po::positional_options_description positional;
-  positional.add("scene", -1);
-  // No abbreviations: a script must not change its meaning when an option is added.
-  namespace style = po::command_line_style;
-  const int strict = style::unix_style & ~style::allow_guessing;
-  po::variables_map values;
-  try {
-    po::store(po::command_line_parser(with_clear_resume(arguments))
-                  .options(all)
-                  .positional(positional)
-                  .style(strict)
-                  .run(),
-              values);
-  } catch (const po::unknown_option& unknown) {
-    std::vector<std::string> names;
-    const po::options_description known = options();
-    for (const auto& option : known.options()) names.push_back("--" + option->long_name());
-    const std::string nearest =
-        tables::nearest_name(unknown.get_option_name(), {names.begin(), names.end()});
-    throw UsageError(fmt::format("{}: no such option{}", unknown.get_option_name(),
-                                 nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
-  } catch (const po::error& failure) {
-    throw UsageError(failure.what());
-  }
-  return values;
-}
-
 std::filesystem::path output_folder(const po::variables_map& values, const scene::Scene& scene,
                                     const std::filesystem::path& file) {
   if (values.count("out") != 0) return values["out"].as<std::string>();
@@ -128,12 +91,12 @@ std::filesystem::path output_folder(const po::variables_map& values, const scene
 
 RunRequest request_of(const po::variables_map& values) {
   RunRequest request;
-  const auto scenes = values.count("scene") == 0 ? std::vector<std::string>{}
-                                                 : values["scene"].as<std::vector<std::string>>();
-  if (scenes.empty()) throw UsageError("SCENE is missing");
-  if (scenes.size() > 1) throw UsageError(fmt::format("{}: one SCENE at a time", scenes[1]));
+  const auto scenes = program::texts(values, "scene");
+  if (scenes.empty()) throw program::UsageError("SCENE is missing");
+  if (scenes.size() > 1)
+    throw program::UsageError(fmt::format("{}: one SCENE at a time", scenes[1]));
   request.scene_file = scenes.front();
-  if (values.count("set") != 0) request.settings = values["set"].as<std::vector<std::string>>();
+  request.settings = program::texts(values, "set");
   if (values.count("resume") != 0) request.resume = ResumeFrom{values["resume"].as<std::string>()};
   request.check_only = values["check"].as<bool>();
   request.quiet = values["quiet"].as<bool>();
@@ -141,15 +104,15 @@ RunRequest request_of(const po::variables_map& values) {
     request.threads = values["threads"].as<int>();
     constexpr int most_threads = 4096;
     if (request.threads < 1 || request.threads > most_threads) {
-      throw UsageError(fmt::format("--threads: found {}; allowed is a whole number 1 .. {}",
-                                   request.threads, most_threads));
+      throw program::UsageError(fmt::format(
+          "--threads: found {}; allowed is a whole number 1 .. {}", request.threads, most_threads));
     }
   }
   if (values.count("max-wall") != 0) {
     const auto text = values["max-wall"].as<std::string>();
     request.max_wall_s = parse_duration(text);
     if (!request.max_wall_s) {
-      throw UsageError(
+      throw program::UsageError(
           fmt::format("--max-wall: found {}; allowed is a time such as 5h, 30m, 90s, 1h30m", text));
     }
   }
@@ -170,7 +133,7 @@ bool take_scene(RunRequest& request, const po::variables_map& values, std::ostre
 
 program::ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ostream& err,
                       const Runner& runner) {
-  const po::variables_map values = parse(arguments);
+  const po::variables_map values = program::parse(with_clear_resume(arguments), options(), "scene");
   if (values["help"].as<bool>()) {
     out << usage << '\n' << options() << '\n' << examples;
     return program::ExitCode::done;
@@ -247,21 +210,14 @@ std::string scene_summary(const scene::Scene& scene) {
 
 program::ExitCode fpm_run(std::span<const std::string> arguments, std::ostream& out,
                           std::ostream& err, const Runner& runner) {
-  try {
-    return run(arguments, out, err, runner);
-  } catch (const UsageError& failure) {
-    err << "error: " << failure.what() << "\nTry fpm-run --help.\n";
-    return program::ExitCode::input_refused;
-  } catch (const files::FileError& failure) {
-    err << "error: " << failure.what() << '\n';
-    return program::ExitCode::checkpoint_unusable;
-  } catch (const std::bad_alloc&) {
-    err << "error: out of memory; --check says how much a scene needs\n";
-    return program::ExitCode::bug;
-  } catch (const std::exception& failure) {
-    err << "internal error: " << failure.what() << "\nThis is a bug: please report it.\n";
-    return program::ExitCode::bug;
-  }
+  return program::run_program("fpm-run", err, [&] {
+    try {
+      return run(arguments, out, err, runner);
+    } catch (const std::bad_alloc&) {
+      err << "error: out of memory; --check says how much a scene needs\n";
+      return program::ExitCode::bug;
+    }
+  });
 }
 
 }  // namespace run

@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 5> free_tables{"programme.", "solver.", "
                                                       "output.", "limit."};
 constexpr std::array<std::string_view, 2> free_keys{"title", "drive.target"};
 
-std::string text_at(const tables::TableInfo& table, const tables::Field& field, const Scene& scene,
+std::string text_at(const SceneTable& table, const tables::Field<Scene>& field, const Scene& scene,
                     std::size_t index) {
   if (index >= table.size(scene)) return "absent";
   const auto value = field.read(scene, index);
@@ -41,10 +41,10 @@ std::string what_may_change() {
 
 std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after) {
   std::vector<SceneChange> changes;
-  for (const tables::TableInfo& table : scene_tables()) {
+  for (const SceneTable& table : scene_tables()) {
     const std::size_t count = std::max(table.size(before), table.size(after));
     for (std::size_t i = 0; i < count; ++i) {
-      for (const tables::Field& field : table.fields) {
+      for (const tables::Field<Scene>& field : table.fields) {
         SceneChange change{table.path(i, field.key), text_at(table, field, before, i),
                            text_at(table, field, after, i), false};
         if (change.before == change.after) continue;

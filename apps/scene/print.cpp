@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::size_t value_column = 44;  // where comments begin, for shorter values
 
-std::string note_of(const tables::Field& field) {
+std::string note_of(const tables::Field<Scene>& field) {
   std::string note = field.allowed_text();
   if (!field.notes.absent.empty()) note += fmt::format("; absent: {}", field.notes.absent);
   return note;
 }
 
 /// What an `auto` or absent key comes to in this scene, or "".
-std::string resolution_of(const tables::TableInfo& table, const tables::Field& field,
+std::string resolution_of(const SceneTable& table, const tables::Field<Scene>& field,
                           const Scene& scene) {
   if (table.name == "hourglass" && field.key == "control" &&
       scene.hourglass.control == HourglassControl::automatic) {
@@ -37,10 +37,9 @@ std::string resolution_of(const tables::TableInfo& table, const tables::Field& f
   return "";
 }
 
-void print_entry(std::string& out, const tables::TableInfo& table, std::size_t index,
-                 const Scene& scene) {
+void print_entry(std::string& out, const SceneTable& table, std::size_t index, const Scene& scene) {
   if (!table.name.empty()) out += fmt::format("\n{}\n", table.title());
-  for (const tables::Field& field : table.fields) {
+  for (const tables::Field<Scene>& field : table.fields) {
     const auto value = field.read(scene, index);
     const std::string assignment =
         value ? fmt::format("{} = {}", field.key, tables::value_text(*value))
@@ -58,7 +57,7 @@ std::string cell(std::string text) {
   return text;
 }
 
-std::string default_of(const tables::TableInfo& table, const tables::Field& field) {
+std::string default_of(const SceneTable& table, const tables::Field<Scene>& field) {
   if (field.notes.need == tables::Need::required) return "required";
   if (field.notes.need == tables::Need::optional)
     return fmt::format("absent: {}", field.notes.absent);
@@ -68,13 +67,13 @@ std::string default_of(const tables::TableInfo& table, const tables::Field& fiel
   return value ? fmt::format("`{}`", tables::value_text(*value)) : "absent";
 }
 
-void print_reference(std::string& out, const tables::TableInfo& table) {
+void print_reference(std::string& out, const SceneTable& table) {
   const std::string heading = table.name.empty() ? "Top level" : fmt::format("`{}`", table.title());
   out +=
       fmt::format("\n## {}\n\n{}{}{}\n\n", heading, table.doc, table.required ? " Required." : "",
                   table.repeated ? " May be given several times." : "");
   out += "| key | allowed | default | meaning |\n|---|---|---|---|\n";
-  for (const tables::Field& field : table.fields) {
+  for (const tables::Field<Scene>& field : table.fields) {
     std::string meaning(field.notes.doc);
     if (!field.notes.source.empty()) meaning += fmt::format(" Source: {}.", field.notes.source);
     out += fmt::format("| `{}` | {} | {} | {} |\n", field.key, cell(field.allowed_text()),
@@ -86,7 +85,7 @@ void print_reference(std::string& out, const tables::TableInfo& table) {
 
 std::string effective_toml(const Scene& scene) {
   std::string out = "# SI units; tension positive; y points up.\n";
-  for (const tables::TableInfo& table : scene_tables()) {
+  for (const SceneTable& table : scene_tables()) {
     const std::size_t count = table.size(scene);
     for (std::size_t i = 0; i < count; ++i) print_entry(out, table, i, scene);
   }
@@ -101,7 +100,7 @@ std::string scene_reference() {
       "set on the command line: `--set geometry.spacing=0.02`, `--set material.0.cohesion=3e3`,\n"
       "or by name, `--set material.soil.cohesion=3e3`. Unknown keys are errors.\n"
       "`fpm-run SCENE --print-effective` shows a scene with all defaults.\n";
-  for (const tables::TableInfo& table : scene_tables()) print_reference(out, table);
+  for (const SceneTable& table : scene_tables()) print_reference(out, table);
   return out;
 }
 

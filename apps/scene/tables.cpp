@@ -2,11 +2,11 @@
 
 namespace scene {
 
-const std::vector<tables::TableInfo>& scene_tables() {
-  static const std::vector<tables::TableInfo> tables = [] {
-    std::vector<tables::TableInfo> all;
+const std::vector<SceneTable>& scene_tables() {
+  static const std::vector<SceneTable> tables = [] {
+    std::vector<SceneTable> all;
     for (auto part : {body_tables, loading_tables, run_tables}) {
-      for (tables::TableInfo& table : part()) all.push_back(std::move(table));
+      for (SceneTable& table : part()) all.push_back(std::move(table));
     }
     return all;
   }();

@@ -1,5 +1,6 @@
-#include "scene/table_builder.hpp"
+#include "scene/names.hpp"
 #include "scene/tables.hpp"
+#include "tables/builder.hpp"
 
 namespace scene {
 
@@ -9,15 +10,15 @@ namespace {
 constexpr tables::Range poisson_range{-1.0, 0.5, true, true};
 constexpr tables::Range angle_range{0.0, 90.0, false, true};
 
-tables::TableInfo top_level() {
-  return TableBuilder<Scene>("The scene as a whole.")
+SceneTable top_level() {
+  return tables::TableBuilder<Scene, Scene>("The scene as a whole.")
       .key("title", &Scene::title, {.doc = "One line that names the run in logs and files."})
       .build();
 }
 
-tables::TableInfo geometry() {
-  return TableBuilder<Geometry>("geometry", &Scene::geometry,
-                                "The body: a box filled by a lattice of particles.")
+SceneTable geometry() {
+  return tables::TableBuilder<Scene, Geometry>("geometry", &Scene::geometry,
+                                               "The body: a box filled by a lattice of particles.")
       .required()
       .key("dimension", &Geometry::dimension,
            {.need = tables::Need::required,
@@ -48,9 +49,10 @@ tables::TableInfo geometry() {
       .build();
 }
 
-tables::TableInfo approximation() {
-  return TableBuilder<Approximation>("approximation", &Scene::approximation,
-                                     "How fields are approximated between particles.")
+SceneTable approximation() {
+  return tables::TableBuilder<Scene, Approximation>(
+             "approximation", &Scene::approximation,
+             "How fields are approximated between particles.")
       .key("kernel", &Approximation::kernel,
            {.doc = "Weight function of the corrected kernel.",
             .source = "Chen, Huang & Lyamin 2020, Eq. 1-2 (cubic spline)"})
@@ -70,10 +72,11 @@ tables::TableInfo approximation() {
       .build();
 }
 
-tables::TableInfo material() {
-  return TableBuilder<Material>("material", &Scene::material,
-                                "A material. The first fills the body; each later one has a region "
-                                "and wins inside it over the earlier ones.")
+SceneTable material() {
+  return tables::TableBuilder<Scene, Material>(
+             "material", &Scene::material,
+             "A material. The first fills the body; each later one has a region "
+             "and wins inside it over the earlier ones.")
       .required()
       .key("name", &Material::name,
            {.need = tables::Need::required,
@@ -132,9 +135,10 @@ tables::TableInfo material() {
       .build();
 }
 
-tables::TableInfo hourglass() {
-  return TableBuilder<Hourglass>("hourglass", &Scene::hourglass,
-                                 "Control of the zero-energy modes of nodal integration.")
+SceneTable hourglass() {
+  return tables::TableBuilder<Scene, Hourglass>(
+             "hourglass", &Scene::hourglass,
+             "Control of the zero-energy modes of nodal integration.")
       .key("control", &Hourglass::control,
            {.doc =
                 "viscosity: the paper's, for reproduction. stiffness: elastic bodies; locks when "
@@ -164,7 +168,7 @@ tables::TableInfo hourglass() {
 
 }  // namespace
 
-std::vector<tables::TableInfo> body_tables() {
+std::vector<SceneTable> body_tables() {
   return {top_level(), geometry(), approximation(), material(), hourglass()};
 }
 

@@ -1,12 +1,13 @@
-#include "scene/table_builder.hpp"
+#include "scene/names.hpp"
 #include "scene/tables.hpp"
+#include "tables/builder.hpp"
 
 namespace scene {
 
 namespace {
 
-tables::TableInfo symmetry() {
-  return TableBuilder<Symmetry>(
+SceneTable symmetry() {
+  return tables::TableBuilder<Scene, Symmetry>(
              "symmetry", &Scene::symmetry,
              "A mirror at a face of the box: ghost particles behind it make it a "
              "true symmetry plane. Layout cell only.")
@@ -19,10 +20,11 @@ tables::TableInfo symmetry() {
       .build();
 }
 
-tables::TableInfo support() {
-  return TableBuilder<Support>("support", &Scene::support,
-                               "Particles that stay where they are in some directions, chosen by "
-                               "exactly one of side, region and at.")
+SceneTable support() {
+  return tables::TableBuilder<Scene, Support>(
+             "support", &Scene::support,
+             "Particles that stay where they are in some directions, chosen by "
+             "exactly one of side, region and at.")
       .key("name", &Support::name,
            {.need = tables::Need::required, .doc = "Unique; serves messages."})
       .key("side", &Support::side,
@@ -57,9 +59,9 @@ tables::TableInfo support() {
       .build();
 }
 
-tables::TableInfo traction() {
-  return TableBuilder<Traction>("traction", &Scene::traction,
-                                "A force per area on a part of one face.")
+SceneTable traction() {
+  return tables::TableBuilder<Scene, Traction>("traction", &Scene::traction,
+                                               "A force per area on a part of one face.")
       .key("name", &Traction::name,
            {.need = tables::Need::required, .doc = "Unique; serves messages."})
       .key("side", &Traction::side,
@@ -86,8 +88,8 @@ tables::TableInfo traction() {
       .build();
 }
 
-tables::TableInfo gravity() {
-  return TableBuilder<Gravity>("gravity", &Scene::gravity, "Weight.")
+SceneTable gravity() {
+  return tables::TableBuilder<Scene, Gravity>("gravity", &Scene::gravity, "Weight.")
       .key("acceleration", &Gravity::acceleration,
            {.need = tables::Need::optional,
             .unit = "m/s2",
@@ -96,9 +98,9 @@ tables::TableInfo gravity() {
       .build();
 }
 
-tables::TableInfo initial_stress() {
-  return TableBuilder<InitialStress>("initial_stress", &Scene::initial_stress,
-                                     "The stress before the first step.")
+SceneTable initial_stress() {
+  return tables::TableBuilder<Scene, InitialStress>("initial_stress", &Scene::initial_stress,
+                                                    "The stress before the first step.")
       .key("kind", &InitialStress::kind,
            {.doc =
                 "geostatic: vertical stress from the weight above, horizontal stress K0 times it."})
@@ -119,8 +121,9 @@ tables::TableInfo initial_stress() {
       .build();
 }
 
-tables::TableInfo drive() {
-  return TableBuilder<Drive>("drive", &Scene::drive, "What is moved or loaded, and how far.")
+SceneTable drive() {
+  return tables::TableBuilder<Scene, Drive>("drive", &Scene::drive,
+                                            "What is moved or loaded, and how far.")
       .key("kind", &Drive::kind,
            {.doc = "displacement: particles of a side are moved. load: tractions or gravity grow "
                    "from 0 to their value. none: constant loads, one step."})
@@ -169,7 +172,7 @@ tables::TableInfo drive() {
 
 }  // namespace
 
-std::vector<tables::TableInfo> loading_tables() {
+std::vector<SceneTable> loading_tables() {
   return {symmetry(), support(), traction(), gravity(), initial_stress(), drive()};
 }
 

@@ -1,12 +1,14 @@
-#include "scene/table_builder.hpp"
+#include "scene/names.hpp"
 #include "scene/tables.hpp"
+#include "tables/builder.hpp"
 
 namespace scene {
 
 namespace {
 
-tables::TableInfo programme() {
-  return TableBuilder<Programme>("programme", &Scene::programme, "How the drive is cut into steps.")
+SceneTable programme() {
+  return tables::TableBuilder<Scene, Programme>("programme", &Scene::programme,
+                                                "How the drive is cut into steps.")
       .key("steps", &Programme::steps,
            {.need = tables::Need::optional,
             .range = tables::at_least(0),
@@ -45,8 +47,9 @@ tables::TableInfo programme() {
       .build();
 }
 
-tables::TableInfo solver() {
-  return TableBuilder<Solver>("solver", &Scene::solver, "The nonlinear solver of each step.")
+SceneTable solver() {
+  return tables::TableBuilder<Scene, Solver>("solver", &Scene::solver,
+                                             "The nonlinear solver of each step.")
       .key(
           "preset", &Solver::preset,
           {.doc = "default: hybrid, analytic Jacobian action, two_level. appendix_a: the paper's "
@@ -81,10 +84,11 @@ tables::TableInfo solver() {
       .build();
 }
 
-tables::TableInfo research() {
-  return TableBuilder<Research>("research", &Scene::research,
-                                "Local re-search: rows of strongly sheared particles get new "
-                                "neighbours; stress and history stay on the particles.")
+SceneTable research() {
+  return tables::TableBuilder<Scene, Research>(
+             "research", &Scene::research,
+             "Local re-search: rows of strongly sheared particles get new "
+             "neighbours; stress and history stay on the particles.")
       .key("enabled", &Research::enabled,
            {.doc = "Re-search at all; finite_strain only.",
             .source = "Chen, Huang & Lyamin 2020, section 4.3"})
@@ -98,8 +102,9 @@ tables::TableInfo research() {
       .build();
 }
 
-tables::TableInfo output() {
-  return TableBuilder<Output>("output", &Scene::output, "What is written, where and how often.")
+SceneTable output() {
+  return tables::TableBuilder<Scene, Output>("output", &Scene::output,
+                                             "What is written, where and how often.")
       .key("directory", &Output::directory,
            {.need = tables::Need::optional,
             .doc = "Output folder, from where the program is started; --out goes first.",
@@ -133,10 +138,11 @@ tables::TableInfo output() {
       .build();
 }
 
-tables::TableInfo limit() {
-  return TableBuilder<Limit>("limit", &Scene::limit,
-                             "A footing's run held against the bounds of its collapse load, "
-                             "which fpm-limit computes meanwhile.")
+SceneTable limit() {
+  return tables::TableBuilder<Scene, Limit>(
+             "limit", &Scene::limit,
+             "A footing's run held against the bounds of its collapse load, "
+             "which fpm-limit computes meanwhile.")
       .key("check", &Limit::check,
            {.doc = "Start fpm-limit beside the run, keep its bracket in limit.json, and say in the "
                    "end how the plateau of the curve lies to it."})
@@ -152,7 +158,7 @@ tables::TableInfo limit() {
 
 }  // namespace
 
-std::vector<tables::TableInfo> run_tables() {
+std::vector<SceneTable> run_tables() {
   return {programme(), solver(), research(), output(), limit()};
 }
 

@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t largest_integer = 2147483647;
 
 struct Reader {
-  const Field& field;
+  const FieldInfo& field;
   const std::string& key;
   Diagnosis& diagnosis;
 
@@ -120,7 +120,7 @@ std::string describe(const toml::node& node) {
   return text.str();
 }
 
-std::optional<Value> convert(const toml::node& node, const Field& field, const std::string& key,
+std::optional<Value> convert(const toml::node& node, const FieldInfo& field, const std::string& key,
                              Diagnosis& diagnosis) {
   const Reader reader{field, key, diagnosis};
   switch (field.kind) {

@@ -54,7 +54,7 @@ class Walker {
     for (const TableInfo& info : tables_) {
       if (!info.name.empty()) all.push_back(info.name);
       if (!info.name.empty()) continue;
-      for (const Field& field : info.fields) all.push_back(field.key);
+      for (const FieldInfo& field : info.fields) all.push_back(field.key);
     }
     for (const auto& [key, node] : tree_) {
       const std::string name(key.str());
@@ -86,21 +86,26 @@ class Walker {
     if (empty && info.required) {
       diagnosis_.error(std::string(info.name), "list is empty", "a scene needs " + info.title());
     }
-    sink_.resize(info, entries->size());
+    sink_.resize(number_of(info), entries->size());
     for (std::size_t i = 0; i < entries->size(); ++i) {
       place(info.path(i, ""), (*entries)[i]);
       read_entry(info, i, *(*entries)[i].as_table());
     }
   }
 
+  [[nodiscard]] std::size_t number_of(const TableInfo& info) const {
+    return static_cast<std::size_t>(&info - tables_.data());
+  }
+
   void read_entry(const TableInfo& info, std::size_t index, const toml::table& table) {
-    for (const Field& field : info.fields) {
+    for (std::size_t number = 0; number < info.fields.size(); ++number) {
+      const FieldInfo& field = info.fields[number];
       const std::string path = info.path(index, field.key);
       const toml::node* node = table.get(field.key);
       if (node != nullptr) {
         place(path, *node);
         if (const auto value = convert(*node, field, path, diagnosis_)) {
-          sink_.write(info, index, field, *value);
+          sink_.write(number_of(info), index, number, *value);
         }
       } else if (field.notes.need == Need::required && diagnosis_.good({path})) {
         diagnosis_.error(path, "is missing", "needed is " + field.allowed_text());
@@ -111,7 +116,7 @@ class Walker {
 
   void refuse_unknown_keys(const TableInfo& info, std::size_t index, const toml::table& table) {
     std::vector<std::string_view> all;
-    for (const Field& field : info.fields) all.push_back(field.key);
+    for (const FieldInfo& field : info.fields) all.push_back(field.key);
     for (const auto& entry : table) {
       const toml::key& key = entry.first;
       const std::string name(key.str());

@@ -9,18 +9,18 @@
 #include <variant>
 #include <vector>
 
+#include "tables/field.hpp"
 #include "tables/problem.hpp"
 #include "tables/table.hpp"
 
 namespace tables {
 
-/// Takes what is read along a list of tables.
+/// Takes what is read along a list of tables; tables and fields go by their numbers in it.
 struct TableSink {
   /// A repeated table has so many entries.
-  std::function<void(const TableInfo& table, std::size_t count)> resize;
+  std::function<void(std::size_t table, std::size_t count)> resize;
   /// The value of a key that was given, of the kind and in the range its field allows.
-  std::function<void(const TableInfo& table, std::size_t index, const Field& field,
-                     const Value& value)>
+  std::function<void(std::size_t table, std::size_t entry, std::size_t field, const Value& value)>
       write;
 };
 
@@ -32,6 +32,21 @@ struct TableSink {
                                                  std::span<const std::string> settings,
                                                  const std::vector<TableInfo>& tables,
                                                  const TableSink& sink, Diagnosis& diagnosis);
+
+/// The same into `root`, whose members keep their values where the text has no key.
+template <class Root>
+[[nodiscard]] std::optional<Problem> read_tables(std::string_view text,
+                                                 std::span<const std::string> settings,
+                                                 const std::vector<Table<Root>>& tables, Root& root,
+                                                 Diagnosis& diagnosis) {
+  const TableSink sink{
+      [&](std::size_t table, std::size_t count) { tables[table].resize(root, count); },
+      [&](std::size_t table, std::size_t entry, std::size_t field, const Value& value) {
+        tables[table].fields[field].write(root, entry, value);
+      }};
+  const std::vector<TableInfo> described = descriptions_of(tables);
+  return read_tables(text, settings, described, sink, diagnosis);
+}
 
 /// The text of a file, or why it cannot be read, with a file of a similar name.
 [[nodiscard]] std::variant<std::string, Problem> text_of(const std::filesystem::path& file);

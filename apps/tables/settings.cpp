@@ -49,7 +49,7 @@ class Setter {
     if (info == nullptr) return unknown_table(segments.front());
     const std::size_t wanted = info->name.empty() ? 1 : info->repeated ? 3 : 2;
     if (segments.size() != wanted) return wrong_depth(*info);
-    const Field* field = info->find(segments.back());
+    const FieldInfo* field = info->find(segments.back());
     if (field == nullptr) return unknown_key(*info, segments.back());
 
     std::size_t index = 0;
@@ -87,7 +87,7 @@ class Setter {
       return wrong_depth(*find_table(tables_, key));
     }
     std::vector<std::string_view> all;
-    for (const Field& field : info.fields) all.push_back(field.key);
+    for (const FieldInfo& field : info.fields) all.push_back(field.key);
     diagnosis_.error(setting_.path, "no such key",
                      fmt::format("keys of {} are {}", info.title(), joined(all)),
                      nearest_name(key, all));
@@ -120,7 +120,7 @@ class Setter {
     return nullptr;
   }
 
-  void store(toml::table& table, const TableInfo& info, std::size_t index, const Field& field) {
+  void store(toml::table& table, const TableInfo& info, std::size_t index, const FieldInfo& field) {
     // Later messages speak of the entry by its index.
     diagnosis_.place(info.path(index, field.key), "--set " + setting_.text);
     toml::table parsed = parse_value(field);
@@ -139,7 +139,7 @@ class Setter {
 
   /// `value = ...` as a TOML document, empty if it is none; a bare word counts as a text where the
   /// key takes texts, because shells eat quotes.
-  [[nodiscard]] toml::table parse_value(const Field& field) const {
+  [[nodiscard]] toml::table parse_value(const FieldInfo& field) const {
     try {
       return toml::parse("value = " + setting_.value);
     } catch (const toml::parse_error&) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace tables {
@@ -25,7 +24,7 @@ std::string Range::text() const {
   return "";
 }
 
-std::string Field::allowed_text() const {
+std::string FieldInfo::allowed_text() const {
   std::string text;
   switch (kind) {
     case ValueKind::boolean:
@@ -56,29 +55,16 @@ std::string Field::allowed_text() const {
   return text;
 }
 
-const Field* TableInfo::find(std::string_view key) const {
-  const auto found = std::find_if(fields.begin(), fields.end(),
-                                  [&](const Field& field) { return field.key == key; });
-  return found == fields.end() ? nullptr : &*found;
-}
-
-std::string TableInfo::title() const {
+std::string TableHead::title() const {
   if (name.empty()) return "the top level";
   return repeated ? fmt::format("[[{}]]", name) : fmt::format("[{}]", name);
 }
 
-std::string TableInfo::path(std::size_t index, std::string_view key) const {
+std::string TableHead::path(std::size_t index, std::string_view key) const {
   std::string path(name);
   if (repeated) path += fmt::format(".{}", index);
   if (key.empty()) return path;
   return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
-}
-
-const TableInfo* find_table(const std::vector<TableInfo>& tables, std::string_view name) {
-  for (const TableInfo& table : tables) {
-    if (table.name == name) return &table;
-  }
-  return nullptr;
 }
 
 std::string number_text(double value) {

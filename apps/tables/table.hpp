@@ -1,16 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
-
-#include "scene/scene.hpp"
 
 namespace tables {
 
@@ -56,42 +53,54 @@ struct FieldNotes {
   std::string_view absent = "";  // what an absent optional key means
 };
 
-/// One key of one table: its description and the way to and from the scene.
-struct Field {
+/// One key of one table, as it is described.
+struct FieldInfo {
   std::string_view key;
-  ValueKind kind;
+  ValueKind kind = ValueKind::text;
   std::vector<std::string_view> choices;  // allowed names, for choice and choices
   FieldNotes notes;
-  /// The value of entry `index` (0 for a single table), or nothing if absent.
-  std::function<std::optional<Value>(const scene::Scene&, std::size_t index)> read;
-  /// Stores a value whose alternative is the kind's and which `kind`, range and choices allow.
-  std::function<void(scene::Scene&, std::size_t index, const Value&)> write;
 
   /// `a number > 0 [m]`, `one of cell, vertex`: what a message offers as allowed.
   [[nodiscard]] std::string allowed_text() const;
 };
 
-/// One table of the scene, `[name]` or, if repeated, `[[name]]`; "" is the top level.
-struct TableInfo {
+/// One table, `[name]` or, if repeated, `[[name]]`; "" is the top level.
+struct TableHead {
   std::string_view name;
   bool repeated = false;
   bool required = false;
   std::string_view doc;
-  std::vector<Field> fields;
-  std::function<std::size_t(const scene::Scene&)> size;          // entries; 1 for a single table
-  std::function<void(scene::Scene&, std::size_t count)> resize;  // nothing for a single table
 
-  /// The field of that key, or nullptr.
-  [[nodiscard]] const Field* find(std::string_view key) const;
   /// `[geometry]`, `[[material]]`, `the top level`.
   [[nodiscard]] std::string title() const;
   /// Dotted path of an entry's key, as --set takes it: geometry.spacing, material.0.cohesion.
   [[nodiscard]] std::string path(std::size_t index, std::string_view key) const;
 };
 
+/// A table and its keys: as they are described (FieldInfo), or with the way to and from a struct
+/// besides (Field).
+template <class Key>
+struct TableOf : TableHead {
+  std::vector<Key> fields;
+
+  /// The field of that key, or nullptr.
+  [[nodiscard]] const Key* find(std::string_view key) const {
+    const auto found = std::find_if(fields.begin(), fields.end(),
+                                    [&](const Key& field) { return field.key == key; });
+    return found == fields.end() ? nullptr : &*found;
+  }
+};
+
+/// A table as it is described: all that a reader of text needs to know of it.
+using TableInfo = TableOf<FieldInfo>;
+
 /// The table of that name, or nullptr.
-[[nodiscard]] const TableInfo* find_table(const std::vector<TableInfo>& tables,
-                                          std::string_view name);
+template <class Table>
+[[nodiscard]] const Table* find_table(const std::vector<Table>& tables, std::string_view name) {
+  const auto found = std::find_if(tables.begin(), tables.end(),
+                                  [&](const Table& table) { return table.name == name; });
+  return found == tables.end() ? nullptr : &*found;
+}
 
 /// A number in its shortest form that reads back to the same double; always a TOML float.
 [[nodiscard]] std::string number_text(double value);

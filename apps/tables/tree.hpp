@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to the scene reader: the only header of the project that sees toml++.
+// Private to this folder: the only header of the project that sees toml++.
 
 #include <toml++/toml.h>
 
@@ -13,7 +13,7 @@
 namespace tables {
 
 /// Reads a TOML value of any kind as `field` wants it; reports under `key` if it is not allowed.
-[[nodiscard]] std::optional<Value> convert(const toml::node& node, const Field& field,
+[[nodiscard]] std::optional<Value> convert(const toml::node& node, const FieldInfo& field,
                                            const std::string& key, Diagnosis& diagnosis);
 
 /// A short description of a value for messages: `the text "abc"`, `-0.01`, `a table`.

@@ -18,12 +18,14 @@ enum class Ending {
   linearisation_failed,  ///< Newton only
   transient_failed,      ///< pseudo-transient only
   stopped,
-  limit
+  limit,
+  noise_floor  ///< ||F|| is at its noise, above the tolerance
 };
 
 /// Whether nothing more may be evaluated after such an ending.
 [[nodiscard]] inline bool is_final(Ending ending) {
-  return ending == Ending::converged || ending == Ending::stopped || ending == Ending::limit;
+  return ending == Ending::converged || ending == Ending::stopped || ending == Ending::limit ||
+         ending == Ending::noise_floor;
 }
 
 /// What the solver is at.
@@ -102,6 +104,7 @@ struct NewtonCourse {
   double window_norm = 0.0;  ///< ||F|| at the beginning of the window of stagnation
   int window_steps = 0;
   int poor_steps = 0;     ///< in a row, that kept little of what the linear model promised
+  int short_steps = 0;    ///< in a row, shorter than the rounding of u
   bool by_lines = false;  ///< line searches only
 
   template <class Visitor>
@@ -113,6 +116,7 @@ struct NewtonCourse {
     visit(window_norm);
     visit(window_steps);
     visit(poor_steps);
+    visit(short_steps);
     visit(by_lines);
   }
 };
@@ -120,7 +124,9 @@ struct NewtonCourse {
 /// What has been tried when Newton failed.
 struct RescueCourse {
   Ending newton_failure = Ending::go_on;  ///< the first one, which the rescues shall mend
+  double trouble_norm = 0.0;              ///< ||F|| where Report::trouble was met
   bool noise_measured = false;
+  double noise_norm = 0.0;  ///< ||F|| where that was
   bool restarted = false;
   bool transient_tried = false;
   int round_cost = 0;  ///< evaluations of the last round of Newton; 0: none yet
@@ -128,7 +134,9 @@ struct RescueCourse {
   template <class Visitor>
   void for_each_field(Visitor& visit) {
     visit(newton_failure);
+    visit(trouble_norm);
     visit(noise_measured);
+    visit(noise_norm);
     visit(restarted);
     visit(transient_tried);
     visit(round_cost);
@@ -139,11 +147,13 @@ struct RescueCourse {
 struct TransientCourse {
   double time_step = 0.0;
   double shift_sign = 1.0;
+  int idle_steps = 0;  ///< in a row, that hardly changed ||F||
 
   template <class Visitor>
   void for_each_field(Visitor& visit) {
     visit(time_step);
     visit(shift_sign);
+    visit(idle_steps);
   }
 };
 

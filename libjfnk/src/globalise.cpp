@@ -47,6 +47,38 @@ double parabola_cut(const Globalisation& rule, double norm, double predicted, do
   return std::clamp(lowest, rule.least_cut, rule.greatest_cut);
 }
 
+/// ||F|| along a step that is cut again and again: its slope at the beginning, by the last two
+/// trials, against the one that J v promises.
+class SlopeTest {
+ public:
+  explicit SlopeTest(double norm) : norm_(norm) {}
+  /// ||F|| = `found` at a length where the linear model has `predicted`.
+  void see(double length, double found, double predicted) {
+    longer_ = shorter_;
+    shorter_ = {length, (found - norm_) / length};
+    promised_ = (predicted - norm_) / length;
+    ++seen_;
+  }
+  [[nodiscard]] Trouble verdict() const {
+    constexpr double near = 0.5;
+    if (seen_ < 2 || !(promised_ < 0.0)) return Trouble::domain_edge;
+    const double slope = (shorter_.slope * longer_.length - longer_.slope * shorter_.length) /
+                         (longer_.length - shorter_.length);
+    return std::abs(slope / promised_ - 1.0) < near ? Trouble::minimum : Trouble::broken_promise;
+  }
+
+ private:
+  struct Secant {
+    double length = 0.0;
+    double slope = 0.0;
+  };
+  double norm_;
+  double promised_ = 0.0;
+  Secant longer_;
+  Secant shorter_;
+  int seen_ = 0;
+};
+
 Outcome look(Solve& solve, int cut) {
   Workspace& work = solve.work;
   return solve.evaluator.evaluate(work.trial,
@@ -64,6 +96,24 @@ void take_trial(Solve& solve, double fraction, Iteration& line) {
   line.step_length = fraction;
 }
 
+/// The end of a search in vain, after a last trial at base + last direction.
+Ending fail(Solve& solve, const SlopeTest& test, double last, const Iteration& line) {
+  // A step that promised nothing has told why already.
+  constexpr double nothing_gained = 0.999;
+  if (line.linear_residual > nothing_gained) return Ending::line_search_failed;
+  Workspace& work = solve.work;
+  Trouble trouble = test.verdict();
+  if (trouble == Trouble::broken_promise) {
+    // If ||F|| rises on the other side, too, it is at a minimum that J v cannot see.
+    work.trial.u = work.base.u - last * work.direction;
+    const Outcome outcome = solve.evaluator.evaluate(work.trial, &Counts::line_search);
+    if (outcome == Outcome::stopped) return Ending::stopped;
+    if (outcome == Outcome::ok && work.trial.norm >= work.base.norm) trouble = Trouble::minimum;
+  }
+  solve.note_trouble(trouble);
+  return Ending::line_search_failed;
+}
+
 Ending search_line(Solve& solve, Iteration& line) {
   Workspace& work = solve.work;
   const Globalisation& rule = solve.options.globalisation;
@@ -72,27 +122,34 @@ Ending search_line(Solve& solve, Iteration& line) {
   const double rho = std::min(1.0, line.linear_residual);
   const double gain = rule.sufficient_decrease * (1.0 - rho);
   const double highest = yardstick(solve);
+  SlopeTest test(work.base.norm);
   double lambda = 1.0;
+  double last = 1.0;
   for (int cut = 0; cut <= rule.max_cuts; ++cut) {
-    work.trial.u = work.base.u + lambda * work.direction;
+    last = lambda;
+    work.trial.u = work.base.u + last * work.direction;
     const Outcome outcome = look(solve, cut);
     if (outcome == Outcome::stopped || outcome == Outcome::limit) return refused(outcome);
-    if (outcome == Outcome::ok && work.trial.norm <= (1.0 - gain * lambda) * highest) {
+    // Without a decrease asked for, a trial that changes nothing is no progress either.
+    const bool falls =
+        gain > 0.0 ? work.trial.norm <= (1.0 - gain * lambda) * highest : work.trial.norm < highest;
+    if (outcome == Outcome::ok && falls) {
       take_trial(solve, lambda, line);
       line.step_norm = lambda * direction_norm;
       return Ending::go_on;
     }
+    const double predicted = work.base.norm * (1.0 - lambda * (1.0 - rho));
+    if (outcome == Outcome::ok) test.see(lambda, work.trial.norm, predicted);
     if (outcome != Outcome::ok) {
       lambda *= rule.domain_factor;
     } else if (rule.rule == Globalisation::Rule::backtracking) {
       lambda *= rule.factor;
     } else {
-      const double predicted = work.base.norm * (1.0 - lambda * (1.0 - rho));
       lambda *= parabola_cut(rule, work.base.norm, predicted, work.trial.norm);
       if (lambda < least_fraction) break;
     }
   }
-  return Ending::line_search_failed;
+  return fail(solve, test, last, line);
 }
 
 /// Like search_line, along the dogleg path of the Krylov space and within a radius that lives on.
@@ -108,6 +165,7 @@ Ending search_dogleg(Solve& solve, Iteration& line) {
   double predicted = norm * std::min(1.0, line.linear_residual);
   CountedPreconditioner counted{&solve.evaluator};
   const PreconditionerRef P = counted.ref();
+  SlopeTest test(norm);
   for (int cut = 0; cut <= rule.max_cuts; ++cut) {
     if (length < full) predicted = work.gmres.shorten(length, P, work.direction);
     solve.evaluator.filter(work.base.u, work.direction);
@@ -129,12 +187,13 @@ Ending search_dogleg(Solve& solve, Iteration& line) {
       take_trial(solve, length / full, line);
       return Ending::go_on;
     }
+    if (outcome == Outcome::ok) test.see(length, work.trial.norm, predicted);
     length *= outcome == Outcome::ok ? parabola_cut(rule, norm, predicted, work.trial.norm)
                                      : rule.domain_factor;
     course.newton.radius = length;
     if (length < least_fraction * full) break;
   }
-  return Ending::line_search_failed;
+  return fail(solve, test, 1.0, line);
 }
 
 }  // namespace

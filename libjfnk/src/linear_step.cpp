@@ -15,6 +15,13 @@ int most_iterations(const Solve& solve) {
   return std::min(chosen, std::max(least_iterations, solve.work.evaluator.learnt.groups()));
 }
 
+/// Why a linear solve gave nothing.
+Trouble trouble_of(KrylovStatus status, bool flat) {
+  if (flat) return Trouble::flat;
+  if (status == KrylovStatus::operator_failed) return Trouble::action_failed;
+  return status == KrylovStatus::breakdown ? Trouble::singular : Trouble::krylov_capped;
+}
+
 Evaluation answer(Outcome outcome) {
   switch (outcome) {
     case Outcome::ok:
@@ -36,8 +43,10 @@ LinearSolution find_direction(Solve& solve, double eta, double shift, Iteration&
   if (ready != Outcome::ok) return {Ending::linearisation_failed};
 
   Outcome last = Outcome::ok;
+  bool flat = true;
   auto action = [&](const Vector& v, Vector& Jv) {
     last = evaluator.action(v, Jv);
+    flat = flat && last == Outcome::ok && (Jv.array() == 0.0).all();
     if (last == Outcome::ok && shift != 0.0) Jv += shift * v;
     return answer(last);
   };
@@ -58,6 +67,7 @@ LinearSolution find_direction(Solve& solve, double eta, double shift, Iteration&
                : work.bicgstab.solve(OperatorRef(action), work.step, work.direction, linear, P,
                                      evaluator.product());
   solve.report.last_linear_residual = result.relative_residual;
+  solve.report.last_forcing = eta;
   line.forcing = eta;
   line.linear_residual = result.relative_residual;
   line.krylov_iterations = result.iterations;
@@ -66,7 +76,12 @@ LinearSolution find_direction(Solve& solve, double eta, double shift, Iteration&
   if (last == Outcome::stopped) return {Ending::stopped};
   if (last == Outcome::limit) return {Ending::limit};
   const double length = evaluator.product().norm(work.direction);
-  if (!(length > 0.0) || !std::isfinite(length)) return {Ending::krylov_stalled};
+  constexpr double nothing_gained = 0.999;
+  const bool no_direction = !(length > 0.0) || !std::isfinite(length);
+  if (no_direction || result.relative_residual > nothing_gained) {
+    solve.note_trouble(trouble_of(result.status, flat));
+  }
+  if (no_direction) return {Ending::krylov_stalled};
   return {Ending::go_on, by_gmres && work.gmres.can_shorten()};
 }
 

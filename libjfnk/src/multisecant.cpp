@@ -178,6 +178,26 @@ void renew_memory(Solve& solve) {
   });
 }
 
+/// Whether it is time for Newton, after a step that changed F by so much.
+bool loses_patience(Solve& solve, double change) {
+  MultisecantCourse& course = solve.course.multisecant;
+  const Workspace& work = solve.work;
+  // Not by a bit: F is flat, or the step is lost in the rounding of u.
+  if (change == 0.0 && solve.options.multisecant.patience == 0) return true;
+  if (solve.evaluations() - course.last_fall >= patience(solve)) return true;
+  const bool is_wild = work.base.norm > solve.options.multisecant.wild * work.best.norm;
+  course.wild = is_wild ? course.wild + 1 : 0;
+  return course.wild >= wild_patience(solve);
+}
+
+/// Measures the noise if that is still due; true if the steps begin anew with what it told.
+bool adapts_to_noise(Solve& solve, Ending& ending) {
+  if (!may_measure_noise(solve) || !adapt_to_noise(solve, ending)) return false;
+  solve.return_to_best();
+  solve.course.multisecant.inverted = false;
+  return true;
+}
+
 }  // namespace
 
 void begin_multisecant(Solve& solve) {
@@ -217,14 +237,9 @@ Ending multisecant_step(Solve& solve) {
   if (const Ending ending = look(solve, line); ending != Ending::go_on) return ending;
   const double change = move(solve, line);
   const double expected = std::exchange(course.multisecant.expected_change, 0.0);
-  if (change < far_less * expected && may_measure_noise(solve)) {
+  if (change < far_less * expected) {
     Ending ending = Ending::go_on;
-    if (adapt_to_noise(solve, ending)) {
-      solve.return_to_best();
-      course.multisecant.inverted = false;
-      return Ending::go_on;
-    }
-    if (ending != Ending::go_on) return ending;
+    if (adapts_to_noise(solve, ending) || ending != Ending::go_on) return ending;
   }
   ++solve.report.multisecant_iterations;
   if (const Ending ending = solve.accept_base(line); ending != Ending::go_on) return ending;
@@ -232,11 +247,14 @@ Ending multisecant_step(Solve& solve) {
     course.multisecant.mark = work.best.norm;
     course.multisecant.last_fall = solve.evaluations();
   }
-  if (solve.evaluations() - course.multisecant.last_fall >= patience(solve))
-    return Ending::patience_lost;
-  course.multisecant.wild =
-      work.base.norm > rule.wild * work.best.norm ? course.multisecant.wild + 1 : 0;
-  if (course.multisecant.wild >= wild_patience(solve)) return Ending::patience_lost;
+  if (loses_patience(solve, change)) {
+    // Steps in the last digits of u: is ||F|| as low as it can be?
+    constexpr double last_digits = 1e-13;
+    const double size = solve.evaluator.product().norm(work.base.u);
+    Ending ending = Ending::patience_lost;
+    if (line.step_norm > last_digits * size) return ending;
+    return adapts_to_noise(solve, ending) ? Ending::go_on : ending;
+  }
   if (work.base.norm > rule.rejection * work.best.norm) {
     solve.return_to_best();
     course.multisecant.inverted = false;

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "strategy.hpp"
 
@@ -10,6 +12,19 @@ namespace {
 constexpr double poor = 0.1;
 constexpr int too_many_poor = 3;
 constexpr double too_short = 0.01;
+
+// More left of ||F|| than this is no progress, whatever the options say.
+constexpr double all_but_all = 1.0 - 1e-10;
+
+/// Whether the last steps are lost in the rounding of u.
+bool too_short_for_rounding(Solve& solve, const Iteration& line) {
+  constexpr int too_many = 3;
+  const double size = solve.evaluator.product().norm(solve.work.base.u);
+  const bool is_short = line.step_norm <= std::numeric_limits<double>::epsilon() * size;
+  int& count = solve.course.newton.short_steps;
+  count = is_short ? count + 1 : 0;
+  return count >= too_many;
+}
 
 /// Watches what the steps bring; go_on unless they bring too little.
 Ending judge_progress(Solve& solve, double norm_before, const Iteration& line) {
@@ -25,9 +40,14 @@ Ending judge_progress(Solve& solve, double norm_before, const Iteration& line) {
     if (adapt_to_noise(solve, interrupted)) course.newton.poor_steps = 0;
     if (interrupted != Ending::go_on) return interrupted;
   }
+  if (too_short_for_rounding(solve, line)) {
+    solve.note_trouble(Trouble::short_steps);
+    return Ending::line_search_failed;
+  }
   const Stagnation& rule = solve.options.stagnation;
   if (++course.newton.window_steps < rule.window) return Ending::go_on;
-  const bool stagnated = rule.left < 1.0 && norm > rule.left * course.newton.window_norm;
+  const double left = std::min(rule.left, all_but_all);
+  const bool stagnated = norm > left * course.newton.window_norm;
   course.newton.window_steps = 0;
   course.newton.window_norm = norm;
   return stagnated ? Ending::stagnated : Ending::go_on;
@@ -57,6 +77,7 @@ void begin_newton(Solve& solve, int steps) {
   course.newton.window_norm = solve.work.best.norm;
   course.newton.window_steps = 0;
   course.newton.poor_steps = 0;
+  course.newton.short_steps = 0;
 }
 
 Ending newton_step(Solve& solve) {

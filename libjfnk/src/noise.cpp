@@ -53,7 +53,34 @@ Outcome measure_shape(Solve& solve, double noise, double scale, Shape& shape) {
   return outcome;
 }
 
+/// Whether nothing is to be had below ||F|| but by chance.
+/// @param h  distance of the samples, over which F must not change its size by so much that what
+/// was
+///   measured is the rounding of larger values
+bool at_noise_floor(const Solve& solve, double h) {
+  constexpr double near = 4.0;  // the noise is known to such a factor
+  constexpr double short_way = 1e-2;
+  constexpr double alike = 1e3;
+  const double noise = solve.report.measured_noise;
+  const Iterate& best = solve.work.best;
+  const bool representative = h <= short_way * solve.evaluator.product().norm(best.u) ||
+                              solve.work.trial.norm <= alike * noise;
+  return best.norm <= near * noise && solve.evaluator.tolerance(best) < noise && representative;
+}
+
 }  // namespace
+
+bool may_measure_noise(const Solve& solve) {
+  // Again where ||F|| has come so far down that what was measured may be another's.
+  constexpr double far_below = 1e-6;
+  constexpr double near_noise = 10.0;
+  const RescueCourse& rescue = solve.course.rescue;
+  const double norm = solve.work.best.norm;
+  const bool again =
+      norm < far_below * rescue.noise_norm ||
+      (norm < 0.1 * rescue.noise_norm && norm < near_noise * solve.report.measured_noise);
+  return solve.options.jacobian.measure_noise && (!rescue.noise_measured || again);
+}
 
 bool adapt_to_noise(Solve& solve, Ending& ending) {
   // Three spans, as far as the noise is not seen in the first (Moré & Wild 2011, section 5).
@@ -63,6 +90,7 @@ bool adapt_to_noise(Solve& solve, Ending& ending) {
   Workspace& work = solve.work;
   const InnerProductRef& product = solve.evaluator.product();
   solve.course.rescue.noise_measured = true;
+  solve.course.rescue.noise_norm = work.best.norm;
   random_direction(noise_projections, product, work.step);
   const double scale = std::sqrt(1.0 + product.norm(work.best.u));
   NoiseSamples samples{};
@@ -81,6 +109,11 @@ bool adapt_to_noise(Solve& solve, Ending& ending) {
   }
   if (!(noise > 0.0)) return false;
   solve.report.measured_noise = noise;
+  if (at_noise_floor(solve, h)) {
+    ending = Ending::noise_floor;
+    return false;
+  }
+  if (!solve.evaluator.differences()) return false;
   Shape shape;
   const Outcome outcome = measure_shape(solve, noise, scale, shape);
   if (outcome == Outcome::stopped || outcome == Outcome::limit) {

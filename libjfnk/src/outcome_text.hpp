@@ -16,6 +16,10 @@ namespace jfnk::detail {
 [[nodiscard]] std::string unwritten_text(Eigen::Index component);
 
 /// One sentence on why the solve ended, with its numbers, and what to try if it failed.
-[[nodiscard]] std::string reason(const Report& report, const Options& options);
+/// @param decades  that the first u spans
+[[nodiscard]] std::string reason(const Report& report, const Options& options, double decades);
+
+/// Decades between the lower and the upper tenth of the |v_i| that are not zero; 0 if none are.
+[[nodiscard]] double decades_of(const Vector& v);
 
 }  // namespace jfnk::detail

@@ -15,6 +15,10 @@ constexpr double time_cut = 0.25;
 constexpr double steady_growth = 1.5;  // besides ||F_k-1|| / ||F_k||
 constexpr double greatest_growth = 10.0;
 constexpr int max_cuts = 12;
+// A change of ||F|| by less than this part is none; after so many such steps, each ten times as
+// long as the one before, F is flat or u at the end of its domain.
+constexpr double hardly_any = 1e-6;
+constexpr int most_idle_steps = 8;
 constexpr double linear_tolerance = 0.1;
 
 /// With the learnt Jacobian: factors of J + shift I, J as new as that pays.
@@ -47,6 +51,7 @@ void begin_pseudo_transient(Solve& solve) {
   course.transient.time_step =
       first_change * (1.0 + product.norm(solve.work.base.u)) / solve.work.base.norm;
   course.transient.shift_sign = 0.0;
+  course.transient.idle_steps = 0;
 }
 
 Ending pseudo_transient_step(Solve& solve) {
@@ -82,13 +87,18 @@ Ending pseudo_transient_step(Solve& solve) {
       if (outcome == Outcome::stopped) return Ending::stopped;
       if (outcome == Outcome::limit) return Ending::limit;
       if (outcome == Outcome::ok && work.trial.norm <= greatest_rise * work.base.norm) {
+        const double ratio = work.base.norm / work.trial.norm;
+        const bool idle = std::abs(ratio - 1.0) < hardly_any;
+        course.transient.idle_steps = idle ? course.transient.idle_steps + 1 : 0;
         course.transient.time_step *=
-            std::min(steady_growth * work.base.norm / work.trial.norm, greatest_growth);
+            idle ? greatest_growth : std::min(steady_growth * ratio, greatest_growth);
         line.step_length = 1.0;
         line.step_norm = product.norm(work.direction);
         std::swap(work.base, work.trial);
         ++solve.report.pseudo_transient_steps;
-        return solve.accept_base(line);
+        const Ending ending = solve.accept_base(line);
+        const bool given_up = course.transient.idle_steps >= most_idle_steps;
+        return ending == Ending::go_on && given_up ? Ending::transient_failed : ending;
       }
     }
     course.transient.time_step *= time_cut;

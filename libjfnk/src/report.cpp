@@ -1,5 +1,6 @@
 #include "jfnk/report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -33,6 +34,8 @@ std::string_view to_string(Status status) {
       return "in_progress";
     case Status::stopped:
       return "stopped";
+    case Status::noise_floor:
+      return "noise_floor";
   }
   return "unknown";
 }
@@ -47,6 +50,30 @@ std::string_view to_string(Phase phase) {
       return "multisecant";
     case Phase::pseudo_transient:
       return "pseudo_transient";
+  }
+  return "unknown";
+}
+
+std::string_view to_string(Trouble trouble) {
+  switch (trouble) {
+    case Trouble::none:
+      return "none";
+    case Trouble::flat:
+      return "flat";
+    case Trouble::singular:
+      return "singular";
+    case Trouble::krylov_capped:
+      return "krylov_capped";
+    case Trouble::action_failed:
+      return "action_failed";
+    case Trouble::minimum:
+      return "minimum";
+    case Trouble::broken_promise:
+      return "broken_promise";
+    case Trouble::domain_edge:
+      return "domain_edge";
+    case Trouble::short_steps:
+      return "short_steps";
   }
   return "unknown";
 }
@@ -89,17 +116,56 @@ std::string out_of_domain_text(const Report& report) {
   return "the residual declared the first u out of its domain; start from another point";
 }
 
-/// What to try; the trials of the last Newton step tell nothing about its linear solve.
-const char* linear_advice(const Report& report) {
-  for (auto line = report.history.rbegin(); line != report.history.rend(); ++line) {
-    if (line->phase != Phase::newton) continue;
-    if (line->linear_residual > line->forcing) {
-      return "; the last linear solve missed its tolerance: try a preconditioner or larger "
-             "krylov.max_iterations";
-    }
-    break;
+/// What the failed step showed, and what to try.
+std::string advice(const Report& report) {
+  const bool own_action = report.counts.user_actions > 0;
+  switch (report.trouble) {
+    case Trouble::flat:
+      return "; J v = 0 for all v tried: F, or what is not solved of it, does not change with u";
+    case Trouble::singular:
+      return "; J is singular: equations repeat or contradict each other, or F lacks an unknown";
+    case Trouble::krylov_capped:
+      return "; the linear solve lowered nothing within krylov.max_iterations: raise it and "
+             "krylov.restart, or give a preconditioner";
+    case Trouble::action_failed:
+      return "; J v cannot be evaluated";
+    case Trouble::minimum:
+      return "; ||F|| has a minimum along the step that is no root, or J is all but singular: "
+             "start from another point";
+    case Trouble::broken_promise:
+      if (own_action) {
+        return "; check the Jacobian action: F does not fall as apply_jacobian promises (see "
+               "jfnk::check)";
+      }
+      return "; F does not fall as its differences promise: a kink, a jump or noise (see "
+             "jfnk::check)";
+    case Trouble::domain_edge:
+      return "; F has no value along the step: the end of its domain, where u may not go further";
+    case Trouble::short_steps:
+      return "; steps have become shorter than the rounding of u: give tolerances.absolute";
+    case Trouble::none:
+      break;
   }
-  return "; check the Jacobian action, or start closer to the solution";
+  return report.last_linear_residual > report.last_forcing
+             ? "; the last linear solve missed its tolerance: try a preconditioner or larger "
+               "krylov.max_iterations"
+             : "; start closer to the solution";
+}
+
+/// A word on units, if the unknowns are far apart and nobody has said how large they are.
+std::string units_text(double decades, const Options& options) {
+  constexpr double far = 4.0;
+  if (options.u_scale.size() > 0 || decades < far) return {};
+  return "; the unknowns of the first u are " + std::to_string(static_cast<int>(decades)) +
+         " decades apart: give u_scale and f_scale";
+}
+
+std::string noise_text(const Report& report) {
+  constexpr double safe = 2.0;
+  const double noise = std::max(report.measured_noise, report.residual_norm);
+  return "||F|| = " + number(report.residual_norm) + " is at the noise or rounding of F, " +
+         number(report.measured_noise) + ", and the tolerance " + number(report.tolerance) +
+         " below it: give tolerances.absolute = " + number(safe * noise) + " or more";
 }
 
 }  // namespace
@@ -111,12 +177,28 @@ Eigen::Index first_not_finite(const Vector& v, bool written_only) {
   return -1;
 }
 
+double decades_of(const Vector& v) {
+  constexpr std::ptrdiff_t tenth = 10;
+  std::vector<double> sizes;
+  for (const double value : v) {
+    if (value != 0.0 && std::isfinite(value)) sizes.push_back(std::abs(value));
+  }
+  if (sizes.empty()) return 0.0;
+  const auto count = static_cast<std::ptrdiff_t>(sizes.size());
+  const auto at = [&](std::ptrdiff_t i) {
+    std::nth_element(sizes.begin(), sizes.begin() + i, sizes.end());
+    return std::log10(sizes[static_cast<std::size_t>(i)]);
+  };
+  return at(count - 1 - count / tenth) - at(count / tenth);
+}
+
 std::string unwritten_text(Eigen::Index component) {
   return "the residual did not write component " + std::to_string(component) +
          " of r, or added to what was there (r arrives full of NaN): it must overwrite all of r";
 }
 
-std::string reason(const Report& report, const Options& options) {
+std::string reason(const Report& report, const Options& options, double decades) {
+  const std::string hints = advice(report) + units_text(decades, options);
   switch (report.status) {
     case Status::converged:
       return "||F|| = " + number(report.residual_norm) + " met the tolerance " +
@@ -128,16 +210,13 @@ std::string reason(const Report& report, const Options& options) {
                                                : "; raise max_iterations");
     case Status::evaluation_limit:
       return "max_evaluations = " + std::to_string(options.max_evaluations) +
-             " is used up: " + where(report);
+             " is used up: " + where(report) + units_text(decades, options);
     case Status::line_search_failed:
-      return "no step along the Newton direction reduced ||F||: " + where(report) +
-             linear_advice(report);
+      return "no step along the Newton direction reduced ||F||: " + where(report) + hints;
     case Status::stagnated:
-      return "Newton steps hardly reduce ||F|| any more: " + where(report) + linear_advice(report);
+      return "Newton steps hardly reduce ||F|| any more: " + where(report) + hints;
     case Status::krylov_stalled:
-      return "the linear solve gave no direction (singular Jacobian, or J v cannot be "
-             "evaluated): " +
-             where(report);
+      return "the linear solve gave no direction: " + where(report) + hints;
     case Status::linearisation_failed:
       return "the residual declined to linearise: " + where(report);
     case Status::multisecant_stalled:
@@ -148,7 +227,9 @@ std::string reason(const Report& report, const Options& options) {
     case Status::local_minimum:
       return "no direction lowers ||F||, which is not zero: a local minimum or an inconsistent "
              "system: " +
-             where(report) + "; start from another point";
+             where(report) + hints;
+    case Status::noise_floor:
+      return noise_text(report);
     case Status::in_progress:
       return "the solve has not yet come to an end: " + where(report);
     case Status::stopped:

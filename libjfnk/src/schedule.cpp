@@ -144,7 +144,7 @@ Ending after_newton(Solve& solve, Ending ending) {
     next_round(solve);
     return Ending::go_on;
   }
-  if (may_measure_noise(solve)) {
+  if (solve.report.trouble != Trouble::flat && may_measure_noise(solve)) {
     Ending interrupted = Ending::go_on;
     const int left = course.stage.limit - course.stage.iterations;
     if (adapt_to_noise(solve, interrupted)) {

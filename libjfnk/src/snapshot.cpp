@@ -10,7 +10,7 @@ namespace detail {
 namespace {
 
 // First integer of a snapshot; raised when its fields change.
-constexpr std::int64_t snapshot_version = 3;
+constexpr std::int64_t snapshot_version = 4;
 
 struct Writer {
   Snapshot& out;
@@ -99,7 +99,9 @@ void walk_report(Walker& walk, Report& report) {
   walk(report.pseudo_transient_steps);
   walk(report.krylov_iterations);
   walk(report.last_linear_residual);
+  walk(report.last_forcing);
   walk(report.measured_noise);
+  walk(report.trouble);
   walk_counts(walk, report.counts);
 }
 

@@ -34,6 +34,14 @@ Ending Solve::accept_base(const Iteration& line) const {
   return go_on ? Ending::go_on : Ending::stopped;
 }
 
+void Solve::note_trouble(Trouble trouble) const {
+  constexpr double alike = 1.01;
+  const bool known = report.trouble != Trouble::none;
+  if (known && work.base.norm > alike * course.rescue.trouble_norm) return;
+  report.trouble = trouble;
+  course.rescue.trouble_norm = work.base.norm;
+}
+
 void Solve::undo_round() const {
   std::swap(work.best, work.aside);
   return_to_best();
@@ -133,13 +141,16 @@ void finish(Solve& solve, Status status) {
       solve.return_to_best();
     }
   }
-  report.reason = reason(report, solve.options);
+  const bool failed = status != Status::converged && !report.history.empty();
+  report.reason = reason(report, solve.options, failed ? decades_of(solve.work.first.u) : 0.0);
 }
 
-/// A failed line search is a local minimum if the last linear solve could not lower F at all.
+/// A failed line search is a local minimum if J v was right and yet of no use, or if the last
+/// linear solve could not lower F at all though it had the whole space.
 bool at_local_minimum(const Report& report) {
   constexpr double nothing_gained = 0.999;
-  return report.last_linear_residual > nothing_gained;
+  if (report.trouble == Trouble::minimum) return true;
+  return report.last_linear_residual > nothing_gained && report.trouble != Trouble::krylov_capped;
 }
 
 Status status_of(Ending ending, const Report& report) {
@@ -157,13 +168,15 @@ Status status_of(Ending ending, const Report& report) {
     case Ending::stagnated:
       return at_local_minimum(report) ? Status::local_minimum : Status::stagnated;
     case Ending::krylov_stalled:
-      return Status::krylov_stalled;
+      return report.trouble == Trouble::minimum ? Status::local_minimum : Status::krylov_stalled;
     case Ending::linearisation_failed:
       return Status::linearisation_failed;
     case Ending::stopped:
       return Status::stopped;
     case Ending::limit:
       return Status::evaluation_limit;
+    case Ending::noise_floor:
+      return Status::noise_floor;
   }
   return Status::max_iterations;
 }

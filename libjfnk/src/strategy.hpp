@@ -49,6 +49,8 @@ struct Solve {
   void undo_round() const;
   /// Goes back to the best point.
   void return_to_best() const;
+  /// Keeps what a step that failed at work.base showed, unless one failed at a lower ||F||.
+  void note_trouble(Trouble trouble) const;
   /// Evaluations so far.
   [[nodiscard]] int evaluations() const { return report.counts.total(); }
 };
@@ -65,12 +67,10 @@ struct LinearSolution {
 [[nodiscard]] Ending globalise(Solve& solve, bool gmres, Iteration& line);
 
 /// Whether the noise has still to be measured if anything looks like it.
-[[nodiscard]] inline bool may_measure_noise(const Solve& solve) {
-  return solve.options.jacobian.measure_noise && !solve.course.rescue.noise_measured &&
-         solve.evaluator.differences();
-}
+[[nodiscard]] bool may_measure_noise(const Solve& solve);
 
 /// Measures the noise of F near work.best and sets b by it; false if that told nothing new.
+/// @param[out] ending  noise_floor if there is nothing to be had below it
 [[nodiscard]] bool adapt_to_noise(Solve& solve, Ending& ending);
 
 /// One iteration of each stage.

@@ -16,11 +16,15 @@ function(make_clean_tree)
   file(WRITE ${WORK}/libfpm/src/neighbour_search.cpp
        "#include <flann/flann.hpp>\n#include <cstdio>\n"
        "void exit_ball(); void on_exit (int); void f() { std::snprintf(nullptr, 0, \"\"); }\n")
-  file(WRITE ${WORK}/apps/wiring/checkpoint.cpp
-       "#include <H5Cpp.h>\n#include <toml++/toml.h>\n#include <spdlog/spdlog.h>\n"
-       "#include \"fpm/kernel.hpp\"\n#include \"jfnk/gmres.hpp\"\nusing namespace std;\n")
+  file(WRITE ${WORK}/apps/files/hdf5_file.cpp "#include <hdf5.h>\nusing namespace std;\n")
+  file(WRITE ${WORK}/apps/model/model.hpp "#include <Eigen/Core>\n#include \"fpm/kernel.hpp\"\n")
+  file(WRITE ${WORK}/apps/model/checkpoint.cpp
+       "#include <boost/archive/text_oarchive.hpp>\n#include \"model/model.hpp\"\n"
+       "#include \"record/lineage.hpp\"\n")
+  file(WRITE ${WORK}/apps/equilibrium/instances/loops.cpp
+       "#include \"model/model.hpp\"\n#include \"jfnk/residual.hpp\"\n")
   file(WRITE ${WORK}/apps/run/main.cpp "#include <iostream>\n#include \"run/run_scene.hpp\"\n")
-  file(WRITE ${WORK}/apps/limit/main.cpp "#include <coin/IpTNLP.hpp>\n")
+  file(WRITE ${WORK}/apps/limit/solver/ipopt_solver.cpp "#include <coin/IpTNLP.hpp>\n")
 endfunction()
 
 function(expect_exactly expected what)
@@ -52,7 +56,7 @@ plant(${in_constitutive} "#include <fpm/types.hpp>" "a library may not include f
 plant(${in_fpm} "#include \"jfnk/gmres.hpp\"" "a library may not include jfnk/gmres.hpp")
 plant(${in_fpm} "#include <constitutive/elastic.hpp>"
       "a library may not include constitutive/elastic.hpp")
-plant(${in_fpm} "#include \"wiring/scene.hpp\"" "a library may not include wiring/scene.hpp")
+plant(${in_fpm} "#include \"scene/scene.hpp\"" "a library may not include scene/scene.hpp")
 plant(${in_fpm} "#include <flann/flann.hpp>" "a library may not include flann/flann.hpp")
 plant(${in_fpm} "#include <H5Cpp.h>" "a library may not include H5Cpp.h")
 plant(${in_fpm} "#include <spdlog/spdlog.h>" "a library may not include spdlog/spdlog.h")
@@ -74,33 +78,123 @@ plant(${in_jfnk} "void f() { std::exit(1); }"
 plant(${in_jfnk} "void f() { std::abort(); }"
       "a library may not print, read files or exit (abort)")
 
-# Each package has its place among the programs.
-plant(apps/run/main.cpp "#include <H5Cpp.h>" "only apps/wiring may include H5Cpp.h")
-plant(apps/run/main.cpp "#include <hdf5.h>" "only apps/wiring may include hdf5.h")
-plant(apps/run/main.cpp "#include <toml++/toml.h>" "only apps/wiring may include toml++/toml.h")
-plant(apps/limit/main.cpp "#include <spdlog/spdlog.h>"
-      "only apps/wiring may include spdlog/spdlog.h")
-plant(apps/wiring/checkpoint.cpp "#include <coin/IpTNLP.hpp>"
-      "only apps/limit may include coin/IpTNLP.hpp")
-plant(apps/run/main.cpp "#include <CGAL/Delaunay_mesher_2.h>"
-      "only apps/limit may include CGAL/Delaunay_mesher_2.h")
-plant(apps/wiring/checkpoint.cpp "#include <flann/flann.hpp>"
-      "only libfpm may include flann/flann.hpp")
-plant(apps/limit/main.cpp "#include \"run/run_scene.hpp\""
-      "programs may not include each other (run/run_scene.hpp)")
+# Each room of apps/ knows those that its row names: a sample of what must never be written there.
+function(plant_include file include room)
+  plant(apps/${file} "#include \"${include}\"" "${room}/ may not include ${include}")
+endfunction()
+plant_include(files/output_file.cpp program/exit_code.hpp files)
+plant_include(files/output_file.cpp scene/scene.hpp files)
+plant_include(tables/table.hpp scene/scene.hpp tables)
+plant_include(tables/table.hpp files/file_error.hpp tables)
+plant_include(program/progress.cpp record/curve.hpp program)
+plant_include(scene/check.hpp program/logging.hpp scene)
+plant_include(scene/check.hpp model/model.hpp scene)
+plant_include(scene/check.hpp fpm/kernel.hpp scene)
+plant_include(record/frames.hpp scene/scene.hpp record)
+plant_include(record/frames.hpp model/state.hpp record)
+plant_include(bounds/limit_check.cpp limit/report.hpp bounds)
+plant_include(bounds/limit_check.cpp stepping/stepper.hpp bounds)
+plant_include(model/state.hpp equilibrium/equilibrium.hpp model)
+plant_include(model/state.hpp jfnk/solver.hpp model)
+plant_include(model/state.hpp program/version.hpp model)
+plant_include(equilibrium/equilibrium.cpp stepping/stepper.hpp equilibrium)
+plant_include(equilibrium/equilibrium.cpp scene/scene.hpp equilibrium)
+plant_include(equilibrium/instances/loops.cpp scene/scene.hpp equilibrium)
+plant_include(stepping/stepper.cpp run/recorder.hpp stepping)
+plant_include(stepping/stepper.cpp record/curve.hpp stepping)
+plant_include(stepping/stepper.cpp constitutive/elastic.hpp stepping)
+plant_include(run/run_scene.hpp jfnk/solver.hpp run)
+plant_include(run/run_scene.hpp limit/report.hpp run)
+plant_include(run/run_scene.hpp info/describe.hpp run)
+plant_include(info/describe.cpp model/model.hpp info)
+plant_include(info/describe.cpp fpm/kernel.hpp info)
+plant_include(compare/source.cpp info/describe.hpp compare)
+plant_include(compare/source.cpp constitutive/elastic.hpp compare)
+plant_include(limit/mesh/mesh.hpp limit/problem/problem.hpp limit/mesh)
+plant_include(limit/algebra/least_change.hpp limit/mesh/mesh.hpp limit/algebra)
+plant_include(limit/problem/case.hpp limit/bracket/bracket.hpp limit/problem)
+plant_include(limit/programme/lower_bound.cpp limit/solver/cone_solver.hpp limit/programme)
+plant_include(limit/solver/cone_solver.hpp limit/problem/problem.hpp limit/solver)
+plant_include(limit/certificate/lower_certificate.cpp limit/programme/lower_bound.hpp
+              limit/certificate)
+plant_include(limit/certificate/lower_certificate.cpp limit/solver/cone_solver.hpp
+              limit/certificate)
+plant_include(limit/bracket/bracket.cpp limit/ground/ground_mesh.hpp limit/bracket)
+plant_include(limit/ground/ground_mesh.hpp limit/bracket/bracket.hpp limit/ground)
+plant_include(limit/footing/scene_case.cpp model/model.hpp limit/footing)
+plant_include(limit/report.hpp run/report.hpp limit)
+plant_include(limit/report.hpp fpm/kernel.hpp limit)
+plant(apps/wiring/helpers.hpp "int f();" "lies in no room")
+
+# And each package has its places.
+function(plant_package file include package)
+  plant(apps/${file} "#include <${include}>" "may not see ${package} (${include})")
+endfunction()
+plant_package(record/curve.cpp hdf5.h HDF5)
+plant_package(run/main.cpp H5Cpp.h HDF5)
+plant_package(scene/reader.cpp toml++/toml.h toml++)
+plant_package(record/curve.cpp toml++/toml.h toml++)
+plant_package(run/main.cpp spdlog/spdlog.h spdlog)
+plant_package(scene/reader.cpp boost/program_options.hpp program_options)
+plant_package(model/model.hpp boost/archive/text_oarchive.hpp archives)
+plant_package(files/output_file.cpp nlohmann/json.hpp nlohmann-json)
+plant_package(limit/bracket/bracket.cpp coin/IpTNLP.hpp Ipopt)
+plant_package(limit/certificate/lower_certificate.cpp dmumps_c.h Ipopt)
+plant_package(limit/ground/ground_case.cpp CGAL/Delaunay_mesher_2.h CGAL)
+plant_package(model/checkpoint.cpp flann/flann.hpp FLANN)
+plant_package(record/curve.cpp Eigen/Core Eigen)
+
+# Every row of the table, as a whole: of all rooms, libraries and packages in one file, those that are
+# not its own nor named are found, and no other.
+set(header_of_HDF5 hdf5.h)
+set(header_of_toml++ toml++/toml.h)
+set(header_of_spdlog spdlog/spdlog.h)
+set(header_of_program_options boost/program_options.hpp)
+set(header_of_archives boost/archive/text_oarchive.hpp)
+set(header_of_nlohmann-json nlohmann/json.hpp)
+set(header_of_Ipopt IpTNLP.hpp)
+set(header_of_CGAL CGAL/Delaunay_mesher_2.h)
+set(header_of_FLANN flann/flann.hpp)
+set(header_of_Eigen Eigen/Core)
+foreach(room IN LISTS rooms)
+  make_clean_tree()
+  set(text)
+  set(expected)
+  set(file apps/${room}/planted.cpp)
+  foreach(other IN LISTS rooms ITEMS fpm constitutive jfnk)
+    string(APPEND text "#include \"${other}/header.hpp\"\n")
+    if(NOT other STREQUAL room AND NOT other IN_LIST may_include_of_${room})
+      list(APPEND expected "${file}: ${room}/ may not include ${other}/header.hpp")
+    endif()
+  endforeach()
+  foreach(package IN LISTS packages)
+    string(APPEND text "#include <${header_of_${package}}>\n")
+    if(NOT package IN_LIST sees_of_${room})
+      list(APPEND expected "${file}: may not see ${package} (${header_of_${package}})")
+    endif()
+  endforeach()
+  file(WRITE ${WORK}/${file} "${text}")
+  expect_exactly("${expected}" "all at once in ${file}")
+endforeach()
+
+# Circles among components, through headers or sources, are named without those who only lead there.
 make_clean_tree()
-file(APPEND ${WORK}/apps/run/main.cpp "#include <jfnk/gmres.hpp>\n")
-expect_exactly("" "a program that sees one library")
-file(APPEND ${WORK}/apps/run/run_scene.hpp "#include <fpm/kernel.hpp>\n")
-expect_exactly("apps/run: only apps/wiring may join libraries (jfnk, fpm)"
-               "a program that joins two libraries")
+file(WRITE ${WORK}/apps/scene/a.hpp "#include \"scene/b.hpp\"\n")
+file(WRITE ${WORK}/apps/scene/b.hpp "")
+file(WRITE ${WORK}/apps/scene/b.cpp "#include \"scene/b.hpp\"\n#include \"scene/c.hpp\"\n")
+file(WRITE ${WORK}/apps/scene/c.hpp "")
+expect_exactly("" "a chain")
+file(WRITE ${WORK}/apps/scene/c.cpp "#include \"scene/a.hpp\"\n")
+file(WRITE ${WORK}/apps/scene/d.cpp "#include \"scene/a.hpp\"\n")
+expect_exactly(
+  "apps: these include each other in a circle: scene/a, scene/b, scene/c" "a circle")
 
 # Everywhere.
 plant(apps/run/run_scene.hpp "using namespace std;" "using namespace std in a header")
-plant(tests/wiring/helpers.hpp "using\nnamespace wiring::detail;"
-      "using namespace wiring::detail in a header")
-plant(apps/run/main.cpp "#include \"../wiring/scene.hpp\""
-      "includes by a path, not by a name (../wiring/scene.hpp)")
+plant(tests/scene/helpers.hpp "using\nnamespace scene::detail;"
+      "using namespace scene::detail in a header")
+plant(apps/run/main.cpp "#include \"../scene/scene.hpp\""
+      "includes by a path, not by a name (../scene/scene.hpp)")
 
 # A tree that lost a library is a mistake of the check, not a pass.
 make_clean_tree()

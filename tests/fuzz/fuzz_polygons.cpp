@@ -62,7 +62,8 @@ void add_sides(GroundScene& scene, Pen& pen) {
       side.name = std::to_string(scene.sides.size());
       side.kind = static_cast<limit::ground::SideKind>(kind % 5);
       side.along = {from, to};
-      side.rough = (kind & 16U) != 0;
+      side.base =
+          (kind & 16U) != 0 ? limit::ground::BaseKind::rough : limit::ground::BaseKind::smooth;
       side.tension = (kind & 32U) != 0;
       if (side.kind == limit::ground::SideKind::loaded) side.shear = (kind & 64U) != 0 ? 0.1 : 0.0;
     }

@@ -114,7 +114,7 @@ TEST(FpmRun, PrintsTheEffectiveSceneWithoutRunning) {
 
 TEST(FpmRun, AnswersHelpVersionAndReferenceWithoutAScene) {
   EXPECT_THAT(call({"--help"}).out, HasSubstr("--max-wall"));
-  EXPECT_EQ(call({"--program::version"}).out, "fpm-run " + std::string(program::version) + "\n");
+  EXPECT_EQ(call({"--version"}).out, "fpm-run " + std::string(program::version) + "\n");
   EXPECT_EQ(call({"--scene-reference"}).out, scene::scene_reference());
 }
 

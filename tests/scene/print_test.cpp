@@ -41,19 +41,19 @@ TEST(EffectiveScene, KeepsAwkwardNumbersAndTexts) {
 TEST(EffectiveScene, NamesEveryKeyOfTheScene) {
   const auto scene = *parse_scene(support::sample_scene, "s.toml").scene;
   const std::string text = effective_toml(scene);
-  for (const tables::TableInfo& table : scene::scene_tables()) {
+  for (const SceneTable& table : scene::scene_tables()) {
     if (table.size(scene) == 0) continue;
-    for (const tables::Field& field : table.fields) {
+    for (const tables::Field<Scene>& field : table.fields) {
       EXPECT_NE(text.find(std::string(field.key) + " ="), std::string::npos) << field.key;
     }
   }
 }
 
 TEST(SceneFields, HaveUniqueNamesAndADescription) {
-  for (const tables::TableInfo& table : scene::scene_tables()) {
+  for (const SceneTable& table : scene::scene_tables()) {
     EXPECT_EQ(tables::find_table(scene::scene_tables(), table.name), &table);
     EXPECT_FALSE(table.doc.empty());
-    for (const tables::Field& field : table.fields) {
+    for (const tables::Field<Scene>& field : table.fields) {
       EXPECT_EQ(table.find(field.key), &field) << table.name << "." << field.key;
       EXPECT_FALSE(field.notes.doc.empty()) << table.name << "." << field.key;
       const bool optional = field.notes.need == tables::Need::optional;
@@ -63,10 +63,10 @@ TEST(SceneFields, HaveUniqueNamesAndADescription) {
 }
 
 TEST(SceneFields, HaveDefaultsTheyAllow) {
-  for (const tables::TableInfo& table : scene::scene_tables()) {
+  for (const SceneTable& table : scene::scene_tables()) {
     Scene scene;
     table.resize(scene, 1);
-    for (const tables::Field& field : table.fields) {
+    for (const tables::Field<Scene>& field : table.fields) {
       if (field.notes.need != tables::Need::defaulted) continue;
       const auto value = field.read(scene, 0);
       ASSERT_TRUE(value) << table.name << "." << field.key;

@@ -103,7 +103,7 @@ problem::Footing footing_of(const GroundScene& scene, const Base& base,
                                 "its width ({:g}) from its middle",
                                 base.width / 2.0));
   }
-  if (!scene.sides[base.side].rough && load.inclination != 0.0) {
+  if (scene.sides[base.side].base == BaseKind::smooth && load.inclination != 0.0) {
     diagnosis.error("load.inclination",
                     fmt::format("found {:g} degrees", load.inclination / degree),
                     "a smooth base bears no load along itself");
@@ -123,11 +123,13 @@ problem::Boundary boundary_of(const GroundScene& scene, const GroundSide& side) 
       boundary.normal = boundary.tangential = problem::Known::support;
       break;
     case SideKind::roller:
+    case SideKind::symmetry:
       boundary.normal = problem::Known::support;
       break;
     case SideKind::footing:
       boundary.normal = problem::Known::footing;
-      boundary.tangential = side.rough ? problem::Known::footing : problem::Known::traction;
+      boundary.tangential =
+          side.base == BaseKind::rough ? problem::Known::footing : problem::Known::traction;
       boundary.may_open = !side.tension;
       break;
     case SideKind::loaded:
@@ -274,7 +276,7 @@ std::vector<std::string> assumptions_of(const GroundScene& scene, const problem:
       "wider ground only if these are far enough away not to matter"};
   if (base) {
     const GroundSide& side = scene.sides[base->side];
-    assumptions.push_back(problem::base_assumption(side.rough, side.tension));
+    assumptions.push_back(problem::base_assumption(side.base == BaseKind::rough, side.tension));
     assumptions.emplace_back(problem.footing.may_move[2]
                                  ? "the footing is free to move along x and y and to rotate"
                                  : "the footing is guided along its normal");
@@ -358,14 +360,18 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
 
 }  // namespace
 
-std::optional<footing::SceneCase> ground_case(const GroundScene& scene,
-                                              tables::Diagnosis& diagnosis) {
+std::optional<problem::Cases> ground_case(const GroundScene& scene, tables::Diagnosis& diagnosis) {
+  if (!can_mesh_ground) {
+    diagnosis.error("region", "ground of polygons",
+                    "this fpm-limit was built without CGAL, which meshes such ground and is under "
+                    "the GPL; `./fpmw build` builds one with it (cmake -DFPM_WITH_CGAL=ON)");
+    return std::nullopt;
+  }
   const GroundOutline outline = ground_outline(scene, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   const std::optional<Base> base = find_base(scene, outline, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
-  footing::SceneCase result{case_of(scene, outline, base, false, diagnosis), std::nullopt,
-                            std::nullopt};
+  problem::Cases result{case_of(scene, outline, base, false, diagnosis), std::nullopt};
   if (!diagnosis.errors().empty()) return std::nullopt;
   const bool is_associated = std::all_of(
       scene.materials.begin(), scene.materials.end(), [](const GroundMaterial& material) {

@@ -54,7 +54,7 @@ struct GivenTraction {
       forms.row(0) << n.x() * n.x(), n.y() * n.y(), 2.0 * n.x() * n.y();
       values.row(0) << -side.pressure, is_live ? -side.live_pressure : 0.0;
     }
-    if (side.kind == SideKind::footing && side.rough) return;
+    if (side.kind == SideKind::footing && side.base == BaseKind::rough) return;
     forms.row(1) << n.x() * t.x(), n.y() * t.y(), n.x() * t.y() + n.y() * t.x();
     values.row(1) << side.shear, is_live ? side.live_shear : 0.0;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,11 +23,14 @@ struct GroundMaterial {
 /// A simple polygon of one soil.
 struct GroundRegion {
   std::string name;
-  std::size_t material = 0;
+  std::string material_name;
+  std::size_t material = 0;          // its index
   std::vector<mesh::Point> outline;  // [m] either way around
 };
 
-enum class SideKind { free, loaded, fixed, roller, footing };
+/// A symmetry is a roller once it has been read.
+enum class SideKind { free, loaded, fixed, roller, footing, symmetry };
+enum class BaseKind { rough, smooth };
 
 /// A named part of the ground's outline. Pressures are positive in compression.
 struct GroundSide {
@@ -37,11 +41,29 @@ struct GroundSide {
   double shear = 0.0;          // [Pa] loaded: given, along the outline with the ground to the left
   double live_pressure = 0.0;  // [Pa] loaded: per unit of the multiplier
   double live_shear = 0.0;
-  bool rough = true;    // footing
-  bool tension = true;  // footing: bonded to the soil; else it may lift off
+  BaseKind base = BaseKind::rough;  // footing
+  bool tension = true;              // footing: bonded to the soil; else it may lift off
 };
 
 enum class Sought { footing, traction, gravity, strength };
+
+// The names of each enumeration's values as written, in the order of the enumerators.
+namespace names {
+inline constexpr std::array<std::string_view, 6> side{"free",   "loaded",  "fixed",
+                                                      "roller", "footing", "symmetry"};
+inline constexpr std::array<std::string_view, 2> base{"rough", "smooth"};
+inline constexpr std::array<std::string_view, 4> sought{"footing", "traction", "gravity",
+                                                        "strength"};
+}  // namespace names
+constexpr std::span<const std::string_view> names_of(SideKind) {
+  return names::side;
+}
+constexpr std::span<const std::string_view> names_of(BaseKind) {
+  return names::base;
+}
+constexpr std::span<const std::string_view> names_of(Sought) {
+  return names::sought;
+}
 
 /// What is to grow until collapse.
 struct GroundLoad {

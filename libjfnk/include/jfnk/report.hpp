@@ -20,11 +20,28 @@ enum class Status {
   out_of_domain_at_start,  ///< F could not be evaluated at the first u; u is unchanged
   local_minimum,  ///< no direction lowers ||F||: J^T F = 0 but F is not; u updated if improved
   in_progress,    ///< `step` has not yet come to an end
-  stopped         ///< the residual or the observer asked to stop; u updated if improved
+  stopped,        ///< the residual or the observer asked to stop; u updated if improved
+  noise_floor     ///< ||F|| is at the noise or rounding of F, above the tolerance; u updated
+};
+
+/// What the Newton step that failed at the lowest ||F|| showed.
+enum class Trouble {
+  none,            ///< no step failed
+  flat,            ///< J v = 0 for all v tried: F does not change with u
+  singular,        ///< the Krylov space is exhausted, and nothing in it lowers ||F + J du||
+  krylov_capped,   ///< krylov.max_iterations products were too few to lower ||F + J du||
+  action_failed,   ///< J v cannot be evaluated
+  minimum,         ///< ||F|| falls for a tiny part of the step only, or rises on both sides
+  broken_promise,  ///< F does not fall as J v promises, however short the step
+  domain_edge,     ///< F has no value along the step, however short
+  short_steps      ///< steps have become shorter than the rounding of u
 };
 
 /// The name of a status as written in the enum.
 [[nodiscard]] std::string_view to_string(Status status);
+
+/// The name of a trouble as written in the enum.
+[[nodiscard]] std::string_view to_string(Trouble trouble);
 
 /// Which part of the strategy made an iteration.
 enum class Phase { start, newton, multisecant, pseudo_transient };
@@ -95,7 +112,9 @@ struct Report {
   int pseudo_transient_steps = 0;
   int krylov_iterations = 0;
   double last_linear_residual = 0.0;  ///< ||F + J du|| / ||F|| of the last linear solve
+  double last_forcing = 0.0;          ///< what was asked of it
   double measured_noise = 0.0;        ///< ||noise of F||, if it was measured; else 0
+  Trouble trouble = Trouble::none;
   Counts counts;
   std::vector<Iteration> history;  ///< the first entry is the first u
 

@@ -1,0 +1,219 @@
+// What a solve that cannot succeed says of it: the ending, the advice, and what it costs.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "jfnk/jfnk.hpp"
+#include "problems.hpp"
+
+namespace {
+
+using jfnk::Method;
+using jfnk::Options;
+using jfnk::Report;
+using jfnk::solve;
+using jfnk::Status;
+using jfnk::Trouble;
+using jfnk::Vector;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+bool says(const Report& report, const char* words) {
+  return report.reason.find(words) != std::string::npos;
+}
+
+Options by(Method method) {
+  Options options;
+  options.method = method;
+  return options;
+}
+
+double scatter(double u) {
+  auto z = std::bit_cast<std::uint64_t>(u);
+  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
+  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
+  return 2.0 * static_cast<double>((z ^ (z >> 31U)) >> 11U) * 0x1p-53 - 1.0;
+}
+
+// Evaluations that a hopeless solve may take: those down to the floor, and two dozen to see that.
+constexpr int soon = 100;
+
+TEST(Endings, AToleranceBelowTheRoundingOfFAsksForAnAbsoluteOne) {
+  const jfnk_test::Bratu bratu(12, 6.0);
+  Options options;
+  options.tolerances.relative = 1e-17;
+  Vector u = Vector::Zero(bratu.size());
+  Report report = solve(bratu, u, options);
+  EXPECT_EQ(report.status, Status::noise_floor) << report.reason;
+  EXPECT_TRUE(says(report, "give tolerances.absolute")) << report.reason;
+  EXPECT_LT(report.counts.total(), soon);
+  EXPECT_LT(report.residual_norm, 1e-14);
+  // What is advised works.
+  options.tolerances.absolute = 2.0 * std::max(report.measured_noise, report.residual_norm);
+  u.setZero();
+  report = solve(bratu, u, options);
+  EXPECT_TRUE(report.converged()) << report.reason;
+}
+
+TEST(Endings, AToleranceBelowTheNoiseOfFAsksForAnAbsoluteOne) {
+  // Not 1e-7: there the products drown, and a Krylov space is spent before that is seen.
+  for (const double level : {1e-4, 1e-5, 1e-8, 1e-10}) {
+    const auto F = [&](const Vector& u, Vector& r) {
+      const Eigen::Index n = u.size();
+      for (Eigen::Index i = 0; i < n; ++i) {
+        r[i] = (3.0 - 2.0 * u[i]) * u[i] + 1.0 + level * scatter(u[i]);
+        if (i > 0) r[i] -= u[i - 1];
+        if (i + 1 < n) r[i] -= 2.0 * u[i + 1];
+      }
+    };
+    Options options;
+    options.tolerances.relative = 1e-3 * level;
+    Vector u = Vector::Constant(50, -1.0);
+    const Report report = solve(F, u, options);
+    EXPECT_EQ(report.status, Status::noise_floor) << report.reason;
+    EXPECT_TRUE(says(report, "give tolerances.absolute")) << report.reason;
+    EXPECT_LT(report.counts.total(), soon);
+    const double expected = level / std::sqrt(3.0) * std::sqrt(50.0);
+    EXPECT_LT(report.residual_norm, 4.0 * expected);
+  }
+}
+
+// Far from u, F is large, and so is its rounding: that is not the noise of F at u.
+TEST(Endings, TheRoundingOfLargerValuesIsNotTakenForNoise) {
+  const auto F = [](const Vector& u, Vector& r) { r = 1e30 * (u.array().square() - 2e-60); };
+  for (const Method method : {Method::newton_krylov, Method::hybrid}) {
+    Vector u = Vector::Constant(5, 1e-30);
+    const Report report = solve(F, u, by(method));
+    EXPECT_NE(report.status, Status::noise_floor) << report.reason;
+  }
+}
+
+TEST(Endings, ALinearSolveThatHitItsCapAsksForMoreProducts) {
+  // J shifts: GMRES lowers nothing before its n-th product.
+  constexpr int n = 300;
+  const auto F = [](const Vector& u, Vector& r) {
+    for (int i = 0; i < n; ++i) r[i] = u[(i + 1) % n];
+    r[0] -= 1.0;
+  };
+  for (const Method method : {Method::newton_krylov, Method::hybrid}) {
+    Options options = by(method);
+    options.learning.enabled = false;
+    Vector u = Vector::Zero(n);
+    Report report = solve(F, u, options);
+    EXPECT_EQ(report.status, Status::krylov_stalled) << report.reason;
+    EXPECT_EQ(report.trouble, Trouble::krylov_capped);
+    EXPECT_TRUE(says(report, "krylov.max_iterations: raise it")) << report.reason;
+    options.krylov.max_iterations = n;
+    options.krylov.restart = n;
+    u.setZero();
+    report = solve(F, u, options);
+    EXPECT_TRUE(report.converged()) << report.reason;
+  }
+}
+
+TEST(Endings, AMinimumThatIsNoRootIsCalledOne) {
+  const auto square = [](const Vector& u, Vector& r) { r = u.array().square() + 1.0; };
+  const auto cosh = [](const Vector& u, Vector& r) { r = u.array().cosh(); };
+  const auto kink = [](const Vector& u, Vector& r) { r = u.array().abs() + 1.0; };
+  const auto check = [&](auto&& F, double start, const Options& options) {
+    Vector u = Vector::Constant(2, start);
+    const Report report = solve(F, u, options);
+    EXPECT_EQ(report.status, Status::local_minimum) << start << ": " << report.reason;
+    EXPECT_TRUE(says(report, "start from another point")) << report.reason;
+    EXPECT_FALSE(says(report, "Jacobian action")) << report.reason;
+  };
+  for (const Method method : {Method::newton_krylov, Method::hybrid}) {
+    for (const double start : {0.3, 3.0, 100.0}) check(square, start, by(method));
+    check(cosh, 1.0, by(method));
+    check(kink, 1.0, by(method));
+    const jfnk_test::Bratu beyond_the_fold(10, 8.0);
+    Vector u = Vector::Zero(beyond_the_fold.size());
+    const Report report = solve(beyond_the_fold, u, by(method));
+    EXPECT_EQ(report.status, Status::local_minimum) << report.reason;
+  }
+}
+
+TEST(Endings, AWrongJacobianActionIsBlamed) {
+  struct Wrong {
+    Vector at;
+    void operator()(const Vector& u, Vector& r) const { r = u.array().cube() - 2.0; }
+    void linearise(const Vector& u) { at = u; }
+    void apply_jacobian(const Vector& v, Vector& Jv) const {
+      Jv = -3.0 * at.array().square() * v.array();
+    }
+  } F;
+  Vector u = Vector::Constant(4, 1.0);
+  const Report report = solve(F, u, by(Method::newton_krylov));
+  EXPECT_EQ(report.status, Status::line_search_failed) << report.reason;
+  EXPECT_EQ(report.trouble, Trouble::broken_promise);
+  EXPECT_TRUE(says(report, "check the Jacobian action")) << report.reason;
+}
+
+TEST(Endings, TheEndOfTheDomainIsNamedAndNotCrawledTo) {
+  const auto F = [](const Vector& u, Vector& r) { r[0] = u[0] > 0.0 ? u[0] + 1.0 : nan; };
+  for (const Method method : {Method::newton_krylov, Method::hybrid}) {
+    Options options = by(method);
+    options.max_iterations = 500;
+    Vector u = Vector::Ones(1);
+    const Report report = solve(F, u, options);
+    EXPECT_EQ(report.status, Status::line_search_failed) << report.reason;
+    EXPECT_EQ(report.trouble, Trouble::domain_edge);
+    EXPECT_TRUE(says(report, "the end of its domain")) << report.reason;
+    // Not by hundreds of steps that change nothing.
+    int idle = 0;
+    for (std::size_t i = 1; i < report.history.size(); ++i) {
+      const double before = report.history[i - 1].residual_norm;
+      if (std::abs(report.history[i].residual_norm - before) < 1e-12 * before) ++idle;
+    }
+    EXPECT_LE(idle, 8);
+  }
+}
+
+TEST(Endings, StepsShorterThanTheRoundingOfUEndAlsoWithoutStagnationRules) {
+  const jfnk_test::Bratu bratu(12, 6.0);
+  Options options = jfnk::appendix_a(1e-17, 1e-17);
+  options.max_iterations = 500;
+  Vector u = Vector::Zero(bratu.size());
+  const Report report = solve(bratu, u, options);
+  EXPECT_FALSE(report.converged());
+  EXPECT_LT(report.newton_iterations, 20) << report.reason;
+}
+
+TEST(Endings, AConstantFIsFoundOutAtOnce) {
+  const auto F = [](const Vector&, Vector& r) { r.setConstant(3.0); };
+  for (const Method method : {Method::newton_krylov, Method::hybrid}) {
+    for (const int n : {1, 50}) {
+      Vector u = Vector::Ones(n);
+      const Report report = solve(F, u, by(method));
+      EXPECT_EQ(report.status, Status::krylov_stalled);
+      EXPECT_EQ(report.trouble, Trouble::flat);
+      EXPECT_TRUE(says(report, "does not change with u")) << report.reason;
+      EXPECT_LT(report.counts.total(), 30);
+    }
+  }
+}
+
+TEST(Endings, UnknownsFarApartAreAHintAtScales) {
+  constexpr int n = 20;
+  Vector size(n);
+  for (int i = 0; i < n; ++i) size[i] = std::pow(10.0, -8.0 + 16.0 * i / (n - 1));
+  const auto F = [&](const Vector& u, Vector& r) {
+    for (int i = 0; i < n; ++i) {
+      const double x = u[i] / size[i];
+      r[i] = x * x * x - (i > 0 ? u[i - 1] / size[i - 1] : 1.0);
+    }
+  };
+  Options options;
+  Vector u = 1.5 * size;
+  Report report = solve(F, u, options);
+  ASSERT_FALSE(report.converged());
+  EXPECT_TRUE(says(report, "12 decades apart: give u_scale")) << report.reason;
+  options.u_scale = size;
+  u = 1.5 * size;
+  report = solve(F, u, options);
+  EXPECT_TRUE(report.converged()) << report.reason;
+}
+
+}  // namespace
