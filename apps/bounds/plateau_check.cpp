@@ -6,6 +6,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "scene/scene.hpp"
+
 namespace bounds {
 
 namespace {

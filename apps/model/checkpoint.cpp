@@ -14,6 +14,7 @@
 #include "model/state_file.hpp"
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
+#include "scene/scene.hpp"
 
 namespace model {
 

@@ -6,6 +6,7 @@
 
 #include "model/loads.hpp"
 #include "scene/derived.hpp"
+#include "scene/scene.hpp"
 
 namespace model {
 namespace {

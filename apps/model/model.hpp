@@ -10,7 +10,12 @@
 #include "fpm/particles.hpp"
 #include "fpm/rows.hpp"
 #include "model/state.hpp"
-#include "scene/scene.hpp"
+#include "scene/choices.hpp"
+
+namespace scene {
+struct Material;
+struct Scene;
+}  // namespace scene
 
 namespace model {
 

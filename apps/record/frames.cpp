@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "files/durable_file.hpp"
+#include "scene/scene.hpp"
 
 namespace record {
 

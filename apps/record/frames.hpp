@@ -8,7 +8,10 @@
 
 #include "files/vtkhdf.hpp"
 #include "record/run_folder.hpp"
-#include "scene/scene.hpp"
+
+namespace scene {
+struct Output;
+}
 
 namespace record {
 

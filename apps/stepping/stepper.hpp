@@ -8,8 +8,11 @@
 #include "jfnk/solver.hpp"
 #include "model/model.hpp"
 #include "model/state.hpp"
-#include "scene/scene.hpp"
 #include "stepping/patience.hpp"
+
+namespace scene {
+struct Scene;
+}
 
 namespace stepping {
 

@@ -5,6 +5,7 @@
 #include "model/checkpoint.hpp"
 #include "model/state_file.hpp"
 #include "scene/derived.hpp"
+#include "scene/scene.hpp"
 
 namespace {
 

@@ -15,6 +15,7 @@
 #include "memory_file.hpp"
 #include "model/checkpoint.hpp"
 #include "model/state_file.hpp"
+#include "scene/scene.hpp"
 
 namespace {
 

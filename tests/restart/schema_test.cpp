@@ -9,6 +9,7 @@
 #include "model/checkpoint.hpp"
 #include "model/state_file.hpp"
 #include "restart.hpp"
+#include "scene/scene.hpp"
 
 namespace restart {
 namespace {
