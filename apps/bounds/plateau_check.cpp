@@ -6,6 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "scene/derived.hpp"
 #include "scene/scene.hpp"
 
 namespace bounds {
@@ -46,11 +47,7 @@ std::vector<std::string> reasons_of(PlateauCheck::Place place, const scene::Scen
   }
   if (place == PlateauCheck::Place::below) {
     reasons.emplace_back("the run may not have reached collapse: does the curve still rise?");
-    const bool is_associated =
-        std::all_of(scene.material.begin(), scene.material.end(), [](const scene::Material& m) {
-          return m.dilation_angle.value_or(0.0) == m.friction_angle.value_or(0.0);
-        });
-    if (!is_associated) {
+    if (!scene::is_associated(scene)) {
       reasons.emplace_back(
           "non-associated flow bears less than the associated flow of the bounds; see the "
           "Davis-reduced bracket");

@@ -269,9 +269,9 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
   forces.hourglass_work = hourglass_work(increment);
   forces.external_work = external_.dot(increment);
   for (Eigen::Index k = 0; k < increment.size(); ++k) {
-    if (model_.prescribed[static_cast<std::size_t>(k)] != 0) {
-      forces.external_work += unmasked_[k] * increment[k];
-    }
+    const bool given = model_.prescribed[static_cast<std::size_t>(k)] != 0;
+    state_.reaction.data()[k] = given ? unmasked_[k] : 0.0;
+    if (given) forces.external_work += unmasked_[k] * increment[k];
   }
   operator_.extend(increment.data(), extended_.data());
   loops_.commit(*this);

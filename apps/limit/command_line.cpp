@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "files/durable_file.hpp"
 #include "limit/bracket/solve.hpp"
@@ -15,9 +14,9 @@
 #include "limit/footing/scene_case.hpp"
 #include "limit/ground/ground_case.hpp"
 #include "limit/report.hpp"
+#include "program/command_line.hpp"
 #include "program/version.hpp"
 #include "scene/reader.hpp"
-#include "tables/nearest_name.hpp"
 #include "tables/reader.hpp"
 
 namespace limit {
@@ -26,6 +25,7 @@ namespace {
 
 namespace po = boost::program_options;
 using program::ExitCode;
+using program::UsageError;
 
 constexpr double degree = std::numbers::pi / 180.0;
 
@@ -99,39 +99,6 @@ po::options_description options() {
   return all;
 }
 
-/// The command line cannot be understood, or asks for what does not exist.
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-po::variables_map parse(std::span<const std::string> arguments) {
-  po::options_description all = options();
-  all.add_options()("scene", po::value<std::vector<std::string>>());
-  po::positional_options_description positional;
-  positional.add("scene", -1);
-  namespace style = po::command_line_style;
-  // No abbreviations: a script must not change its meaning when an option is added.
-  const int strict = style::unix_style & ~style::allow_guessing;
-  po::variables_map values;
-  try {
-    const std::vector<std::string> words(arguments.begin(), arguments.end());
-    po::store(
-        po::command_line_parser(words).options(all).positional(positional).style(strict).run(),
-        values);
-  } catch (const po::unknown_option& unknown) {
-    std::vector<std::string> names;
-    const po::options_description known = options();
-    for (const auto& option : known.options()) names.push_back("--" + option->long_name());
-    const std::string nearest =
-        tables::nearest_name(unknown.get_option_name(), {names.begin(), names.end()});
-    throw UsageError(fmt::format("{}: no such option{}", unknown.get_option_name(),
-                                 nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
-  } catch (const po::error& failure) {
-    throw UsageError(failure.what());
-  }
-  return values;
-}
-
 double gap_of(const std::string& text) {
   double value = 0.0;
   const char* end = text.data() + text.size();
@@ -178,6 +145,7 @@ problem::Strip strip_of(const po::variables_map& values) {
   strip.half_width = values["half-width"].as<double>();
   strip.rough = !values["smooth"].as<bool>();
   strip.tension = !values["no-tension"].as<bool>();
+  if (const auto objection = problem::objection_to(strip)) throw UsageError(objection->text());
   return strip;
 }
 
@@ -186,7 +154,8 @@ std::optional<problem::Box> box_of(const po::variables_map& values, const proble
   problem::Box box = problem::box_of(strip);
   if (values.count("box-width") != 0) box.width = values["box-width"].as<double>();
   if (values.count("box-depth") != 0) box.depth = values["box-depth"].as<double>();
-  if (!(box.width > 1.0) || !(box.depth > 0.0)) {
+  if (!(std::isfinite(box.width) && box.width > 1.0) ||
+      !(std::isfinite(box.depth) && box.depth > 0.0)) {
     throw UsageError(
         fmt::format("box: found {:g} x {:g} half widths; allowed is wider than 1 and "
                     "deeper than 0",
@@ -195,76 +164,103 @@ std::optional<problem::Box> box_of(const po::variables_map& values, const proble
   return box;
 }
 
-footing::SceneCase case_of_strip(const po::variables_map& values) {
+/// What is to be bracketed, and the scene of fpm-run it comes from, if it does.
+struct Input {
+  problem::Cases cases;
+  std::optional<scene::Scene> scene;
+};
+
+Input input_of_strip(const po::variables_map& values) {
   if (values.count("set") != 0) throw UsageError("--set belongs to a SCENE");
   const problem::Strip strip = strip_of(values);
   const std::optional<problem::Box> box = box_of(values, strip);
-  footing::SceneCase result{problem::strip_case(strip, box), std::nullopt, std::nullopt};
-  if (values.count("psi") == 0) return result;
+  Input input;
+  input.cases.associated = problem::strip_case(strip, box);
+  if (values.count("psi") == 0) return input;
   const double psi = values["psi"].as<double>() * degree;
   if (!(psi >= 0.0) || psi > strip.soil.friction_angle) {
     throw UsageError(fmt::format("--psi: found {:g}; allowed is 0 .. phi", psi / degree));
   }
-  if (psi == strip.soil.friction_angle) return result;
+  if (psi == strip.soil.friction_angle) return input;
   problem::Strip weaker = strip;
   weaker.soil = problem::davis_reduced(strip.soil, psi);
-  result.davis = problem::strip_case(weaker, box);
+  input.cases.davis = problem::strip_case(weaker, box);
   // Both in the same units, for one report.
-  result.davis->units = result.associated.units;
-  return result;
+  input.cases.davis->units = input.cases.associated.units;
+  return input;
 }
 
-void say_errors(const std::vector<tables::Problem>& errors, std::ostream& err) {
-  for (const tables::Problem& one : errors) err << "error: " << one.text() << '\n';
-}
-
-std::optional<footing::SceneCase> case_of_ground(const std::string& file, const std::string& text,
-                                                 std::span<const std::string> settings,
-                                                 std::ostream& err) {
-  tables::Diagnosis diagnosis(file);
-  std::optional<tables::Problem> unreadable;
-  const auto scene = ground::read_ground_scene(text, settings, diagnosis, unreadable);
-  if (unreadable) say_errors({*unreadable}, err);
-  std::optional<footing::SceneCase> result;
-  if (scene) result = ground::ground_case(*scene, diagnosis);
-  say_errors(diagnosis.errors(), err);
-  return result;
-}
-
-/// Nothing, with every problem said, if the scene is refused by its reader.
-std::optional<footing::SceneCase> case_of(const po::variables_map& values, std::ostream& err) {
-  if (values.count("scene") == 0) {
-    if (!values["strip"].as<bool>()) throw UsageError("SCENE or --strip is missing");
-    return case_of_strip(values);
+/// Of polygons or of fpm-run; nothing if the diagnosis or `unreadable` has an error.
+std::optional<Input> input_of_scene(const std::string& text, std::span<const std::string> settings,
+                                    bool tension, tables::Diagnosis& diagnosis,
+                                    std::optional<tables::Problem>& unreadable) {
+  std::optional<problem::Cases> cases;
+  std::optional<scene::Scene> scene;
+  if (ground::is_ground_scene(text)) {
+    if (!tension) {
+      throw UsageError(
+          "--no-tension: a scene of polygons has the key tension in its footing's side");
+    }
+    const auto ground = ground::read_ground_scene(text, settings, diagnosis, unreadable);
+    if (ground) cases = ground::ground_case(*ground, diagnosis);
+  } else {
+    scene = scene::parse_scene(text, settings, diagnosis, unreadable);
+    if (scene) cases = footing::scene_case(*scene, tension, diagnosis);
   }
-  const auto scenes = values["scene"].as<std::vector<std::string>>();
+  if (!cases) return std::nullopt;
+  return Input{std::move(*cases), std::move(scene)};
+}
+
+void say(const std::vector<tables::Problem>& problems, std::string_view kind, std::ostream& err) {
+  for (const tables::Problem& one : problems) err << kind << ": " << one.text() << '\n';
+}
+
+/// Nothing, with every problem said, if the scene is refused.
+std::optional<Input> input_of(const po::variables_map& values, std::ostream& err) {
+  const std::vector<std::string> scenes = program::texts(values, "scene");
+  if (scenes.empty()) {
+    if (!values["strip"].as<bool>()) throw UsageError("SCENE or --strip is missing");
+    return input_of_strip(values);
+  }
   if (scenes.size() > 1) throw UsageError(fmt::format("{}: one SCENE at a time", scenes[1]));
   for (const char* name : {"strip", "c", "phi", "psi", "gamma", "surcharge", "half-width", "rough",
                            "smooth", "box-width", "box-depth"}) {
     if (values.count(name) == 0 || values[name].defaulted()) continue;
     throw UsageError(fmt::format("--{} and a SCENE exclude each other", name));
   }
-  const auto settings = values.count("set") != 0 ? values["set"].as<std::vector<std::string>>()
-                                                 : std::vector<std::string>{};
   const auto text = tables::text_of(scenes.front());
   if (const auto* problem = std::get_if<tables::Problem>(&text)) {
-    say_errors({*problem}, err);
+    say({*problem}, "error", err);
     return std::nullopt;
   }
-  const bool tension = !values["no-tension"].as<bool>();
-  if (ground::is_ground_scene(std::get<std::string>(text))) {
-    if (!tension) {
-      throw UsageError(
-          "--no-tension: a scene of polygons has the key tension in its footing's side");
-    }
-    return case_of_ground(scenes.front(), std::get<std::string>(text), settings, err);
+  tables::Diagnosis diagnosis(scenes.front());
+  std::optional<tables::Problem> unreadable;
+  std::optional<Input> input =
+      input_of_scene(std::get<std::string>(text), program::texts(values, "set"),
+                     !values["no-tension"].as<bool>(), diagnosis, unreadable);
+  if (unreadable) say({*unreadable}, "error", err);
+  say(diagnosis.warnings(), "warning", err);
+  say(diagnosis.errors(), "error", err);
+  return input;
+}
+
+/// The curve to compare, if one is given. Read first: a bracket is not computed in vain for a file
+/// that cannot be read or a curve that cannot be compared.
+std::vector<record::CurveRow> curve_of(const po::variables_map& values,
+                                       const std::optional<scene::Scene>& scene) {
+  if (values.count("curve") == 0) return {};
+  if (!scene) throw UsageError("--curve belongs to a SCENE of fpm-run");
+  if (!scene->drive.width) {
+    throw UsageError(
+        "--curve: the scene has no drive.width, without which the curve has no mean "
+        "pressure");
   }
-  const scene::SceneReading reading =
-      scene::parse_scene(std::get<std::string>(text), scenes.front(), settings);
-  for (const tables::Problem& one : reading.warnings) err << "warning: " << one.text() << '\n';
-  say_errors(reading.errors, err);
-  if (!reading.scene) return std::nullopt;
-  return footing::scene_case(*reading.scene, tension);
+  const auto file = values["curve"].as<std::string>();
+  std::vector<record::CurveRow> curve = record::read_curve(file);
+  if (curve.empty() || !(curve.back().settlement > 0.0)) {
+    throw UsageError(fmt::format("--curve: {} has no settlement", file));
+  }
+  return curve;
 }
 
 void write_all_fields(const std::string& prefix, problem::Case problem,
@@ -282,7 +278,7 @@ void write_all_fields(const std::string& prefix, problem::Case problem,
 }
 
 ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ostream& err) {
-  const po::variables_map values = parse(arguments);
+  const po::variables_map values = program::parse(arguments, options(), "scene");
   if (values["help"].as<bool>()) {
     out << usage << '\n' << options() << '\n' << examples;
     out << "\nKeys of a scene of polygons:\n" << ground::ground_scene_keys();
@@ -293,31 +289,28 @@ ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ost
     return ExitCode::done;
   }
   const bracket::BracketOptions chosen = bracket_options(values);
-  const std::optional<footing::SceneCase> problem = case_of(values, err);
-  if (!problem) return ExitCode::input_refused;
-  std::vector<record::CurveRow> curve;
-  if (values.count("curve") != 0) {
-    if (!problem->scene) throw UsageError("--curve belongs to a SCENE of fpm-run");
-    // Read first: a bracket is not computed in vain for a file that cannot be read.
-    curve = record::read_curve(values["curve"].as<std::string>());
-  }
+  const std::optional<Input> input = input_of(values, err);
+  if (!input) return ExitCode::input_refused;
+  const problem::Case& problem = input->cases.associated;
+  const std::vector<record::CurveRow> curve = curve_of(values, input->scene);
   const auto watch = [&](const bracket::Attempt& attempt) {
-    if (values["verbose"].as<bool>()) err << attempt_line(problem->associated, attempt) << '\n';
+    if (values["verbose"].as<bool>()) err << attempt_line(problem, attempt) << '\n';
   };
-  Answer answer{bracket::solution_of(problem->associated, chosen, watch), std::nullopt,
-                std::nullopt};
-  if (problem->davis) answer.davis = bracket::solution_of(*problem->davis, chosen, watch);
+  Answer answer{bracket::solution_of(problem, chosen, watch), std::nullopt, std::nullopt};
+  if (input->cases.davis) {
+    answer.davis = bracket::solution_of(*input->cases.davis, chosen, watch);
+  }
   if (values.count("curve") != 0 && answer.found.lower && answer.found.upper) {
     answer.run =
-        bounds::check_plateau(curve, *problem->scene, *answer.found.lower, *answer.found.upper);
+        bounds::check_plateau(curve, *input->scene, *answer.found.lower, *answer.found.upper);
   }
-  out << text_report(problem->associated, answer, chosen);
+  out << text_report(problem, answer, chosen);
   if (values.count("json") != 0) {
     files::write_text_durably(values["json"].as<std::string>(),
-                              json_report(problem->associated, answer, chosen));
+                              json_report(problem, answer, chosen));
   }
   if (values.count("fields") != 0) {
-    write_all_fields(values["fields"].as<std::string>(), problem->associated, answer.found);
+    write_all_fields(values["fields"].as<std::string>(), problem, answer.found);
   }
   return answer.found.bracket.reached ? ExitCode::done : ExitCode::not_converged;
 }
@@ -325,21 +318,7 @@ ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ost
 }  // namespace
 
 ExitCode fpm_limit(std::span<const std::string> arguments, std::ostream& out, std::ostream& err) {
-  try {
-    return run(arguments, out, err);
-  } catch (const UsageError& failure) {
-    err << "error: " << failure.what() << "\nTry fpm-limit --help.\n";
-    return ExitCode::input_refused;
-  } catch (const std::invalid_argument& failure) {
-    err << "error: " << failure.what() << '\n';
-    return ExitCode::input_refused;
-  } catch (const files::FileError& failure) {
-    err << "error: " << failure.what() << '\n';
-    return ExitCode::checkpoint_unusable;
-  } catch (const std::exception& failure) {
-    err << "internal error: " << failure.what() << "\nThis is a bug: please report it.\n";
-    return ExitCode::bug;
-  }
+  return program::run_program("fpm-limit", err, [&] { return run(arguments, out, err); });
 }
 
 }  // namespace limit

@@ -82,12 +82,9 @@ void place_particles(const scene::Scene& scene, Model<Dim>& model) {
   model.ghosts = fpm::MirrorGhosts<Dim>(model.particles.position, planes, reach);
 }
 
-// The last material whose region holds the point; the first has no region.
 template <int Dim>
 std::uint8_t material_at(const scene::Scene& scene, const Eigen::Matrix<double, 1, Dim>& x) {
-  std::size_t m = scene.material.size() - 1;
-  while (m > 0 && !inside<Dim>(x, scene.material[m].region_min, scene.material[m].region_max)) --m;
-  return static_cast<std::uint8_t>(m);
+  return static_cast<std::uint8_t>(scene::material_at(scene, {x.data(), Dim}));
 }
 
 template <int Dim>

@@ -91,19 +91,15 @@ std::vector<double> current_points(const Model<Dim>& model, const State<Dim>& st
 
 template <int Dim>
 std::vector<files::PointField> particle_fields(const Model<Dim>& model, const State<Dim>& state,
-                                               const Eigen::VectorXd& reaction,
                                                std::span<const std::string> names) {
-  const Eigen::Index n = model.size();
-  Collector<Dim> fields(static_cast<std::size_t>(n), names);
+  Collector<Dim> fields(static_cast<std::size_t>(model.size()), names);
   fields.vector("displacement", "m",
                 [&](std::size_t a, int i) { return state.displacement(at(a), i); });
   add_stress_fields(state, fields);
   add_strain_fields(state, fields);
   fields.scalar("material", "-", [&](std::size_t a) { return model.material[a]; });
-  fields.vector("reaction", Dim == 2 ? "N/m" : "N", [&](std::size_t a, int i) {
-    const Eigen::Index k = i * n + at(a);
-    return model.prescribed[static_cast<std::size_t>(k)] != 0 ? reaction[k] : 0.0;
-  });
+  fields.vector("reaction", Dim == 2 ? "N/m" : "N",
+                [&](std::size_t a, int i) { return state.reaction(at(a), i); });
   fields.scalar("searched", "-", [&](std::size_t a) {
     return state.rows.searched(static_cast<fpm::Index>(a)) ? 1.0 : 0.0;
   });
@@ -113,10 +109,8 @@ std::vector<files::PointField> particle_fields(const Model<Dim>& model, const St
 template std::vector<double> current_points<2>(const Model<2>&, const State<2>&);
 template std::vector<double> current_points<3>(const Model<3>&, const State<3>&);
 template std::vector<files::PointField> particle_fields<2>(const Model<2>&, const State<2>&,
-                                                           const Eigen::VectorXd&,
                                                            std::span<const std::string>);
 template std::vector<files::PointField> particle_fields<3>(const Model<3>&, const State<3>&,
-                                                           const Eigen::VectorXd&,
                                                            std::span<const std::string>);
 
 }  // namespace model

@@ -16,11 +16,9 @@ std::vector<double> current_points(const Model<Dim>& model, const State<Dim>& st
 
 /// The particle fields that a scene's [output] fields can name, of one converged state; those the
 /// scene does not have (plastic strains of an elastic body) are left out.
-/// @param reaction  residual over all unknowns, component-major; shown where displacement is given
 /// @param names  the fields wanted; empty: all
 template <int Dim>
 std::vector<files::PointField> particle_fields(const Model<Dim>& model, const State<Dim>& state,
-                                               const Eigen::VectorXd& reaction,
                                                std::span<const std::string> names);
 
 }  // namespace model

@@ -25,7 +25,7 @@ struct ProgrammeState {
   double next_increment = 0.0;  // of the load parameter
   double last_increment = 0.0;  // of the load parameter, of the last converged step
   std::int64_t easy_steps = 0;  // consecutive steps below the easy number of evaluations
-  std::int64_t research_events = 0;
+  std::int64_t re_searches = 0;
   double hourglass_work = 0.0;  // [J/m or J] accumulated
   double external_work = 0.0;   // [J/m or J] accumulated work of the reactions and loads
 
@@ -36,10 +36,11 @@ struct ProgrammeState {
     visit("next_increment", "-", next_increment);
     visit("last_increment", "-", last_increment);
     visit("easy_steps", "-", easy_steps);
-    visit("research_events", "-", research_events);
+    visit("research_events", "-", re_searches);  // the name in files of the first schema
     visit("hourglass_work", "J", hourglass_work);
     visit("external_work", "J", external_work);
   }
+  bool operator==(const ProgrammeState&) const = default;
 };
 
 /// The primary state of a run at a converged step; all else is rebuilt from it and the scene.
@@ -64,6 +65,7 @@ struct State {
   Eigen::VectorXd plastic_strain_at_search;  // at the row's last search
   Eigen::VectorXd plastic_increment;         // of the last converged step
   Eigen::VectorXd released;                  // omega: 1 once the row has yielded, else 0
+  fpm::Field<Dim> reaction;                  // at prescribed unknowns, 0 elsewhere
   fpm::Rows<Dim> rows;
   ProgrammeState programme;
 
@@ -81,6 +83,7 @@ struct State {
     plastic_strain_at_search.setZero(count(layout.plastic && layout.finite));
     plastic_increment.setZero(count(layout.plastic));
     released.setZero(count(layout.incremental));
+    reaction.setZero(n, Dim);
   }
 
   /// Visits every particle field, visit(name, unit, matrix); fields a scene does not need are
@@ -98,6 +101,7 @@ struct State {
     visit("plastic_strain_at_search", "-", plastic_strain_at_search);
     visit("plastic_increment", "-", plastic_increment);
     visit("released", "-", released);
+    visit("reaction", Dim == 2 ? "N/m" : "N", reaction);
   }
 };
 

@@ -15,6 +15,10 @@ const std::string particle_group = "/state/particles/";
 const std::string row_group = "/state/rows/";
 const std::string programme_group = "/state/programme/";
 
+// The reactions were no part of the state before this schema.
+constexpr std::int64_t schema_of_reactions = 3;
+const std::string shown_reactions = "/VTKHDF/PointData/reaction";
+
 template <class Values>
 std::span<const typename Values::value_type> span_of(const Values& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
@@ -97,6 +101,22 @@ class FieldReader {
     }
   }
 
+  /// Into the reactions, from what ParaView is shown of them; where the scene asks for none of them
+  /// they stay 0 until the next step.
+  template <int Dim>
+  void read_shown_reactions(fpm::Field<Dim>& reaction) const {
+    if (!file_.has(shown_reactions)) return;
+    constexpr std::size_t shown = 3;
+    const auto particles = static_cast<std::size_t>(reaction.rows());
+    std::vector<double> values(shown * particles);
+    file_.read<double>(shown_reactions, values, {particles, shown});
+    require_finite(shown_reactions, values);
+    reaction = Eigen::Map<const Eigen::Matrix<double, shown, Eigen::Dynamic>>(values.data(), shown,
+                                                                              reaction.rows())
+                   .template topRows<Dim>()
+                   .transpose();
+  }
+
   template <class T>
   void read_list(const std::string& name, std::vector<T>& list) const {
     const std::string path = row_group + name;
@@ -153,14 +173,16 @@ void write_state(files::Hdf5File& file, State<Dim>& state, files::ContentDigest&
 }
 
 template <int Dim>
-State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model) {
+State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model, std::int64_t schema) {
   State<Dim> state;
   state.layout = model.layout;
   state.resize(model.size());
   const FieldReader reader(file);
+  const bool has_reactions = schema >= schema_of_reactions;
   state.for_each_particle_field([&](const char* name, const char* /*unit*/, auto& field) {
-    reader.read_particles(name, field);
+    if (has_reactions || name != std::string_view("reaction")) reader.read_particles(name, field);
   });
+  if (!has_reactions) reader.template read_shown_reactions<Dim>(state.reaction);
   state.rows.for_each_field(
       [&](const char* name, const char* /*unit*/, auto& list) { reader.read_list(name, list); });
   state.programme.for_each_field([&](const char* name, const char* /*unit*/, auto& number) {
@@ -189,8 +211,8 @@ std::size_t bytes_of(State<Dim>& state) {
 
 template void write_state<2>(files::Hdf5File&, State<2>&, files::ContentDigest&);
 template void write_state<3>(files::Hdf5File&, State<3>&, files::ContentDigest&);
-template State<2> read_state<2>(const files::Hdf5File&, const Model<2>&);
-template State<3> read_state<3>(const files::Hdf5File&, const Model<3>&);
+template State<2> read_state<2>(const files::Hdf5File&, const Model<2>&, std::int64_t);
+template State<3> read_state<3>(const files::Hdf5File&, const Model<3>&, std::int64_t);
 template std::size_t bytes_of<2>(State<2>&);
 template std::size_t bytes_of<3>(State<3>&);
 

@@ -4,6 +4,7 @@
 #include "files/hdf5_file.hpp"
 #include "model/model.hpp"
 #include "model/state.hpp"
+#include "record/checkpoint_file.hpp"
 
 namespace model {
 
@@ -16,10 +17,12 @@ template <int Dim>
 void write_state(files::Hdf5File& file, State<Dim>& state, files::ContentDigest& digest);
 
 /// Reads what write_state wrote, into the layout of the model.
+/// @param schema  of the checkpoint; what an older one lacks is taken from elsewhere in the file
 /// @throws FileError naming the dataset that is missing, of another size, not finite or
 /// contradicted by another.
 template <int Dim>
-State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model);
+State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model,
+                      std::int64_t schema = record::checkpoint_schema);
 
 /// Memory of the primary fields [bytes]; a checkpoint's bulk is as large.
 template <int Dim>

@@ -41,8 +41,8 @@ std::vector<Piece> pieces_of(const ProgressStatus& status) {
   pieces.push_back({fmt::format("res {:.1e}", status.residual_ratio), 3});
   if (status.cuts > 0) pieces.push_back({fmt::format("cuts {}", status.cuts), 5});
   pieces.push_back({fmt::format("yielding {:.0f} %", 100.0 * status.yielding_share), 2});
-  if (status.researched_rows > 0) {
-    pieces.push_back({fmt::format("re-searched {}", status.researched_rows), 1});
+  if (status.re_searched_rows > 0) {
+    pieces.push_back({fmt::format("re-searched {}", status.re_searched_rows), 1});
   }
   if (const auto left = time_left(status)) {
     pieces.push_back({duration_text(*left) + " left", 6});

@@ -18,7 +18,7 @@ struct ProgressStatus {
   double residual_ratio = 0.0;
   std::int64_t cuts = 0;             // of the whole run
   double yielding_share = 0.0;       // of the particles, 0 .. 1
-  std::int64_t researched_rows = 0;  // of the whole run
+  std::int64_t re_searched_rows = 0;  // of the whole run
   double elapsed = 0.0;              // [s]
 };
 

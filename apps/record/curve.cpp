@@ -57,7 +57,7 @@ const std::vector<CurveColumn>& curve_columns() {
       {"evaluations", "", &CurveRow::evaluations},
       {"cuts", "", &CurveRow::cuts},
       {"plastic_particles", "", &CurveRow::plastic_particles},
-      {"researched_rows", "", &CurveRow::researched_rows},
+      {"researched_rows", "", &CurveRow::re_searched_rows},
       {"residual_ratio", "", &CurveRow::residual_ratio},
       {"max_plastic_strain", "", &CurveRow::max_plastic_strain},
       {"hourglass_work_ratio", "", &CurveRow::hourglass_work_ratio},

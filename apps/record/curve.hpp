@@ -27,7 +27,7 @@ struct CurveRow {
   std::int64_t evaluations = 0;  // both of these together, failed attempts included
   std::int64_t cuts = 0;         // halvings before this step converged
   std::int64_t plastic_particles = 0;
-  std::int64_t researched_rows = 0;
+  std::int64_t re_searched_rows = 0;
   double residual_ratio = 0.0;        // at the end of the step, over what the tolerance is of
   double max_plastic_strain = 0.0;    // equivalent, accumulated
   double hourglass_work_ratio = 0.0;  // work of the control over that of the loads, so far

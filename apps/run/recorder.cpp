@@ -32,7 +32,7 @@ record::CurveRow row_of(const stepping::StepRecord& record, const scene::Scene& 
   row.evaluations = record.evaluations;
   row.cuts = record.cuts;
   row.plastic_particles = record.plastic_particles;
-  row.researched_rows = record.researched_rows;
+  row.re_searched_rows = record.re_searched_rows;
   row.residual_ratio = record.residual_ratio;
   row.max_plastic_strain = record.max_plastic_strain;
   row.hourglass_work_ratio = record.hourglass_work_ratio;
@@ -109,15 +109,14 @@ Recorder<Dim>::Recorder(const RunRequest& request, const record::RunFolder& fold
     earlier_ = checkpointed_at_ = history_.back().wall;
     for (const record::CurveRow& row : history_) {
       cuts_ += row.cuts;
-      researched_ += row.researched_rows;
+      re_searched_ += row.re_searched_rows;
     }
     return;
   }
   history_.push_back(row_of(stepping::StepRecord{}, scene_, 0.0));
   curve_.append(history_.back());
-  const Eigen::VectorXd no_reaction = Eigen::VectorXd::Zero(model_.unknowns());
-  if (frames_.due(0)) write_frame(no_reaction);
-  write_checkpoint("start of the run", no_reaction);
+  if (frames_.due(0)) write_frame();
+  write_checkpoint("start of the run");
 }
 
 template <int Dim>
@@ -129,22 +128,22 @@ double Recorder<Dim>::elapsed() const {
 template <int Dim>
 void Recorder<Dim>::begin_branch() {
   if (checkpointed_step_ == state_.programme.step) return;
-  write_checkpoint("start of the branch", Eigen::VectorXd::Zero(model_.unknowns()));
+  write_checkpoint("start of the branch");
 }
 
 template <int Dim>
-void Recorder<Dim>::take(const stepping::StepRecord& record, const Eigen::VectorXd& reaction) {
+void Recorder<Dim>::take(const stepping::StepRecord& record) {
   history_.push_back(row_of(record, scene_, elapsed()));
   cuts_ += record.cuts;
-  researched_ += record.researched_rows;
+  re_searched_ += record.re_searched_rows;
   curve_.append(history_.back());
   progress_.update(status(record));
   constexpr std::size_t no_limit = 500;
   log_.info(progress_line(status(record), no_limit));
   // The frame first: a run that goes on from the checkpoint does not write it again.
-  if (frames_.due(record.step)) write_frame(reaction);
+  if (frames_.due(record.step)) write_frame();
   const std::string why = why_checkpoint_is_due();
-  if (!why.empty()) write_checkpoint(why, reaction);
+  if (!why.empty()) write_checkpoint(why);
 }
 
 template <int Dim>
@@ -162,17 +161,15 @@ std::string Recorder<Dim>::why_checkpoint_is_due() const {
 }
 
 template <int Dim>
-void Recorder<Dim>::finish(const std::string& reason, const Eigen::VectorXd& reaction,
-                           bool interrupted) {
+void Recorder<Dim>::finish(const std::string& reason, bool interrupted) {
   progress_.finish();
-  if (!interrupted && frames_.lacks(state_.programme.step)) write_frame(reaction);
-  if (checkpointed_step_ != state_.programme.step) write_checkpoint(reason, reaction);
+  if (!interrupted && frames_.lacks(state_.programme.step)) write_frame();
+  if (checkpointed_step_ != state_.programme.step) write_checkpoint(reason);
 }
 
 template <int Dim>
-void Recorder<Dim>::write_failure(const stepping::StepResult& result,
-                                  const Eigen::VectorXd& reaction) {
-  auto fields = particle_fields(model_, state_, reaction, {});
+void Recorder<Dim>::write_failure(const stepping::StepResult& result) {
+  auto fields = particle_fields(model_, state_, {});
   for (files::PointField& field : stepping::failure_fields(model_, result))
     fields.push_back(std::move(field));
   const record::CurveRow& row = history_.back();
@@ -188,14 +185,14 @@ void Recorder<Dim>::say(const std::string& line) {
 }
 
 template <int Dim>
-void Recorder<Dim>::write_frame(const Eigen::VectorXd& reaction) {
+void Recorder<Dim>::write_frame() {
   const record::CurveRow& row = history_.back();
   frames_.write(row.step, time_of(row, scene_), model::current_points(model_, state_),
-                particle_fields(model_, state_, reaction, scene_.output.fields));
+                particle_fields(model_, state_, scene_.output.fields));
 }
 
 template <int Dim>
-void Recorder<Dim>::write_checkpoint(const std::string& reason, const Eigen::VectorXd& reaction) {
+void Recorder<Dim>::write_checkpoint(const std::string& reason) {
   curve_.sync();
   notes_.reason = reason;
   notes_.created = files::time_stamp(folder_.system().time());
@@ -203,7 +200,7 @@ void Recorder<Dim>::write_checkpoint(const std::string& reason, const Eigen::Vec
   const std::int64_t step = state_.programme.step;
   const std::filesystem::path path = folder_.checkpoints() / record::checkpoint_name(step);
   model::write_checkpoint(path, model_, state_, notes_,
-                          model::particle_fields(model_, state_, reaction, scene_.output.fields),
+                          model::particle_fields(model_, state_, scene_.output.fields),
                           scene_.output.compression, folder_.system());
   last_checkpoint_ = path;
   checkpointed_step_ = step;
@@ -229,7 +226,7 @@ program::ProgressStatus Recorder<Dim>::status(const stepping::StepRecord& record
   status.cuts = cuts_;
   status.yielding_share =
       static_cast<double>(record.plastic_particles) / static_cast<double>(model_.size());
-  status.researched_rows = researched_;
+  status.re_searched_rows = re_searched_;
   status.elapsed = history_.back().wall;
   return status;
 }

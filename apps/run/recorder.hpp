@@ -35,15 +35,15 @@ class Recorder {
   void begin_branch();
 
   /// Records a converged step; checkpoints and frames as often as the scene says.
-  void take(const stepping::StepRecord& record, const Eigen::VectorXd& reaction);
+  void take(const stepping::StepRecord& record);
 
   /// Ends the record: the last frame, unless the run is merely interrupted, and a checkpoint of the
   /// state unless there is one.
-  void finish(const std::string& reason, const Eigen::VectorXd& reaction, bool interrupted);
+  void finish(const std::string& reason, bool interrupted);
 
   /// Writes what a failed attempt left to the folder's failure file, beside the fields of the last
   /// converged state.
-  void write_failure(const stepping::StepResult& result, const Eigen::VectorXd& reaction);
+  void write_failure(const stepping::StepResult& result);
 
   /// One line for the user and the log.
   void say(const std::string& line);
@@ -56,8 +56,8 @@ class Recorder {
   [[nodiscard]] double elapsed() const;
 
  private:
-  void write_frame(const Eigen::VectorXd& reaction);
-  void write_checkpoint(const std::string& reason, const Eigen::VectorXd& reaction);
+  void write_frame();
+  void write_checkpoint(const std::string& reason);
   [[nodiscard]] std::string why_checkpoint_is_due() const;
   program::ProgressStatus status(const stepping::StepRecord& record) const;
 
@@ -73,7 +73,7 @@ class Recorder {
   std::int64_t checkpointed_step_ = -1;
   double checkpointed_at_ = 0.0;  // [s] of elapsed()
   std::int64_t cuts_ = 0;
-  std::int64_t researched_ = 0;
+  std::int64_t re_searched_ = 0;
 
   std::optional<std::filesystem::path> previous_;
   program::Log log_;

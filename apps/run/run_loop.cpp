@@ -101,9 +101,9 @@ class Run {
     Recorder<Dim> recorder(request_, *folder, model_, start, start.state, out_);
     try {
       introduce(start, *folder, recorder);
-      if (start.research_changed && scene_.research.enabled) {
+      if (start.re_search_changed && scene_.research.enabled) {
         // The rule is new: a state that no step leads on from must not wait for one.
-        const Eigen::Index rows = stepper.research();
+        const Eigen::Index rows = stepper.re_search();
         if (rows > 0) recorder.say(fmt::format("{} rows re-searched", rows));
       }
       recorder.begin_branch();
@@ -190,35 +190,29 @@ class Run {
       recorder.say("changed: " + change.text());
   }
 
-  program::ExitCode advance(model::State<Dim>& state, stepping::LoadStepper<Dim>& stepper,
+  program::ExitCode advance(const model::State<Dim>& state, stepping::LoadStepper<Dim>& stepper,
                             Recorder<Dim>& recorder, const record::RunFolder& folder) {
-    // Of the last converged step, whatever is tried after it.
-    Eigen::VectorXd reaction = Eigen::VectorXd::Zero(model_.unknowns());
     bounds::LimitCheck limit(scene_, folder, request_.limit_program);
     while (!stepper.finished()) {
       for (const std::string& line : limit.news()) recorder.say(line);
-      if (!stop_.now().empty()) return interrupt(recorder, reaction);
-      const model::ProgrammeState before = state.programme;
+      if (!stop_.now().empty()) return interrupt(recorder);
       const stepping::StepResult result =
           stepper.advance([&](const jfnk::Iteration&) { return stop_.now().empty(); });
       if (result.outcome == stepping::StepOutcome::converged) {
-        reaction = stepper.equilibrium().unmasked_residual();
-        recorder.take(result.record, reaction);
+        recorder.take(result.record);
         continue;
       }
-      // What was tried in vain is forgotten: a run resumed from here tries the same.
-      state.programme = before;
-      if (result.outcome == stepping::StepOutcome::stopped) return interrupt(recorder, reaction);
-      return fail(state, result, recorder, reaction, folder, limit);
+      if (result.outcome == stepping::StepOutcome::stopped) return interrupt(recorder);
+      return fail(state, result, recorder, folder, limit);
     }
-    recorder.finish("end of the programme", reaction, false);
+    recorder.finish("end of the programme", false);
     report(recorder, folder, limit);
     return program::ExitCode::done;
   }
 
-  program::ExitCode interrupt(Recorder<Dim>& recorder, const Eigen::VectorXd& reaction) {
+  program::ExitCode interrupt(Recorder<Dim>& recorder) {
     const std::string why = stop_.now();
-    recorder.finish(why, reaction, true);
+    recorder.finish(why, true);
     recorder.log().warning(fmt::format("{} at step {}; go on with: {}", why,
                                        recorder.history().back().step,
                                        command_to_resume(request_)));
@@ -226,12 +220,11 @@ class Run {
   }
 
   program::ExitCode fail(const model::State<Dim>& state, const stepping::StepResult& result,
-                         Recorder<Dim>& recorder, const Eigen::VectorXd& reaction,
-                         const record::RunFolder& folder, bounds::LimitCheck& limit) {
+                         Recorder<Dim>& recorder, const record::RunFolder& folder,
+                         bounds::LimitCheck& limit) {
     recorder.finish(
-        result.outcome == stepping::StepOutcome::hopeless ? "no hope" : "no convergence", reaction,
-        false);
-    recorder.write_failure(result, reaction);
+        result.outcome == stepping::StepOutcome::hopeless ? "no hope" : "no convergence", false);
+    recorder.write_failure(result);
     const std::string why = stepping::failure_report(scene_, model_, state, result) +
                             "\n  fields: " + folder.failure().string();
     report(recorder, folder, limit);

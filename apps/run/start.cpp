@@ -65,10 +65,10 @@ void resume(const std::filesystem::path& checkpoint, const scene::Scene& scene,
   start.changes = scene::scene_changes(former, scene);
   start.refusals = refusals_among(start.changes);
   if (!start.refusals.empty()) return;
-  start.state = model::read_state(file, model);
+  start.state = model::read_state(file, model, notes.schema);
   start.lineage = lineage_from(checkpoint, notes, start.changes);
   start.history = std::move(notes.history);
-  start.research_changed = former.research != scene.research;
+  start.re_search_changed = former.research != scene.research;
   if (!model::adapt_programme(former, scene, start.state.programme)) {
     start.refusals.push_back(
         fmt::format("drive.target: the checkpoint is already at {} m, beyond the scene's {} m",

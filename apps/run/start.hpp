@@ -23,7 +23,7 @@ struct RunStart {
   std::vector<scene::SceneChange> changes;  // since the checkpoint, all allowed
   std::vector<std::string> refusals;  // why the run may not go on; the state is then not to be used
   std::vector<std::string> warnings;  // newer checkpoints that are damaged
-  bool research_changed = false;
+  bool re_search_changed = false;
 };
 
 /// The start of a run: the scene's initial state, or the state of the checkpoint that the request

@@ -83,4 +83,22 @@ double side_position(const Geometry& geometry, Side side) {
   return is_upper(side) ? geometry.max[axis] : geometry.min[axis];
 }
 
+std::size_t material_at(const Scene& scene, std::span<const double> place) {
+  const auto holds = [&](const Material& material) {
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      if (place[i] < material.region_min[i] || place[i] > material.region_max[i]) return false;
+    }
+    return true;
+  };
+  std::size_t m = scene.material.size() - 1;
+  while (m > 0 && !holds(scene.material[m])) --m;
+  return m;
+}
+
+bool is_associated(const Scene& scene) {
+  return std::all_of(scene.material.begin(), scene.material.end(), [](const Material& material) {
+    return material.dilation_angle.value_or(0.0) == material.friction_angle.value_or(0.0);
+  });
+}
+
 }  // namespace scene

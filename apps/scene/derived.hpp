@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "scene/choices.hpp"
@@ -44,6 +45,12 @@ struct SolverSettings {
 /// Nominal number of steps of the programme: the scene's, else for a displacement
 /// ceil(target / (increment_over_spacing spacing)); 1 without a drive.
 [[nodiscard]] std::int64_t nominal_steps(const Scene& scene);
+
+/// Index of the last material whose region holds a place; the first one fills the whole body.
+[[nodiscard]] std::size_t material_at(const Scene& scene, std::span<const double> place);
+
+/// Whether every soil dilates by its friction angle.
+[[nodiscard]] bool is_associated(const Scene& scene);
 
 /// Index of the coordinate axis of a side's normal: 0 x, 1 y, 2 z.
 [[nodiscard]] constexpr int axis_of(Side side) {

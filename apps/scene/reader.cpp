@@ -6,19 +6,26 @@
 
 namespace scene {
 
+std::optional<Scene> parse_scene(std::string_view text, std::span<const std::string> settings,
+                                 tables::Diagnosis& diagnosis,
+                                 std::optional<tables::Problem>& unreadable) {
+  Scene scene;
+  unreadable = tables::read_tables(text, settings, scene_tables(), scene, diagnosis);
+  if (unreadable) return std::nullopt;
+  check_scene(scene, diagnosis);
+  if (!diagnosis.errors().empty()) return std::nullopt;
+  return scene;
+}
+
 SceneReading parse_scene(std::string_view text, const std::string& source,
                          std::span<const std::string> settings) {
   SceneReading reading;
-  Scene scene;
   tables::Diagnosis diagnosis(source);
-  if (const auto problem = tables::read_tables(text, settings, scene_tables(), scene, diagnosis)) {
-    reading.errors.push_back(*problem);
-    return reading;
-  }
-  check_scene(scene, diagnosis);
+  std::optional<tables::Problem> unreadable;
+  reading.scene = parse_scene(text, settings, diagnosis, unreadable);
   reading.errors = diagnosis.errors();
   reading.warnings = diagnosis.warnings();
-  if (reading.errors.empty()) reading.scene = std::move(scene);
+  if (unreadable) reading.errors = {*unreadable};
   return reading;
 }
 

@@ -29,4 +29,11 @@ struct SceneReading {
 [[nodiscard]] SceneReading parse_scene(std::string_view text, const std::string& source,
                                        std::span<const std::string> settings = {});
 
+/// The same into a diagnosis, for who judges the scene further. Nothing if there is an error, or if
+/// the text is no TOML: `unreadable` says so then.
+[[nodiscard]] std::optional<Scene> parse_scene(std::string_view text,
+                                               std::span<const std::string> settings,
+                                               tables::Diagnosis& diagnosis,
+                                               std::optional<tables::Problem>& unreadable);
+
 }  // namespace scene

@@ -131,6 +131,15 @@ bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult&
 
 template <int Dim>
 StepResult LoadStepper<Dim>::advance(const Watch& watch) {
+  const model::ProgrammeState before = state_.programme;
+  StepResult result = attempt(watch);
+  // What was tried in vain is forgotten: whoever goes on from here tries the same.
+  if (result.outcome != StepOutcome::converged) state_.programme = before;
+  return result;
+}
+
+template <int Dim>
+StepResult LoadStepper<Dim>::attempt(const Watch& watch) {
   model::ProgrammeState& programme = state_.programme;
   StepResult result;
   for (;;) {
@@ -214,7 +223,7 @@ void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
   record.hourglass_work_ratio =
       programme.external_work != 0.0 ? programme.hourglass_work / programme.external_work : 0.0;
   record.max_displacement = std::sqrt(state_.displacement.rowwise().squaredNorm().maxCoeff());
-  record.researched_rows = research();
+  record.re_searched_rows = re_search();
   choose_next_increment(record);
 }
 
@@ -223,7 +232,7 @@ void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
 // Departure: with hysteresis, and without a separate return to equilibrium
 // (share/doc/decisions/re-search.md).
 template <int Dim>
-Eigen::Index LoadStepper<Dim>::research() {
+Eigen::Index LoadStepper<Dim>::re_search() {
   if (!scene_.research.enabled || !state_.layout.finite || !state_.layout.plastic) return 0;
   const Eigen::VectorXd gained = state_.plastic_strain - state_.plastic_strain_at_search;
   if (!(gained.maxCoeff() > scene_.research.trigger)) return 0;
@@ -250,7 +259,7 @@ Eigen::Index LoadStepper<Dim>::research() {
     state_.plastic_strain_at_search[a] = state_.plastic_strain[a];
   }
   if (!rebuilt.empty()) equilibrium_.rebuild_operator();
-  ++state_.programme.research_events;
+  ++state_.programme.re_searches;
   return static_cast<Eigen::Index>(rebuilt.size());
 }
 

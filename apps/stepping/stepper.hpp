@@ -31,7 +31,7 @@ struct StepRecord {
   int evaluations = 0;  // of all attempts at this step, predictors included
   int cuts = 0;
   Eigen::Index plastic_particles = 0;
-  Eigen::Index researched_rows = 0;
+  Eigen::Index re_searched_rows = 0;
   double residual_ratio = 0.0;  // |r_free| over the reference norm
   double max_plastic_strain = 0.0;
   double hourglass_work_ratio = 0.0;  // accumulated, over the work of the loads
@@ -70,16 +70,18 @@ class LoadStepper {
   LoadStepper(const scene::Scene& scene, const model::Model<Dim>& model, model::State<Dim>& state);
 
   bool finished() const;
+  /// Tries one step, with smaller increments as need be. The state is the new one if it converged,
+  /// else as it was, the programme's step sizes included.
   StepResult advance(const Watch& watch = {});
 
   /// Re-searches, if the scene's rule asks for it, as each converged step does at its end.
   /// @return the rows rebuilt
-  Eigen::Index research();
+  Eigen::Index re_search();
 
-  const equilibrium::Equilibrium<Dim>& equilibrium() const { return equilibrium_; }
   std::size_t bytes() const { return equilibrium_.bytes() + preconditioner_.bytes(); }
 
  private:
+  StepResult attempt(const Watch& watch);
   void set_prescribed(double increment, Eigen::VectorXd& u) const;
   bool predict_by_tangent(double increment, Eigen::VectorXd& u, StepRecord& record);
   bool solve(Eigen::VectorXd& u, const Watch& watch, StepResult& result);

@@ -76,8 +76,7 @@ class Run {
   void write(Degree& degree) {
     const auto start = Clock::now();
     const auto path = folder_ / record::checkpoint_name(state_.programme.step);
-    const auto fields = model::particle_fields(
-        model_, state_, stepper_.equilibrium().unmasked_residual(), scene_.output.fields);
+    const auto fields = model::particle_fields(model_, state_, scene_.output.fields);
     model::write_checkpoint(path, model_, state_, notes_, fields, degree.deflate);
     degree.seconds += seconds_since(start);
     degree.bytes += static_cast<double>(std::filesystem::file_size(path));

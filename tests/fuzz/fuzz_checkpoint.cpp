@@ -10,11 +10,12 @@
 namespace {
 
 template <int Dim>
-void read_as_a_run_does(const files::Hdf5File& file, const scene::Scene& scene) {
+void read_as_a_run_does(const files::Hdf5File& file, const scene::Scene& scene,
+                        std::int64_t schema) {
   constexpr std::int64_t most_particles = 1000;  // a fuzzer has no time for more
   if (scene::particle_count(scene.geometry) > most_particles) return;
   const auto model = model::build_model<Dim>(scene);
-  (void)model::read_state(file, model);
+  (void)model::read_state(file, model, schema);
 }
 
 }  // namespace
@@ -29,8 +30,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     record::CheckpointNotes notes;
     const files::Hdf5File file = record::open_checkpoint(path, notes);
     const scene::Scene scene = model::scene_of(path, notes);
-    if (scene.geometry.dimension == 2) read_as_a_run_does<2>(file, scene);
-    if (scene.geometry.dimension == 3) read_as_a_run_does<3>(file, scene);
+    if (scene.geometry.dimension == 2) read_as_a_run_does<2>(file, scene, notes.schema);
+    if (scene.geometry.dimension == 3) read_as_a_run_does<3>(file, scene, notes.schema);
   } catch (const files::FileError&) {
     // refused with its reason
   }

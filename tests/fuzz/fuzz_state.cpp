@@ -56,7 +56,7 @@ struct Sound {
 };
 
 Sound read_sound() {
-  const std::filesystem::path path = std::filesystem::path(FPM_STORED_CHECKPOINTS) / "schema-2.hdf";
+  const std::filesystem::path path = std::filesystem::path(FPM_STORED_CHECKPOINTS) / "schema-3.hdf";
   record::CheckpointNotes notes;
   const Hdf5File file = record::open_checkpoint(path, notes);
   Sound sound{{}, {}, model::build_model<2>(model::scene_of(path, notes))};
@@ -148,7 +148,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     record::CheckpointNotes notes;
     const Hdf5File file = record::open_checkpoint(memory.path(), notes);
-    auto read = model::read_state(file, sound.model);
+    auto read = model::read_state(file, sound.model, notes.schema);
     evaluate(sound.model, read);
   } catch (const files::FileError&) {
     // refused with its reason

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/archive/text_iarchive.hpp>
 #include <boost/archive/text_oarchive.hpp>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -194,39 +196,103 @@ TEST(Resume, RefusesWhatItCannotContinue) {
   EXPECT_TRUE(other.step(bratu));
 }
 
-TEST(Resume, RefusesOrSurvivesAnyDamagedNumber) {
-  const jfnk_test::Bratu bratu(8, 6.0);
+/// A solve of Bratu's problem in its midst, and what may become of damaged copies of it.
+struct Midway {
+  jfnk_test::Bratu bratu{8, 6.0};
   Options options;
-  options.tolerances.relative = 1e-10;
-  Solver solver(options);
-  ASSERT_TRUE(solver.start(bratu, Vector::Zero(64)));
-  for (int step = 0; step < 7; ++step) ASSERT_TRUE(solver.step(bratu));
-  const Snapshot good = solver.save();
-  int refused = 0;
-  const auto try_to_continue = [&](const Snapshot& damaged) {
-    Solver other(options);
+  Snapshot good;
+  double tolerance = 0.0;  // on ||F||, of the undamaged solve
+
+  Midway() {
+    options.tolerances.relative = 1e-10;
+    Solver solver(options);
+    EXPECT_TRUE(solver.start(bratu, Vector::Zero(64)));
+    for (int step = 0; step < 7; ++step) EXPECT_TRUE(solver.step(bratu));
+    good = solver.save();
+    while (solver.step(bratu)) {
+    }
+    EXPECT_EQ(solver.report().status, Status::converged);
+    tolerance = solver.report().tolerance;
+  }
+
+  /// @return whether it was refused; if not, the solve goes on, and may not claim what is not so
+  bool refused(const Snapshot& damaged) const {
+    Solver solver(options);
     try {
-      other.load(damaged);
+      solver.load(damaged);
     } catch (const std::invalid_argument&) {
-      ++refused;
-      return;
+      return true;
     }
-    for (int step = 0; step < 3 && other.step(bratu); ++step) {
+    while (solver.step(bratu)) {
     }
+    if (solver.report().status == Status::converged) {
+      Vector r(64);
+      bratu(solver.solution(), r);
+      EXPECT_LE(r.norm(), tolerance);
+    }
+    return false;
+  }
+};
+
+TEST(Resume, RefusesAnyDamagedSize) {
+  const Midway midway;
+  const auto refuses = [&](std::size_t place, std::int64_t value) {
+    Snapshot damaged = midway.good;
+    damaged.integers[place] = value;
+    return midway.refused(damaged);
   };
-  for (std::size_t i = 0; i < good.integers.size(); ++i) {
-    for (const std::int64_t value : {std::int64_t{-1}, std::int64_t{1} << 40, std::int64_t{77}}) {
-      Snapshot damaged = good;
-      damaged.integers[i] = value;
-      try_to_continue(damaged);
+  // Version, method, unknowns, secant pairs, unknowns at the setup, learnt or not, lines.
+  for (const std::size_t place : {0, 1, 2, 3, 4, 6}) {
+    EXPECT_TRUE(refuses(place, -1)) << place;
+    EXPECT_TRUE(refuses(place, std::int64_t{1} << 40)) << place;
+  }
+  for (const std::size_t place : {0, 1, 2, 4, 6}) EXPECT_TRUE(refuses(place, 77)) << place;
+  EXPECT_TRUE(refuses(3, midway.options.multisecant.memory + 1));
+  EXPECT_TRUE(refuses(5, 1 - midway.good.integers[5]));
+}
+
+TEST(Resume, RefusesAnyDamagedCount) {
+  const Midway midway;
+  // None of the residuals of the counts, which are known of this solve, can be negative or so many.
+  Solver solver(midway.options);
+  solver.load(midway.good);
+  const std::vector<std::int64_t>& all = midway.good.integers;
+  const jfnk::Counts& counts = solver.report().counts;
+  const std::int64_t sought[] = {counts.start,
+                                 counts.newton_trials,
+                                 counts.line_search,
+                                 counts.multisecant,
+                                 counts.pseudo_transient,
+                                 counts.noise,
+                                 counts.difference_actions,
+                                 counts.user_actions};
+  const auto place = std::search(all.begin() + 7, all.end(), std::begin(sought), std::end(sought));
+  ASSERT_NE(place, all.end());
+  for (std::ptrdiff_t i = 0; i < std::ssize(sought); ++i) {
+    for (const std::int64_t value : {std::int64_t{-1}, std::int64_t{2147483647}}) {
+      Snapshot damaged = midway.good;
+      damaged.integers[static_cast<std::size_t>(place - all.begin() + i)] = value;
+      EXPECT_TRUE(midway.refused(damaged)) << "count " << i << " = " << value;
     }
   }
-  for (std::size_t i = 0; i < good.reals.size(); i += 11) {
-    Snapshot damaged = good;
-    damaged.reals[i] = std::numeric_limits<double>::quiet_NaN();
-    try_to_continue(damaged);
+}
+
+TEST(Resume, ClaimsNothingFalseAfterAnyDamageThatIsNotSeen) {
+  const Midway midway;
+  int survived = 0;
+  for (std::size_t i = 7; i < midway.good.integers.size(); ++i) {
+    for (const std::int64_t value : {std::int64_t{-1}, std::int64_t{1} << 40, std::int64_t{77}}) {
+      Snapshot damaged = midway.good;
+      damaged.integers[i] = value;
+      survived += midway.refused(damaged) ? 0 : 1;
+    }
   }
-  EXPECT_GT(refused, 0);
+  for (std::size_t i = 0; i < midway.good.reals.size(); i += 11) {
+    Snapshot damaged = midway.good;
+    damaged.reals[i] = std::numeric_limits<double>::quiet_NaN();
+    survived += midway.refused(damaged) ? 0 : 1;
+  }
+  EXPECT_GT(survived, 0);  // else nothing was tried
 }
 
 }  // namespace

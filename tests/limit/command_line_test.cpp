@@ -31,8 +31,9 @@ TEST(FpmLimit, RefusesWhatItCannotBracketWithTheReason) {
            {{"--strip"}, "neither cohesion nor friction"},
            {{"--strip", "--phi", "30", "--gamma", "18e3"}, "no strength"},
            {{"--strip", "--c", "-1"}, "cohesion: found -1; allowed is at least 0"},
-           {{"--strip", "--c", "1", "--phi", "60"}, "friction angle [deg]: found 60"},
-           {{"--strip", "--c", "1", "--half-width", "0"}, "half width: found 0"},
+           {{"--strip", "--c", "1", "--phi", "60"},
+            "friction_angle: found 60; allowed is 0 .. 50 [deg]"},
+           {{"--strip", "--c", "1", "--half-width", "0"}, "half_width: found 0"},
            {{"--strip", "--c", "nan"}, "cohesion"},
            {{"--strip", "--c", "1", "--rough", "--smooth"}, "exclude each other"},
            {{FPM_SHARE_DIR "/scenes/limit/inclined.toml", "--no-tension"}, "the key tension"},
@@ -40,6 +41,7 @@ TEST(FpmLimit, RefusesWhatItCannotBracketWithTheReason) {
            {{"--strip", "--c", "1", "--gap", "2x"}, "--gap: found 2x"},
            {{"--strip", "--c", "1", "--phi", "20", "--psi", "30"}, "--psi: found 30"},
            {{"--strip", "--c", "1", "--box-width", "1"}, "box: found 1"},
+           {{"--strip", "--c", "1", "--box-depth", "inf"}, "box: found"},
            {{"--strip", "--c", "1", "--surchage", "1"}, "did you mean \"--surcharge\""},
            {{"--strip", "--c", "1", "--solver", "mosek"}, "--solver: found mosek"},
            {{"--strip", "--c", "1", "--max-triangles", "0"}, "--max-triangles: found 0"}}) {
@@ -48,6 +50,33 @@ TEST(FpmLimit, RefusesWhatItCannotBracketWithTheReason) {
     EXPECT_THAT(refused.err, HasSubstr(reason));
     EXPECT_EQ(refused.out, "");
   }
+}
+
+// Whatever a scene lacks is the user's matter, with file, line and key; what an invalid argument
+// anywhere else says is ours.
+TEST(FpmLimit, RefusesAScenesFootingByFileLineAndKey) {
+  const Outcome refused =
+      run({FPM_SHARE_DIR "/scenes/footing.toml", "--set", "material.0.match=compression_cone"});
+  EXPECT_EQ(refused.code, ExitCode::input_refused);
+  EXPECT_THAT(refused.err,
+              AllOf(HasSubstr("--set material.0.match=compression_cone: material.0.match"),
+                    HasSubstr("matched in plane strain")));
+}
+
+TEST(FpmLimit, CallsABugABug) {
+  // A stream that fails as a fault of ours would: nothing of what the user wrote.
+  struct Faulty : std::stringbuf {
+    int_type overflow(int_type) override { throw std::invalid_argument("a fault of ours"); }
+    std::streamsize xsputn(const char*, std::streamsize) override {
+      throw std::invalid_argument("a fault of ours");
+    }
+  };
+  Faulty faulty;
+  std::ostream out(&faulty);
+  out.exceptions(std::ios::badbit);
+  std::ostringstream err;
+  EXPECT_EQ(limit::fpm_limit(std::vector<std::string>{"--version"}, out, err), ExitCode::bug);
+  EXPECT_THAT(err.str(), AllOf(HasSubstr("a fault of ours"), HasSubstr("This is a bug")));
 }
 
 TEST(FpmLimit, PrintsBoundsThatAreWiderThanAskedAndSaysSo) {

@@ -18,7 +18,7 @@ ProgressStatus sample() {
   status.residual_ratio = 8.7e-4;
   status.cuts = 2;
   status.yielding_share = 0.31;
-  status.researched_rows = 12;
+  status.re_searched_rows = 12;
   status.elapsed = 30.0;
   return status;
 }

@@ -22,7 +22,9 @@ std::filesystem::path stored(std::int64_t schema) {
   return std::filesystem::path(FPM_STORED_CHECKPOINTS) /
          ("schema-" + std::to_string(schema) + ".hdf");
 }
-constexpr double pressure_of_step_6 = 31345.504602432295;
+double pressure_of_step_6(std::int64_t schema) {
+  return schema < 3 ? 31345.504602432295 : 31345.504602432302;  // rounding has changed since
+}
 constexpr double pressure_of_step_10 = 44915.2;
 
 class Schema : public ::testing::TestWithParam<std::int64_t> {};
@@ -33,12 +35,16 @@ TEST_P(Schema, IsReadWithItsNotesAndItsState) {
   EXPECT_EQ(notes.schema, GetParam());
   EXPECT_EQ(notes.title, "small footing");
   EXPECT_EQ(notes.history.size(), 7U);
-  EXPECT_EQ(notes.history.back().mean_pressure, pressure_of_step_6);
+  EXPECT_EQ(notes.history.back().mean_pressure, pressure_of_step_6(GetParam()));
   const scene::Scene scene = model::scene_of(stored(GetParam()), notes);
   const model::Model<2> model = model::build_model<2>(scene);
-  const model::State<2> state = model::read_state(file, model);
+  const model::State<2> state = model::read_state(file, model, GetParam());
   EXPECT_EQ(state.programme.step, 6);
   EXPECT_EQ(state.plastic_strain.maxCoeff(), notes.history.back().max_plastic_strain);
+  // The older ones show ParaView displacements only, so that their reactions are lost.
+  const Eigen::Map<const Eigen::VectorXd> reaction(state.reaction.data(), state.reaction.size());
+  EXPECT_DOUBLE_EQ(model.measure.dot(reaction),
+                   GetParam() < 3 ? 0.0 : notes.history.back().reaction);
 }
 
 // Not bit by bit: the numerics have gone on since. The solver's tolerance is 1e-3 of the residual;
@@ -68,8 +74,8 @@ TEST(SchemaOfTheFuture, IsRefusedByName) {
   files::write_seal(file, record::checkpoint_schema + 1, "fpm-run 9.8.7");
   const Outcome outcome = fpm_run_in(run, block, {"--resume=" + file.string()});
   EXPECT_EQ(outcome.code, program::ExitCode::checkpoint_unusable);
-  EXPECT_THAT(outcome.err, HasSubstr("has checkpoint schema 3 (written by fpm-run 9.8.7); this "
-                                     "program reads schemas 1 to 2"));
+  EXPECT_THAT(outcome.err, HasSubstr("has checkpoint schema 4 (written by fpm-run 9.8.7); this "
+                                     "program reads schemas 1 to 3"));
 }
 
 // What is in the file counts, though its seal were of an older program.
@@ -89,7 +95,7 @@ TEST(SchemaOfTheFuture, IsRefusedByNameBehindASealToo) {
     (void)record::open_checkpoint(file, notes);
     FAIL() << "opened";
   } catch (const files::FileError& failure) {
-    EXPECT_THAT(failure.reason(), HasSubstr("has checkpoint schema 3 (written by fpm-run 9.8.7)"));
+    EXPECT_THAT(failure.reason(), HasSubstr("has checkpoint schema 4 (written by fpm-run 9.8.7)"));
   }
 }
 

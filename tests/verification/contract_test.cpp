@@ -115,7 +115,7 @@ TEST(Research, KeepsStressPositionsVolumeAndMomentum) {
   verification::Run<2> without(shipped_scene("footing.toml", never));
   Eigen::Index rebuilt = 0;
   for (int step = 0; step < 20 && rebuilt == 0; ++step) {
-    rebuilt = with.stepper.advance().record.researched_rows;
+    rebuilt = with.stepper.advance().record.re_searched_rows;
     (void)without.stepper.advance();
   }
   ASSERT_GT(rebuilt, 0);

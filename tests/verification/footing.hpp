@@ -24,7 +24,7 @@ struct Footing {
   double settlement = 0.0;  // over B, reached
   double raw = 0.0;         // [Pa] mean pressure at the end
   double corrected = 0.0;   // [Pa] less what the hourglass control took
-  std::int64_t research_events = 0;
+  std::int64_t re_searches = 0;
   int cuts = 0;
 };
 
@@ -43,7 +43,7 @@ inline Footing pushed_footing(const Settings& settings) {
     footing.corrected = result.record.corrected_pressure;
     footing.curve.push_back({footing.settlement, footing.raw});
   }
-  footing.research_events = run.state.programme.research_events;
+  footing.re_searches = run.state.programme.re_searches;
   return footing;
 }
 

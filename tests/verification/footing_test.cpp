@@ -11,7 +11,7 @@ const Settings coarse = {"geometry.spacing=0.02", "drive.target=0.011"};
 TEST(Footing, PressureIsInTheWindowsAtElevenParticlesOverB) {
   const Footing footing = pushed_footing(coarse);
   EXPECT_NEAR(footing.settlement, settlement, 1e-12);
-  EXPECT_GT(footing.research_events, 0);
+  EXPECT_GT(footing.re_searches, 0);
   expect_in_windows(footing.curve);
 }
 

@@ -94,9 +94,8 @@ Errors errors_at(double spacing) {
     errors.near = std::max(errors.near, worst);
     if (row[1] >= 2.0) errors.far = std::max(errors.far, worst);
   }
-  const Eigen::Index n = run.model.size();
   const Eigen::Index foot = run.nearest(fpm::Vector<2>(0.0, -box));
-  errors.foot = std::abs(run.stepper.equilibrium().unmasked_residual()[n + foot]) / pressure;
+  errors.foot = std::abs(run.state.reaction(foot, 1)) / pressure;
   return errors;
 }
 

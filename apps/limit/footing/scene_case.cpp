@@ -6,23 +6,16 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 #include "limit/mesh/cut.hpp"
+#include "scene/derived.hpp"
 
 namespace limit::footing {
 
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-
-void require(bool holds, const std::string& key, const std::string& why) {
-  if (!holds) {
-    throw std::invalid_argument(fmt::format(
-        "{}: {}; fpm-limit brackets footings on one half of a plane body only", key, why));
-  }
-}
 
 // The strip of the scene; its soil is that below the footing's edge.
 struct Footing2d {
@@ -33,104 +26,124 @@ struct Footing2d {
   bool wall_is_rough = false, floor_is_rough = false;
 };
 
-double gravity_of(const scene::Scene& scene) {
-  const scene::Point& acceleration = scene.gravity.acceleration;
-  if (acceleration.empty()) return 0.0;
-  require(acceleration[0] == 0.0 && acceleration[1] <= 0.0, "gravity.acceleration",
-          "it does not act downwards");
-  return -acceleration[1];
-}
+/// Finds the footing and says what of the scene belongs to none.
+class Reader {
+ public:
+  Reader(const scene::Scene& scene, tables::Diagnosis& diagnosis)
+      : scene_(scene), diagnosis_(diagnosis) {}
 
-problem::Soil soil_of(const scene::Material& material, double gravity, bool reduce) {
-  const std::string key = "material." + material.name;
-  require(material.model != scene::MaterialModel::elastic, key + ".model",
-          "an elastic material never yields");
-  require(material.match == scene::ConeMatch::plane_strain, key + ".match",
-          "only strengths matched in plane strain are those of Mohr-Coulomb");
-  problem::Soil soil{material.cohesion.value_or(0.0),
-                     material.friction_angle.value_or(0.0) * degree, material.density * gravity};
-  if (!reduce) return soil;
-  return problem::davis_reduced(soil, material.dilation_angle.value_or(0.0) * degree);
-}
+  // With a strip of no soil. Incomplete, if the diagnosis has an error then.
+  Footing2d footing() {
+    const scene::Geometry& geometry = scene_.geometry;
+    require(geometry.dimension == 2, "geometry.dimension", "found 3");
+    const double left = geometry.min[0], top = geometry.max[1];
+    require(scene_.symmetry.size() == 1 && scene_.symmetry[0].axis == scene::Axis::x &&
+                scene_.symmetry[0].position == left,
+            "symmetry", "the left side is no mirror");
+    const scene::Drive& drive = scene_.drive;
+    const bool presses = drive.kind == scene::DriveKind::displacement &&
+                         drive.side == scene::Side::top && drive.direction[0] == 0.0 &&
+                         drive.direction[1] < 0.0;
+    require(presses, "drive", "nothing is pressed down into the top");
+    const bool reaches = !drive.range_min.empty() && drive.range_min[0] <= left &&
+                         drive.range_max[0] < geometry.max[0];
+    if (presses) {
+      require(reaches, "drive.range_min",
+              "the footing does not reach from the mirror to a place on the top");
+    }
+    take_supports();
+    if (!diagnosis_.errors().empty()) return found_;
+    take_tractions(drive.range_max[0]);
+    found_.axis_at_surface = mesh::Point(left, top);
+    found_.strip.half_width = drive.range_max[0] - left;
+    found_.strip.rough = drive.lateral == scene::Lateral::fixed;
+    found_.box = {(geometry.max[0] - left) / found_.strip.half_width,
+                  (top - geometry.min[1]) / found_.strip.half_width};
+    const double gravity = downwards();
+    for (std::size_t m = 0; m < scene_.material.size(); ++m) take_soil(m, gravity);
+    return found_;
+  }
 
-bool fixes(const scene::Support& support, scene::Axis axis) {
-  return std::count(support.directions.begin(), support.directions.end(), axis) != 0;
-}
-
-void take_supports(const scene::Scene& scene, Footing2d& footing) {
-  bool has_wall = false, has_floor = false;
-  for (const scene::Support& support : scene.support) {
-    const std::string key = "support." + support.name;
-    require(support.side.has_value(), key, "it holds something else than a whole side");
-    const bool along_x = fixes(support, scene::Axis::x), along_y = fixes(support, scene::Axis::y);
-    if (*support.side == scene::Side::right) {
-      has_wall = has_wall || along_x;
-      footing.wall_is_rough = footing.wall_is_rough || along_y;
-    } else if (*support.side == scene::Side::bottom) {
-      has_floor = has_floor || along_y;
-      footing.floor_is_rough = footing.floor_is_rough || along_x;
-    } else {
-      require(false, key, "it holds neither the bottom nor the right side");
+ private:
+  void require(bool holds, const std::string& key, const std::string& why) {
+    if (!holds) {
+      diagnosis_.error(key, why, "fpm-limit brackets footings on one half of a plane body only");
     }
   }
-  require(has_wall && has_floor, "support", "the right side or the bottom may move across itself");
-}
 
-void take_tractions(const scene::Scene& scene, double edge, Footing2d& footing) {
-  for (const scene::Traction& traction : scene.traction) {
-    const std::string key = "traction." + traction.name;
-    const bool covers_surface =
-        traction.range_min.empty() ||
-        (traction.range_min[0] <= edge && traction.range_max[0] >= scene.geometry.max[0]);
-    require(traction.side == scene::Side::top && covers_surface && traction.value[0] == 0.0 &&
-                traction.value[1] <= 0.0,
-            key, "it is no surcharge on the whole surface beside the footing");
-    footing.strip.surcharge -= traction.value[1];
+  double downwards() {
+    const scene::Point& acceleration = scene_.gravity.acceleration;
+    if (acceleration.empty()) return 0.0;
+    require(acceleration[0] == 0.0 && acceleration[1] <= 0.0, "gravity.acceleration",
+            "it does not act downwards");
+    return -acceleration[1];
   }
-}
 
-Footing2d footing_of(const scene::Scene& scene, bool reduce) {
-  const scene::Geometry& geometry = scene.geometry;
-  require(geometry.dimension == 2, "geometry.dimension", "found 3");
-  const double left = geometry.min[0], top = geometry.max[1];
-  require(scene.symmetry.size() == 1 && scene.symmetry[0].axis == scene::Axis::x &&
-              scene.symmetry[0].position == left,
-          "symmetry", "the left side is no mirror");
-  const scene::Drive& drive = scene.drive;
-  require(drive.kind == scene::DriveKind::displacement && drive.side == scene::Side::top &&
-              drive.direction[0] == 0.0 && drive.direction[1] < 0.0,
-          "drive", "nothing is pressed down into the top");
-  require(!drive.range_min.empty() && drive.range_min[0] <= left &&
-              drive.range_max[0] < geometry.max[0],
-          "drive.range_min", "the footing does not reach from the mirror to a place on the top");
-
-  Footing2d footing;
-  footing.axis_at_surface = mesh::Point(left, top);
-  footing.strip.half_width = drive.range_max[0] - left;
-  footing.strip.rough = drive.lateral == scene::Lateral::fixed;
-  footing.box = {(geometry.max[0] - left) / footing.strip.half_width,
-                 (top - geometry.min[1]) / footing.strip.half_width};
-  const double gravity = gravity_of(scene);
-  for (const scene::Material& material : scene.material) {
-    footing.soils.push_back(soil_of(material, gravity, reduce));
+  void take_soil(std::size_t m, double gravity) {
+    const scene::Material& material = scene_.material[m];
+    const std::string table = fmt::format("material.{}.", m);
+    require(material.model != scene::MaterialModel::elastic, table + "model",
+            "an elastic material never yields");
+    require(material.match == scene::ConeMatch::plane_strain, table + "match",
+            "only strengths matched in plane strain are those of Mohr-Coulomb");
+    found_.soils.push_back({material.cohesion.value_or(0.0),
+                            material.friction_angle.value_or(0.0) * degree,
+                            material.density * gravity});
+    if (!diagnosis_.errors().empty()) return;
+    problem::Strip strip = found_.strip;
+    strip.soil = found_.soils.back();
+    if (const auto objection = problem::objection_to(strip)) {
+      diagnosis_.error(table + objection->key, objection->found, objection->allowed);
+    }
   }
-  take_supports(scene, footing);
-  take_tractions(scene, drive.range_max[0], footing);
-  return footing;
-}
 
-// The last material whose region holds the place.
+  static bool fixes(const scene::Support& support, scene::Axis axis) {
+    return std::count(support.directions.begin(), support.directions.end(), axis) != 0;
+  }
+
+  void take_supports() {
+    bool has_wall = false, has_floor = false;
+    for (std::size_t i = 0; i < scene_.support.size(); ++i) {
+      const scene::Support& support = scene_.support[i];
+      const std::string key = fmt::format("support.{}", i);
+      const bool along_x = fixes(support, scene::Axis::x), along_y = fixes(support, scene::Axis::y);
+      if (!support.side) {
+        require(false, key, "it holds something else than a whole side");
+      } else if (*support.side == scene::Side::right) {
+        has_wall = has_wall || along_x;
+        found_.wall_is_rough = found_.wall_is_rough || along_y;
+      } else if (*support.side == scene::Side::bottom) {
+        has_floor = has_floor || along_y;
+        found_.floor_is_rough = found_.floor_is_rough || along_x;
+      } else {
+        require(false, key, "it holds neither the bottom nor the right side");
+      }
+    }
+    require(has_wall && has_floor, "support",
+            "the right side or the bottom may move across itself");
+  }
+
+  void take_tractions(double edge) {
+    for (std::size_t i = 0; i < scene_.traction.size(); ++i) {
+      const scene::Traction& traction = scene_.traction[i];
+      const bool covers_surface =
+          traction.range_min.empty() ||
+          (traction.range_min[0] <= edge && traction.range_max[0] >= scene_.geometry.max[0]);
+      require(traction.side == scene::Side::top && covers_surface && traction.value[0] == 0.0 &&
+                  traction.value[1] <= 0.0,
+              fmt::format("traction.{}", i),
+              "it is no surcharge on the whole surface beside the footing");
+      found_.strip.surcharge -= traction.value[1];
+    }
+  }
+
+  const scene::Scene& scene_;
+  tables::Diagnosis& diagnosis_;
+  Footing2d found_;
+};
+
 int region_at(const scene::Scene& scene, const mesh::Point& place) {
-  for (std::size_t m = scene.material.size(); m-- > 0;) {
-    const scene::Material& material = scene.material[m];
-    bool inside = true;
-    for (std::size_t i = 0; i < material.region_min.size(); ++i) {
-      const double x = place[static_cast<Eigen::Index>(i)];
-      inside = inside && x >= material.region_min[i] && x <= material.region_max[i];
-    }
-    if (inside) return static_cast<int>(m);
-  }
-  throw std::invalid_argument("material: no material fills the whole body");
+  return static_cast<int>(scene::material_at(scene, {place.data(), 2}));
 }
 
 mesh::Mesh divided(const scene::Scene& scene, mesh::Mesh mesh) {
@@ -169,15 +182,11 @@ problem::Problem problem_of(const scene::Scene& scene, const Footing2d& footing,
   return problem;
 }
 
-problem::Case case_of(const scene::Scene& scene, bool tension, bool reduce) {
-  Footing2d footing = footing_of(scene, reduce);
-  problem::Strip& strip = footing.strip;
-  strip.tension = tension;
+problem::Case case_of(const scene::Scene& scene, const Footing2d& footing) {
+  problem::Strip strip = footing.strip;
   double steepest = 0.0;
-  for (std::size_t m = 0; m < footing.soils.size(); ++m) {
-    strip.soil = footing.soils[m];
-    steepest = std::max(steepest, strip.soil.friction_angle);
-    problem::check(strip);
+  for (const problem::Soil& soil : footing.soils) {
+    steepest = std::max(steepest, soil.friction_angle);
   }
   // The soil at the footing's edge, just below it, gives the scales and the hand formulas.
   constexpr double just = 1e-6;
@@ -212,14 +221,18 @@ problem::Case case_of(const scene::Scene& scene, bool tension, bool reduce) {
 
 }  // namespace
 
-SceneCase scene_case(const scene::Scene& scene, bool tension) {
-  SceneCase result{case_of(scene, tension, false), std::nullopt, scene};
-  const bool is_associated =
-      std::all_of(scene.material.begin(), scene.material.end(), [](const scene::Material& m) {
-        return m.dilation_angle.value_or(0.0) == m.friction_angle.value_or(0.0);
-      });
-  if (is_associated) return result;
-  result.davis = case_of(scene, tension, true);
+std::optional<problem::Cases> scene_case(const scene::Scene& scene, bool tension,
+                                         tables::Diagnosis& diagnosis) {
+  Footing2d footing = Reader(scene, diagnosis).footing();
+  if (!diagnosis.errors().empty()) return std::nullopt;
+  footing.strip.tension = tension;
+  problem::Cases result{case_of(scene, footing), std::nullopt};
+  if (scene::is_associated(scene)) return result;
+  for (std::size_t m = 0; m < footing.soils.size(); ++m) {
+    const double dilation = scene.material[m].dilation_angle.value_or(0.0) * degree;
+    footing.soils[m] = problem::davis_reduced(footing.soils[m], dilation);
+  }
+  result.davis = case_of(scene, footing);
   // Both in the same units, for one report.
   result.davis->units = result.associated.units;
   return result;

@@ -360,14 +360,18 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
 
 }  // namespace
 
-std::optional<footing::SceneCase> ground_case(const GroundScene& scene,
-                                              tables::Diagnosis& diagnosis) {
+std::optional<problem::Cases> ground_case(const GroundScene& scene, tables::Diagnosis& diagnosis) {
+  if (!can_mesh_ground) {
+    diagnosis.error("region", "ground of polygons",
+                    "this fpm-limit was built without CGAL, which meshes such ground and is under "
+                    "the GPL; `./fpmw build` builds one with it (cmake -DFPM_WITH_CGAL=ON)");
+    return std::nullopt;
+  }
   const GroundOutline outline = ground_outline(scene, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   const std::optional<Base> base = find_base(scene, outline, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
-  footing::SceneCase result{case_of(scene, outline, base, false, diagnosis), std::nullopt,
-                            std::nullopt};
+  problem::Cases result{case_of(scene, outline, base, false, diagnosis), std::nullopt};
   if (!diagnosis.errors().empty()) return std::nullopt;
   const bool is_associated = std::all_of(
       scene.materials.begin(), scene.materials.end(), [](const GroundMaterial& material) {

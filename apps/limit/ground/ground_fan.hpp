@@ -2,9 +2,17 @@
 
 #include <vector>
 
-#include "limit/ground/ground_mesh.hpp"
+#include "limit/ground/ground_outline.hpp"
 
 namespace limit::ground {
+
+/// How fine a mesh begins. The fans decide; what lies between them is graded and refined later.
+struct GroundFineness {
+  double rays_per_radian = 8.0;
+  int rings = 4;
+  double grading = 1.5;  // radii of the rings: (k / rings)^grading
+  double longest = 1.0;  // [m] sides between the fans
+};
 
 /// A structured fan at a corner of the outline: rays from one of its sides to the other.
 struct GroundFan {
@@ -20,6 +28,12 @@ struct GroundFan {
     return outline.at(centre) + radii[ring] * directions[ray];
   }
 };
+
+/// Corners of the outline where stress and velocity take every direction at once: re-entrant ones,
+/// ends of footings and of pressures, unless the next side is a mirror; and those where no single
+/// stress has the tractions of both sides.
+[[nodiscard]] std::vector<int> singular_points(const GroundScene& scene,
+                                               const GroundOutline& outline);
 
 /// The fans of the singular points; they touch neither each other nor what does not meet there.
 [[nodiscard]] std::vector<GroundFan> ground_fans(const GroundScene& scene,

@@ -14,8 +14,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "limit/ground/ground_fan.hpp"
-
 namespace limit::ground {
 
 namespace {
@@ -242,6 +240,8 @@ class Mesher {
 };
 
 }  // namespace
+
+const bool can_mesh_ground = true;
 
 mesh::Mesh ground_mesh(const GroundScene& scene, const GroundOutline& outline,
                        const GroundFineness& fineness) {

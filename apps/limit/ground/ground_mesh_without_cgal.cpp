@@ -5,10 +5,10 @@
 
 namespace limit::ground {
 
-Mesh ground_mesh(const GroundScene&, const GroundOutline&, const GroundFineness&) {
-  throw std::invalid_argument(
-      "this fpm-limit was built without CGAL, which meshes ground of polygons and is under the "
-      "GPL; `./fpmw build` builds one with it (cmake -DFPM_WITH_CGAL=ON)");
+const bool can_mesh_ground = false;
+
+mesh::Mesh ground_mesh(const GroundScene&, const GroundOutline&, const GroundFineness&) {
+  throw std::logic_error("ground mesh: built without CGAL");
 }
 
 }  // namespace limit::ground

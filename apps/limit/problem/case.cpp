@@ -4,11 +4,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace limit::problem {
 
 Case strip_case(const Strip& strip, std::optional<Box> wanted) {
-  check(strip);
+  if (const auto objection = objection_to(strip)) throw std::invalid_argument(objection->text());
   const Box box = wanted.value_or(box_of(strip));
   Case result;
   result.title = fmt::format("strip footing, {}", strip.rough ? "rough" : "smooth");

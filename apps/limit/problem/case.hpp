@@ -24,8 +24,15 @@ struct Case {
   Problem lower, upper;  // in SI units, on the meshes to begin with
 };
 
+/// A collapse problem and, if a soil in it dilates by less than its friction angle, its twin of
+/// Davis-reduced strength, in the same units.
+struct Cases {
+  Case associated;
+  std::optional<Case> davis;
+};
+
 /// A strip footing as a case; `box` absent: box_of(strip).
-/// @throws std::invalid_argument, see check(Strip).
+/// @throws std::invalid_argument if there is an objection to the strip.
 [[nodiscard]] Case strip_case(const Strip& strip, std::optional<Box> box);
 
 /// What is assumed of a footing's base, for a report.

@@ -2,11 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 
 namespace limit::problem {
 
@@ -19,33 +16,33 @@ constexpr double most_friction = 50.01 * pi / 180.0;
 
 }  // namespace
 
-void check(const Strip& strip) {
-  const auto require = [](bool holds, const std::string& what, double found,
-                          const std::string& allowed) {
-    if (!holds) {
-      throw std::invalid_argument(
-          fmt::format("{}: found {:g}; allowed is {}", what, found, allowed));
-    }
-  };
+std::optional<Objection> objection_to(const Strip& strip) {
   const Soil& soil = strip.soil;
   const auto is_size = [](double x) { return std::isfinite(x) && x >= 0.0; };
-  require(is_size(soil.cohesion), "cohesion", soil.cohesion, "at least 0");
-  require(soil.friction_angle >= 0.0 && soil.friction_angle <= most_friction,
-          "friction angle [deg]", soil.friction_angle * 180.0 / pi, "0 .. 50");
-  require(is_size(soil.unit_weight), "unit weight", soil.unit_weight, "at least 0");
-  require(is_size(strip.surcharge), "surcharge", strip.surcharge, "at least 0");
-  require(is_size(strip.half_width) && strip.half_width > 0.0, "half width", strip.half_width,
-          "more than 0");
-  if (soil.cohesion > 0.0) return;
+  const auto found = [](double value) { return fmt::format("found {:g}", value); };
+  const std::string size = "allowed is at least 0";
+  if (!is_size(soil.cohesion)) return Objection{"cohesion", found(soil.cohesion), size};
+  if (!(soil.friction_angle >= 0.0 && soil.friction_angle <= most_friction)) {
+    return Objection{"friction_angle", found(soil.friction_angle * 180.0 / pi),
+                     "allowed is 0 .. 50 [deg]"};
+  }
+  if (!is_size(soil.unit_weight)) return Objection{"unit_weight", found(soil.unit_weight), size};
+  if (!is_size(strip.surcharge)) return Objection{"surcharge", found(strip.surcharge), size};
+  if (!is_size(strip.half_width) || strip.half_width == 0.0) {
+    return Objection{"half_width", found(strip.half_width), "allowed is more than 0"};
+  }
+  if (soil.cohesion > 0.0) return std::nullopt;
   if (soil.friction_angle == 0.0) {
-    throw std::invalid_argument("the soil has neither cohesion nor friction: it bears nothing");
+    return Objection{"cohesion", "the soil has neither cohesion nor friction: it bears nothing",
+                     "one of them is more than 0"};
   }
-  if (strip.surcharge == 0.0) {
-    throw std::invalid_argument(
-        "without cohesion and surcharge the soil at the surface has no strength: no stress is "
-        "strictly inside yield and neither bound can be certified; approach the case with a small "
-        "surcharge or cohesion, e.g. a hundredth of unit weight x half width, and extrapolate");
-  }
+  if (strip.surcharge > 0.0) return std::nullopt;
+  return Objection{
+      "cohesion",
+      "without cohesion and surcharge the soil at the surface has no strength: no stress is "
+      "strictly inside yield and neither bound can be certified",
+      "approach the case with a small surcharge or cohesion, e.g. a hundredth of unit weight x "
+      "half width, and extrapolate"};
 }
 
 Box box_of(const Strip& strip) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "limit/mesh/fan.hpp"
 #include "limit/problem/problem.hpp"
 
@@ -22,9 +25,20 @@ struct Box {
   double depth = 0.0;
 };
 
-/// Throws std::invalid_argument, naming what is out of range, unless a collapse load exists and can
-/// be bracketed: without cohesion and surcharge no stress at the surface is strictly admissible.
-void check(const Strip& strip);
+/// What of a strip cannot be bracketed.
+struct Objection {
+  std::string key;      // cohesion, friction_angle [deg], unit_weight, surcharge, half_width
+  std::string found;    // what is there
+  std::string allowed;  // what may be there instead
+
+  /// On one line.
+  [[nodiscard]] std::string text() const { return key + ": " + found + "; " + allowed; }
+};
+
+/// What stands against bracketing the strip, for whoever knows where its numbers were written:
+/// something out of range, or no collapse load that can be bracketed, as without cohesion and
+/// surcharge, where no stress at the surface is strictly admissible.
+[[nodiscard]] std::optional<Objection> objection_to(const Strip& strip);
 
 /// The box that holds the mechanism of a weightless soil (Prandtl's) with some room; weight and a
 /// smooth base only make the mechanism smaller.

@@ -1,8 +1,5 @@
 #include "limit/programme/lower_bound.hpp"
 
-#include <algorithm>
-
-#include "limit/algebra/equation_builder.hpp"
 #include "limit/programme/yield_cones.hpp"
 
 namespace limit::programme {
@@ -65,8 +62,10 @@ class Builder {
     const Eigen::Index variables = multiplier() + 1;
     ConeProgram program;
     program.cones = cones_;
-    program.equations = equations_.matrix(variables);
-    program.right_side = equations_.right_side();
+    program.equations.resize(static_cast<Eigen::Index>(right_side_.size()), variables);
+    program.equations.setFromTriplets(entries_.begin(), entries_.end());
+    program.right_side = Eigen::Map<const Eigen::VectorXd>(
+        right_side_.data(), static_cast<Eigen::Index>(right_side_.size()));
     program.objective = Eigen::VectorXd::Unit(variables, multiplier());
     program.start = Eigen::VectorXd::Zero(variables);
     for (std::size_t k = 0; k < cones_.size(); ++k) {
@@ -106,14 +105,22 @@ class Builder {
 
   void stresses_of_contacts() {
     for (const Contact& contact : contacts_) {
-      equations_.begin(0.0);
+      begin_equation(0.0);
       add(contact.stress, traction(contact.normal, contact.normal));
-      equations_.add(contact.variable, -1.0);
+      add(contact.variable, -1.0);
     }
   }
 
+  void begin_equation(double right_side) { right_side_.push_back(right_side); }
+
+  // To the equation begun last.
+  void add(Eigen::Index variable, double coefficient) {
+    if (coefficient == 0.0) return;
+    entries_.emplace_back(static_cast<Eigen::Index>(right_side_.size()) - 1, variable, coefficient);
+  }
+
   void add(Eigen::Index variables, const Form& form, double factor = 1.0) {
-    for (Eigen::Index i = 0; i < 3; ++i) equations_.add(variables + i, factor * form[i]);
+    for (Eigen::Index i = 0; i < 3; ++i) add(variables + i, factor * form[i]);
   }
 
   // div sigma + (0, -gamma) = 0, gamma dead and live, with the constant gradients of the corners'
@@ -125,8 +132,8 @@ class Builder {
       const double area2 = mesh::twice_area(mesh, triangle);
       const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(triangle.region)];
       for (int row = 0; row < 2; ++row) {
-        equations_.begin(row == 0 ? 0.0 : soil.unit_weight);
-        if (row == 1) equations_.add(multiplier(), -soil.live_unit_weight);
+        begin_equation(row == 0 ? 0.0 : soil.unit_weight);
+        if (row == 1) add(multiplier(), -soil.live_unit_weight);
         for (int i = 0; i < 3; ++i) {
           const auto at = [&](int k) -> const mesh::Point& {
             return mesh.nodes[static_cast<std::size_t>(
@@ -150,7 +157,7 @@ class Builder {
         if (edge.right >= 0) {
           const Eigen::Index right = corner_at(edge.right, node);
           for (const mesh::Point& direction : {side.normal, side.tangent}) {
-            equations_.begin(0.0);
+            begin_equation(0.0);
             add(left, traction(side.normal, direction));
             add(right, traction(side.normal, direction), -1.0);
           }
@@ -159,13 +166,13 @@ class Builder {
         const problem::Boundary& boundary =
             problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
         if (boundary.normal == problem::Known::traction) {
-          equations_.begin(boundary.normal_stress);
-          equations_.add(multiplier(), -boundary.live_normal_stress);
+          begin_equation(boundary.normal_stress);
+          add(multiplier(), -boundary.live_normal_stress);
           add(left, traction(side.normal, side.normal));
         }
         if (boundary.tangential == problem::Known::traction) {
-          equations_.begin(boundary.shear_stress);
-          equations_.add(multiplier(), -boundary.live_shear_stress);
+          begin_equation(boundary.shear_stress);
+          add(multiplier(), -boundary.live_shear_stress);
           add(left, traction(side.normal, side.tangent));
         }
       }
@@ -176,11 +183,11 @@ class Builder {
     const problem::Footing& footing = problem_.footing;
     for (int motion = 0; motion < 3; ++motion) {
       if (!footing.may_move[static_cast<std::size_t>(motion)]) continue;
-      equations_.begin(footing.dead_load[static_cast<std::size_t>(motion)]);
+      begin_equation(footing.dead_load[static_cast<std::size_t>(motion)]);
       for (const mesh::Edge& edge : edges_) {
         if (edge.boundary >= 0) add_resultant(edge, motion);
       }
-      equations_.add(multiplier(), -footing.live_load[static_cast<std::size_t>(motion)]);
+      add(multiplier(), -footing.live_load[static_cast<std::size_t>(motion)]);
     }
   }
 
@@ -216,7 +223,8 @@ class Builder {
     mesh::Point normal;
   };
   std::vector<Contact> contacts_;
-  algebra::EquationBuilder equations_;
+  std::vector<Eigen::Triplet<double, Eigen::Index>> entries_;  // of the equations, row by row
+  std::vector<double> right_side_;
 };
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <IpTNLP.hpp>
 
-#include "limit/solver/cone_solver.hpp"
+#include "limit/solver/cone_solution.hpp"
 #include "limit/solver/scaled_program.hpp"
 
 namespace limit::solver {

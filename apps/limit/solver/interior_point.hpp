@@ -1,6 +1,7 @@
 #pragma once
 
-#include "limit/solver/cone_solver.hpp"
+#include "limit/programme/cone_program.hpp"
+#include "limit/solver/cone_solution.hpp"
 
 namespace limit::solver {
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "files/durable_file.hpp"
 #include "limit/bracket/bracket.hpp"
 #include "limit/footing/scene_case.hpp"
 #include "limit/mesh/cut.hpp"
@@ -11,6 +12,7 @@
 namespace {
 
 using namespace limit;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 double area(const mesh::Mesh& mesh) {
@@ -88,14 +90,31 @@ region_min = [0.0, -2.0]
 region_max = [5.0, -0.5]
 )";
 
-footing::SceneCase read(const std::string& text, const std::vector<std::string>& settings = {}) {
-  const scene::SceneReading reading = scene::parse_scene(text, "test.toml", settings);
-  for (const auto& error : reading.errors) ADD_FAILURE() << error.text();
-  return footing::scene_case(reading.scene.value());
+// The case, or every error said, a line each.
+struct Read {
+  std::optional<problem::Cases> found;
+  std::string errors;
+};
+
+Read read(std::string_view text, const std::vector<std::string>& settings = {}) {
+  Read result;
+  tables::Diagnosis diagnosis("test.toml");
+  std::optional<tables::Problem> unreadable;
+  const auto scene = scene::parse_scene(text, settings, diagnosis, unreadable);
+  EXPECT_FALSE(unreadable);
+  if (scene) result.found = footing::scene_case(*scene, true, diagnosis);
+  for (const tables::Problem& one : diagnosis.errors()) result.errors += one.text() + '\n';
+  return result;
+}
+
+problem::Cases cases_of(std::string_view text) {
+  const Read result = read(text);
+  EXPECT_EQ(result.errors, "");
+  return result.found.value();
 }
 
 TEST(SceneCase, IsTheFootingWithTheScenesBoxAndSupports) {
-  const footing::SceneCase found = read(footing);
+  const problem::Cases found = cases_of(footing);
   EXPECT_FALSE(found.davis);
   const problem::Problem& problem = found.associated.lower;
   EXPECT_NEAR(area(problem.mesh), 10.0, 1e-12);
@@ -110,8 +129,7 @@ TEST(SceneCase, IsTheFootingWithTheScenesBoxAndSupports) {
 }
 
 TEST(SceneCase, ReadsThePapersFootingWithItsWeightAndItsDavisTwin) {
-  const auto reading = scene::read_scene(std::string(FPM_SHARE_DIR) + "/scenes/footing.toml");
-  const footing::SceneCase found = footing::scene_case(reading.scene.value());
+  const problem::Cases found = cases_of(files::read_text(FPM_SHARE_DIR "/scenes/footing.toml"));
   const problem::Soil& soil = found.associated.lower.soils[0];
   EXPECT_EQ(soil.cohesion, 2.5e3);
   EXPECT_DOUBLE_EQ(soil.unit_weight, 1850.0 * 9.81);
@@ -120,7 +138,7 @@ TEST(SceneCase, ReadsThePapersFootingWithItsWeightAndItsDavisTwin) {
 }
 
 TEST(SceneCase, BracketsTwoLayersOfClayBetweenTheWeakerAndTheStronger) {
-  const footing::SceneCase found = read(std::string(footing) + stronger_below);
+  const problem::Cases found = cases_of(std::string(footing) + stronger_below);
   bracket::BracketOptions options;
   options.max_triangles = 1;
   const bracket::Bracket bounds = bracket::bracket(found.associated, options, {});
@@ -135,20 +153,26 @@ TEST(SceneCase, BracketsTwoLayersOfClayBetweenTheWeakerAndTheStronger) {
   EXPECT_LT(bounds.gap(), 0.2);
 }
 
-TEST(SceneCase, RefusesWhatIsNoSuchFootingByItsKey) {
-  const auto refusal = [](const std::vector<std::string>& settings) -> std::string {
-    try {
-      (void)read(footing, settings);
-    } catch (const std::invalid_argument& refused) {
-      return refused.what();
-    }
-    return "accepted";
+TEST(SceneCase, RefusesWhatIsNoSuchFootingByFileLineAndKey) {
+  const auto refusal = [](const std::vector<std::string>& settings) {
+    const Read result = read(footing, settings);
+    EXPECT_NE(result.found.has_value(), !result.errors.empty());
+    return result.errors;
   };
   EXPECT_THAT(refusal({"gravity.acceleration=[1.0, -9.81]", "material.0.density=1800.0"}),
               HasSubstr("gravity.acceleration"));
   EXPECT_THAT(refusal({"drive.range_min=0.5"}), HasSubstr("drive.range_min"));
-  EXPECT_THAT(refusal({"support.1.directions=[\"y\"]"}), HasSubstr("support"));
-  EXPECT_EQ(refusal({}), "accepted");
+  EXPECT_THAT(refusal({"support.1.side=left"}), HasSubstr("support.1"));
+  EXPECT_THAT(refusal({"support.1.directions=[\"y\"]"}), HasSubstr("test.toml"));
+  // A soil that bears nothing at the surface is refused where its cohesion is written.
+  EXPECT_THAT(refusal({"material.0.model=mohr_coulomb", "material.0.friction_angle=30",
+                       "material.0.dilation_angle=30", "material.0.cohesion=0"}),
+              AllOf(HasSubstr("--set material.0.cohesion=0: material.0.cohesion"),
+                    HasSubstr("no strength")));
+  // All of them at once.
+  EXPECT_THAT(refusal({"symmetry.0.position=5.0", "drive.side=bottom"}),
+              AllOf(HasSubstr("the left side is no mirror"), HasSubstr("nothing is pressed")));
+  EXPECT_EQ(refusal({}), "");
 }
 
 }  // namespace

@@ -63,8 +63,8 @@ inline std::vector<KnownGround> known_grounds() {
 }
 
 /// The case of a shipped scene, with settings.
-inline std::optional<footing::SceneCase> shipped(const char* name,
-                                                 const std::vector<std::string>& settings = {}) {
+inline std::optional<problem::Cases> shipped(const char* name,
+                                             const std::vector<std::string>& settings = {}) {
   const auto file =
       std::filesystem::path(FPM_SHARE_DIR) / "scenes" / "limit" / (std::string(name) + ".toml");
   const auto text = tables::text_of(file);
@@ -72,7 +72,7 @@ inline std::optional<footing::SceneCase> shipped(const char* name,
   std::optional<tables::Problem> unreadable;
   const auto scene =
       ground::read_ground_scene(std::get<std::string>(text), settings, diagnosis, unreadable);
-  std::optional<footing::SceneCase> found;
+  std::optional<problem::Cases> found;
   if (scene) found = ground::ground_case(*scene, diagnosis);
   for (const tables::Problem& one : diagnosis.errors()) ADD_FAILURE() << one.text();
   return found;

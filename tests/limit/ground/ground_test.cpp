@@ -103,7 +103,7 @@ along = [[0, 0], [4, 0]]
 // The case, or every error said, a line each.
 struct Read {
   std::optional<ground::GroundScene> scene;
-  std::optional<footing::SceneCase> found;
+  std::optional<problem::Cases> found;
   std::string errors;
 };
 

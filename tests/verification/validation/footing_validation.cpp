@@ -13,7 +13,7 @@ Footing reported(const Settings& settings) {
   report("settlement_over_B", footing.settlement);
   report("pressure_kPa_at_the_end", 1e-3 * footing.raw);
   report("corrected_pressure_kPa_at_the_end", 1e-3 * footing.corrected);
-  report("re_searches", static_cast<double>(footing.research_events));
+  report("re_searches", static_cast<double>(footing.re_searches));
   report("cuts", footing.cuts);
   return footing;
 }
@@ -21,7 +21,7 @@ Footing reported(const Settings& settings) {
 TEST(FootingTo15PerCent, IsInTheWindowsWithResearch) {
   const Footing footing = reported({});
   EXPECT_NEAR(footing.settlement, end, 1e-12);
-  EXPECT_GT(footing.research_events, 0);
+  EXPECT_GT(footing.re_searches, 0);
   expect_in_windows(footing.curve);
 }
 
@@ -29,7 +29,7 @@ TEST(FootingTo15PerCent, IsInTheWindowsWithResearch) {
 // changes is the load, once neighbours at the edge of the plate have been torn apart.
 TEST(FootingTo15PerCent, ArrivesWithoutResearch) {
   const Footing footing = reported({"research.enabled=false"});
-  EXPECT_EQ(footing.research_events, 0);
+  EXPECT_EQ(footing.re_searches, 0);
   EXPECT_NEAR(footing.settlement, end, 1e-12);
   expect_in_windows(footing.curve);
 }
@@ -57,7 +57,7 @@ TEST(FootingTo15PerCent, IsResumedWithResearchFromARunWithout) {
   }
   report("resumed_at_settlement_over_B", end * early);
   report("pressure_kPa_at_the_end", 1e-3 * pressure);
-  EXPECT_GT(state.programme.research_events, 0);
+  EXPECT_GT(state.programme.re_searches, 0);
   // The same problem with other neighbours for a third of the way.
   constexpr double agreement = 0.03;
   EXPECT_NEAR(pressure / reported({}).raw, 1.0, agreement);

@@ -1,0 +1,76 @@
+#include "stepping/stepper.hpp"
+
+#include <gmock/gmock.h>
+
+#include "small_footing.hpp"
+
+namespace stepping {
+namespace {
+
+/// All numbers of a state.
+std::vector<double> numbers_of(model::State<2> state) {
+  std::vector<double> numbers;
+  state.for_each_particle_field([&](const char*, const char*, const auto& field) {
+    numbers.insert(numbers.end(), field.data(), field.data() + field.size());
+  });
+  state.programme.for_each_field([&](const char*, const char*, const auto& number) {
+    numbers.push_back(static_cast<double>(number));
+  });
+  return numbers;
+}
+
+// Steps of a fifth of the width, ten evaluations each.
+const std::vector<std::string> without_hope{"drive.target=0.8", "programme.steps=4",
+                                            "solver.max_evaluations_per_step=10",
+                                            "programme.minimum_increment_ratio=0.2"};
+
+TEST(LoadStepper, LeavesTheStateAsItWasWhenAStepFailsAtTheSmallestIncrement) {
+  SmallFooting run(without_hope);
+  const auto before = numbers_of(run.state);
+  const StepResult result = run.stepper.advance();
+  ASSERT_EQ(result.outcome, StepOutcome::minimum_increment);
+  ASSERT_GT(result.record.cuts, 0);
+  EXPECT_EQ(numbers_of(run.state), before);
+}
+
+TEST(LoadStepper, LeavesTheStateAsItWasWhenItHasLostPatience) {
+  auto settings = without_hope;
+  settings.back() = "programme.minimum_increment_ratio=1e-30";
+  settings.emplace_back("programme.patience=4");
+  SmallFooting run(settings);
+  const auto before = numbers_of(run.state);
+  const StepResult result = run.stepper.advance();
+  ASSERT_EQ(result.outcome, StepOutcome::hopeless);
+  ASSERT_GT(result.record.cuts, 0);
+  EXPECT_EQ(numbers_of(run.state), before);
+}
+
+// A step that is cut before it is stopped: its halved increment must not stay behind.
+TEST(LoadStepper, StoppedInACutStepGoesOnAsIfItHadNotBeen) {
+  const std::vector<std::string> hard{"programme.steps=6", "solver.max_evaluations_per_step=10"};
+  SmallFooting whole(hard), stopped(hard);
+  StepResult last;
+  while (last.record.cuts == 0) {
+    ASSERT_FALSE(whole.stepper.finished()) << "no step is cut: the test is of no use";
+    last = whole.stepper.advance();
+    ASSERT_EQ(last.outcome, StepOutcome::converged);
+  }
+  while (stopped.state.programme.step + 1 < whole.state.programme.step) {
+    ASSERT_EQ(stopped.stepper.advance().outcome, StepOutcome::converged);
+  }
+  const auto before = numbers_of(stopped.state);
+  int iterations = 0;
+  StepResult result;
+  do {  // ever later, until it is stopped after a cut
+    ASSERT_EQ(numbers_of(stopped.state), before);
+    int left = ++iterations;
+    result = stopped.stepper.advance([&left](const jfnk::Iteration&) { return --left > 0; });
+    ASSERT_EQ(result.outcome, StepOutcome::stopped);
+  } while (result.record.cuts == 0);
+  EXPECT_EQ(numbers_of(stopped.state), before);
+  ASSERT_EQ(stopped.stepper.advance().outcome, StepOutcome::converged);
+  EXPECT_EQ(numbers_of(stopped.state), numbers_of(whole.state));
+}
+
+}  // namespace
+}  // namespace stepping
