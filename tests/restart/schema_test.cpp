@@ -6,6 +6,7 @@
 
 #include "files/file_seal.hpp"
 #include "files/hdf5_file.hpp"
+#include "model/build.hpp"
 #include "model/checkpoint.hpp"
 #include "model/state_file.hpp"
 #include "restart.hpp"

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "model/build.hpp"
 #include "stepping/stepper.hpp"
 #include "test_scene.hpp"
 
