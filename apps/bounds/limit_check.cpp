@@ -11,6 +11,7 @@
 #include "bounds/plateau_check.hpp"
 #include "files/durable_file.hpp"
 #include "scene/print.hpp"
+#include "scene/scene.hpp"
 
 namespace bounds {
 

@@ -8,7 +8,10 @@
 #include "program/child_process.hpp"
 #include "record/curve.hpp"
 #include "record/run_folder.hpp"
-#include "scene/scene.hpp"
+
+namespace scene {
+struct Scene;
+}
 
 namespace bounds {
 

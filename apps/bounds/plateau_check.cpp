@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "scene/derived.hpp"
+#include "scene/scene.hpp"
 
 namespace bounds {
 

@@ -5,7 +5,10 @@
 #include <vector>
 
 #include "record/curve.hpp"
-#include "scene/scene.hpp"
+
+namespace scene {
+struct Scene;
+}
 
 namespace bounds {
 

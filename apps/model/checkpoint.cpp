@@ -10,10 +10,12 @@
 #include "constitutive/serialization.hpp"
 #include "files/durable_file.hpp"
 #include "files/file_seal.hpp"
+#include "model/build.hpp"
 #include "model/particle_fields.hpp"
 #include "model/state_file.hpp"
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
+#include "scene/scene.hpp"
 
 namespace model {
 

@@ -8,6 +8,10 @@
 #include "model/state.hpp"
 #include "record/checkpoint_file.hpp"
 
+namespace scene {
+struct Scene;
+}
+
 namespace model {
 
 /// The notes of a scene's checkpoints; versions, reason, lineage, time and history remain to be

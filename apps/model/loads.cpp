@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "scene/derived.hpp"
+#include "scene/scene.hpp"
 
 namespace model {
 namespace {

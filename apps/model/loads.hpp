@@ -2,6 +2,10 @@
 
 #include "model/model.hpp"
 
+namespace scene {
+struct Scene;
+}
+
 namespace model {
 
 /// Adds gravity, tractions and penalty supports of a scene to a model whose particles, materials

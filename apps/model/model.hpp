@@ -11,7 +11,7 @@
 #include "fpm/rows.hpp"
 #include "model/material_index.hpp"
 #include "model/state.hpp"
-#include "scene/scene.hpp"
+#include "scene/choices.hpp"
 
 namespace model {
 
@@ -74,17 +74,5 @@ struct Model {
   Eigen::Index size() const { return particles.position.rows(); }
   Eigen::Index unknowns() const { return size() * Dim; }
 };
-
-/// A material of a scene as libconstitutive takes it.
-constitutive::MaterialParameters material_parameters(const scene::Material& material);
-
-/// Builds the model of a checked scene.
-/// @throws std::runtime_error if the particle set admits no valid neighbourhoods.
-template <int Dim>
-Model<Dim> build_model(const scene::Scene& scene);
-
-/// The state before the first step: initial search, initial stress.
-template <int Dim>
-State<Dim> initial_state(const Model<Dim>& model, const scene::Scene& scene);
 
 }  // namespace model

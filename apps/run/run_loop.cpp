@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "bounds/limit_check.hpp"
+#include "model/build.hpp"
 #include "model/state_file.hpp"
 #include "program/stop_signals.hpp"
 #include "program/version.hpp"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/build.hpp"
 #include "model/checkpoint.hpp"
 #include "model/state_file.hpp"
 #include "record/checkpoint_folder.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "scene/scene.hpp"
 #include "scene/tables.hpp"
 #include "tables/table.hpp"
 

@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/scene.hpp"
-
 namespace scene {
+
+struct Scene;
 
 /// A key whose value differs between two scenes.
 struct SceneChange {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/scene.hpp"
+
 namespace scene {
 
 HourglassControl resolve_control(const Scene& scene) {

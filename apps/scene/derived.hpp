@@ -5,9 +5,13 @@
 #include <span>
 #include <string_view>
 
-#include "scene/scene.hpp"
+#include "scene/choices.hpp"
 
 namespace scene {
+
+struct Geometry;
+struct Scene;
+struct Solver;
 
 /// The control `automatic` stands for: stiffness if every material is elastic, mixed in 2D when all
 /// yielding materials are von Mises or Drucker–Prager, incremental otherwise.

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "scene/scene.hpp"
+#include "scene/choices.hpp"
 
 namespace scene {
 

@@ -6,6 +6,7 @@
 
 #include "scene/derived.hpp"
 #include "scene/names.hpp"
+#include "scene/scene.hpp"
 #include "scene/tables.hpp"
 #include "tables/table.hpp"
 

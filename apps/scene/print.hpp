@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "scene/scene.hpp"
-
 namespace scene {
+
+struct Scene;
 
 /// The whole scene as TOML, every key with its unit, range and meaning; keys that are absent stand
 /// as comments. Reads back to an equal scene.

@@ -5,34 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "scene/choices.hpp"
+
 namespace scene {
 
 /// Coordinates or components, one per space dimension (the reader has checked the length).
 using Point = std::vector<double>;
 
-enum class Layout { cell, vertex };
-enum class KernelKind { cubic_spline, quintic_spline, wendland_c2 };
-enum class Switch { automatic, on, off };
-enum class KinematicsKind { finite_strain, small_strain };
-enum class MaterialModel { elastic, von_mises, drucker_prager, mohr_coulomb };
-enum class ConeMatch { plane_strain, compression_cone };
-enum class HourglassControl { automatic, none, viscosity, stiffness, incremental, mixed };
-enum class Axis { x, y, z };
-/// Faces of the box: left and right are x- and x+, bottom and top y- and y+, front and back z- and
-/// z+. Up is y, in 3D as well.
-enum class Side { left, right, bottom, top, front, back };
-enum class SupportMethod { direct, penalty };
-enum class InitialStressKind { none, geostatic };
-enum class DriveKind { none, displacement, load };
-enum class Lateral { fixed, free };
-enum class LoadKind { traction, gravity };
-enum class SolverPreset { standard, appendix_a };
-enum class SolverMethod { hybrid, newton_krylov, multisecant };
-enum class JacobianKind { analytic, finite_difference };
-enum class PreconditionerKind { two_level, block_jacobi, none };
-
 // Every key below has its unit, range, default, meaning and source in one place, the field table
-// (scene_fields*.cpp), which also makes share/doc/scene.md. Units are SI, tension is positive.
+// (tables_*.cpp), which also makes share/doc/scene.md. Units are SI, tension is positive.
 
 /// The body: a box filled by a lattice of particles.
 struct Geometry {

@@ -1,5 +1,7 @@
 #include "scene/tables.hpp"
 
+#include "scene/scene.hpp"
+
 namespace scene {
 
 const std::vector<SceneTable>& scene_tables() {

@@ -1,4 +1,5 @@
 #include "scene/names.hpp"
+#include "scene/scene.hpp"
 #include "scene/tables.hpp"
 #include "tables/builder.hpp"
 

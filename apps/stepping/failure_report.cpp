@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "scene/derived.hpp"
+#include "scene/scene.hpp"
 
 namespace stepping {
 

@@ -6,8 +6,11 @@
 #include "files/vtkhdf.hpp"
 #include "model/model.hpp"
 #include "model/state.hpp"
-#include "scene/scene.hpp"
 #include "stepping/stepper.hpp"
+
+namespace scene {
+struct Scene;
+}
 
 namespace stepping {
 

@@ -7,6 +7,7 @@
 
 #include "jfnk/gmres.hpp"
 #include "scene/derived.hpp"
+#include "scene/scene.hpp"
 
 namespace stepping {
 namespace {

@@ -9,8 +9,11 @@
 #include "model/model.hpp"
 #include "model/state.hpp"
 #include "record/curve.hpp"
-#include "scene/scene.hpp"
 #include "stepping/patience.hpp"
+
+namespace scene {
+struct Scene;
+}
 
 namespace stepping {
 

@@ -17,6 +17,7 @@
 
 #include "bodies.hpp"
 #include "files/durable_file.hpp"
+#include "model/build.hpp"
 #include "model/checkpoint.hpp"
 #include "model/particle_fields.hpp"
 #include "record/checkpoint_folder.hpp"

@@ -16,6 +16,7 @@
 #include <string_view>
 
 #include "bodies.hpp"
+#include "model/build.hpp"
 #include "model/model.hpp"
 #include "stepping/stepper.hpp"
 

@@ -7,6 +7,7 @@
 #include "bodies.hpp"
 #include "equilibrium/equilibrium.hpp"
 #include "equilibrium/preconditioner.hpp"
+#include "model/build.hpp"
 #include "model/model.hpp"
 #include "stepping/stepper.hpp"
 

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "bounds/limit_bracket.hpp"
+#include "scene/scene.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace bounds {

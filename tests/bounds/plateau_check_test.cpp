@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "scene/scene.hpp"
+
 namespace {
 
 using namespace bounds;

@@ -1,5 +1,6 @@
 // Where the body is and how slender it is.
 
+#include "scene/reader.hpp"
 #include "small_footing.hpp"
 
 namespace extremes {

@@ -1,5 +1,6 @@
 // Load programmes that ask too much or nothing: a cut, a report, never a NaN.
 
+#include "scene/reader.hpp"
 #include "small_footing.hpp"
 
 namespace extremes {

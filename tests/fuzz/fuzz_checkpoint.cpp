@@ -2,9 +2,11 @@
 // them, and as fpm-info asks what they are.
 #include "files/file_seal.hpp"
 #include "memory_file.hpp"
+#include "model/build.hpp"
 #include "model/checkpoint.hpp"
 #include "model/state_file.hpp"
 #include "scene/derived.hpp"
+#include "scene/scene.hpp"
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include "files/file_seal.hpp"
 #include "memory_file.hpp"
 #include "model/checkpoint.hpp"
+#include "scene/scene.hpp"
 
 namespace {
 

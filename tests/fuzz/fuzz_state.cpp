@@ -13,8 +13,10 @@
 #include "equilibrium/equilibrium.hpp"
 #include "files/file_seal.hpp"
 #include "memory_file.hpp"
+#include "model/build.hpp"
 #include "model/checkpoint.hpp"
 #include "model/state_file.hpp"
+#include "scene/scene.hpp"
 
 namespace {
 

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "files/hdf5_file.hpp"
+#include "model/build.hpp"
 #include "model/checkpoint.hpp"
 #include "model/state_file.hpp"
 #include "restart.hpp"
+#include "scene/scene.hpp"
 
 namespace restart {
 namespace {

@@ -6,10 +6,12 @@
 
 #include "files/file_seal.hpp"
 #include "files/hdf5_file.hpp"
+#include "model/build.hpp"
 #include "model/checkpoint.hpp"
 #include "model/state_file.hpp"
 #include "record/curve_file.hpp"
 #include "restart.hpp"
+#include "scene/scene.hpp"
 
 namespace restart {
 namespace {

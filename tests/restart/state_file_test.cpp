@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "model/build.hpp"
 #include "model/checkpoint.hpp"
 #include "model/state_file.hpp"
 #include "restart.hpp"

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/scene.hpp"
+
 namespace scene {
 namespace {
 

@@ -22,7 +22,7 @@ long allocations(Call&& call) {
 
 template <int Dim>
 void expect_no_allocation(const BodyOptions& body) {
-  const scene::Scene scene = scene_of(body_scene(body));
+  const TestScene scene = scene_of(body_scene(body));
   const auto model = model::build_model<Dim>(scene);
   auto state = model::initial_state(model, scene);
   equilibrium::Equilibrium<Dim> equilibrium(model, state);

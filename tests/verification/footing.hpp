@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measure.hpp"
+#include "scene/scene.hpp"
 
 namespace verification {
 
@@ -30,7 +31,7 @@ struct Footing {
 /// Runs the footing's scene to its end, or to the step that does not converge.
 inline Footing pushed_footing(const Settings& settings) {
   Run<2> run(shipped_scene("footing.toml", settings));
-  const double B = *run.scene.drive.reference_length;
+  const double B = *run.scene->drive.reference_length;
   Footing footing;
   footing.curve.push_back({0.0, 0.0});
   while (!run.stepper.finished()) {

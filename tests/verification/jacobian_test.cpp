@@ -21,7 +21,7 @@ struct Case {
 
 template <int Dim>
 double jacobian_error(const BodyOptions& body) {
-  const scene::Scene scene = scene_of(body_scene(body));
+  const TestScene scene = scene_of(body_scene(body));
   const auto model = model::build_model<Dim>(scene);
   auto state = model::initial_state(model, scene);
   equilibrium::Equilibrium<Dim> equilibrium(model, state);

@@ -13,7 +13,7 @@ constexpr double round_off = 1e-11;  // some hundred operations of relative erro
 // boundary; relative to the force of the stress on one particle's face.
 template <int Dim>
 void expect_linear_field_is_exact(BodyOptions body) {
-  const scene::Scene scene = scene_of(body_scene(body));
+  const TestScene scene = scene_of(body_scene(body));
   const auto model = model::build_model<Dim>(scene);
   auto state = model::initial_state(model, scene);
   equilibrium::Equilibrium<Dim> equilibrium(model, state);
@@ -98,7 +98,7 @@ TEST(TractionPatch, IsExactOnVertexLatticeInThreeDimensions) {
 // round-off whatever the control.
 template <int Dim>
 void expect_momentum(const BodyOptions& body, bool angular) {
-  const scene::Scene scene = scene_of(body_scene(body));
+  const TestScene scene = scene_of(body_scene(body));
   const auto model = model::build_model<Dim>(scene);
   auto state = model::initial_state(model, scene);
   equilibrium::Equilibrium<Dim> equilibrium(model, state);

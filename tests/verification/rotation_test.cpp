@@ -30,7 +30,7 @@ void rotate_once(const model::Model<Dim>& model, model::State<Dim>& state,
 
 template <int Dim>
 void expect_full_turn_changes_nothing(const BodyOptions& body) {
-  const scene::Scene scene = scene_of(body_scene(body));
+  const TestScene scene = scene_of(body_scene(body));
   const auto model = model::build_model<Dim>(scene);
   auto state = model::initial_state(model, scene);
   equilibrium::Equilibrium<Dim> equilibrium(model, state);
@@ -74,7 +74,7 @@ TEST(RigidRotation, FullTurnInThreeDimensionsDriftsByRoundOff) {
 
 // The internal forces of a body that was bent and yielded turn with it.
 TEST(RigidRotation, TurnsTheForcesOfBentYieldedBody) {
-  const scene::Scene scene = scene_of(body_scene({}));
+  const TestScene scene = scene_of(body_scene({}));
   const auto model = model::build_model<2>(scene);
   auto state = model::initial_state(model, scene);
   equilibrium::Equilibrium<2> equilibrium(model, state);

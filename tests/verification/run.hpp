@@ -2,36 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <string>
 #include <vector>
 
-#include "scene/reader.hpp"
+#include "model/build.hpp"
 #include "stepping/stepper.hpp"
+#include "test_scene.hpp"
 
 namespace verification {
-
-using Settings = std::vector<std::string>;
-
-inline scene::Scene checked(const scene::SceneReading& reading) {
-  for (const auto& problem : reading.errors) ADD_FAILURE() << problem.text();
-  if (!reading.scene) throw std::runtime_error("the scene of this test is refused");
-  return *reading.scene;
-}
-
-/// A scene of share/scenes, with settings as --set takes them.
-inline scene::Scene shipped_scene(const std::string& name, const Settings& settings = {}) {
-  return checked(scene::read_scene(std::filesystem::path(FPM_SCENES) / name, settings));
-}
-
-inline scene::Scene scene_of(const std::string& text, const Settings& settings = {}) {
-  return checked(scene::parse_scene(text, "test scene", settings));
-}
 
 /// A scene with its model, state and stepper, which refer to one another.
 template <int Dim>
 struct Run {
-  explicit Run(const scene::Scene& s)
+  explicit Run(const TestScene& s)
       : scene(s),
         model(model::build_model<Dim>(scene)),
         state(model::initial_state(model, scene)),
@@ -64,7 +46,7 @@ struct Run {
     return best;
   }
 
-  scene::Scene scene;
+  TestScene scene;
   model::Model<Dim> model;
   model::State<Dim> state;
   stepping::LoadStepper<Dim> stepper;

@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "measure.hpp"
+#include "scene/scene.hpp"
 
 namespace verification {
 namespace {
@@ -46,7 +47,7 @@ struct Stretched {
 // A patch whose rim moves affinely; what is inside it is free and must follow.
 template <int Dim>
 Stretched stretched(const Patch& patch) {
-  const scene::Scene scene = scene_of(patch_scene(patch));
+  const TestScene scene = scene_of(patch_scene(patch));
   auto model = model::build_model<Dim>(scene);
   const Eigen::Index n = model.size();
   Eigen::VectorXd affine(model.unknowns());
@@ -90,7 +91,7 @@ Stretched stretched(const Patch& patch) {
   const Eigen::VectorXd eigenvalues =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues();
   Stretched result;
-  result.smallest = eigenvalues.minCoeff() / scene.material[0].youngs_modulus;
+  result.smallest = eigenvalues.minCoeff() / scene->material[0].youngs_modulus;
   result.bound =
       solver_tolerance * equilibrium.reference_norm() / eigenvalues.cwiseAbs().minCoeff();
   const Eigen::Map<const Eigen::VectorXd> moved(state.displacement.data(), model.unknowns());

@@ -46,7 +46,7 @@ TEST(FootingTo15PerCent, IsResumedWithResearchFromARunWithout) {
   verification::Run<2> before(shipped_scene(scene, {"research.enabled=false"}));
   before.advance_to(1.0 / 3.0);
   const double early = before.state.programme.load;
-  const scene::Scene with = shipped_scene(scene);
+  const TestScene with = shipped_scene(scene);
   model::State<2> state = before.state;
   stepping::LoadStepper<2> stepper(with, before.model, state);
   double pressure = 0.0;

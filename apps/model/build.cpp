@@ -1,11 +1,12 @@
-#include "model/model.hpp"
+#include "model/build.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "model/loads.hpp"
+#include "model/selection.hpp"
 #include "scene/derived.hpp"
+#include "scene/scene.hpp"
 
 namespace model {
 namespace {
@@ -40,16 +41,6 @@ std::string model_name(const scene::Material& material) {
       break;
   }
   return "elastic";
-}
-
-template <int Dim>
-bool inside(const Eigen::Matrix<double, 1, Dim>& x, const scene::Point& min,
-            const scene::Point& max) {
-  for (int i = 0; i < Dim; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    if (x[i] < min[k] || x[i] > max[k]) return false;
-  }
-  return true;
 }
 
 template <int Dim>
@@ -123,52 +114,6 @@ void choose_integration(const scene::Scene& scene, Model<Dim>& model) {
   model.row_options.second = model.channels.second;
 }
 
-// Whether a particle belongs to the layer next to a side of the box.
-template <int Dim>
-bool on_side(const scene::Scene& scene, const Model<Dim>& model, scene::Side side, Eigen::Index a) {
-  const double reach = scene.geometry.layout == scene::Layout::cell ? 1.0 : 0.25;
-  const int axis = scene::axis_of(side);
-  return std::abs(model.particles.position(a, axis) - scene::side_position(scene.geometry, side)) <
-         reach * model.spacing;
-}
-
-template <int Dim>
-bool in_side_range(const Model<Dim>& model, scene::Side side, const scene::Point& min,
-                   const scene::Point& max, Eigen::Index a) {
-  if (min.empty()) return true;
-  const double slack = 1e-9 * model.spacing;
-  std::size_t k = 0;
-  for (int i = 0; i < Dim; ++i) {
-    if (i == scene::axis_of(side)) continue;
-    const double x = model.particles.position(a, i);
-    if (x < min[k] - slack || x > max[k] + slack) return false;
-    ++k;
-  }
-  return true;
-}
-
-template <int Dim>
-std::vector<Eigen::Index> supported_particles(const scene::Scene& scene,
-                                              const scene::Support& support,
-                                              const Model<Dim>& model) {
-  std::vector<Eigen::Index> chosen;
-  if (!support.at.empty()) {
-    Eigen::Index nearest = 0;
-    (model.particles.position.rowwise() - to_vector<Dim>(support.at).transpose())
-        .rowwise()
-        .squaredNorm()
-        .minCoeff(&nearest);
-    return {nearest};
-  }
-  for (Eigen::Index a = 0; a < model.size(); ++a) {
-    const bool hit = support.side ? on_side(scene, model, *support.side, a)
-                                  : inside<Dim>(model.particles.position.row(a), support.region_min,
-                                                support.region_max);
-    if (hit) chosen.push_back(a);
-  }
-  return chosen;
-}
-
 // Departure: rows are prescribed directly unless a penalty is asked for
 // (share/doc/decisions/prescribed-rows.md).
 template <int Dim>
@@ -182,7 +127,7 @@ void constrain(const scene::Scene& scene, Model<Dim>& model) {
     model.prescribed[static_cast<std::size_t>(i * n + a)] = 1;
   };
   for (const scene::Support& support : scene.support) {
-    if (support.method == scene::SupportMethod::penalty) continue;  // model_loads.cpp
+    if (support.method == scene::SupportMethod::penalty) continue;  // loads.cpp
     for (const Eigen::Index a : supported_particles(scene, support, model)) {
       for (const scene::Axis axis : support.directions) prescribe(a, static_cast<int>(axis));
     }

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "model/model.hpp"
+
+namespace scene {
+struct Material;
+struct Scene;
+}  // namespace scene
+
+namespace model {
+
+/// A material of a scene as libconstitutive takes it.
+constitutive::MaterialParameters material_parameters(const scene::Material& material);
+
+/// Builds the model of a checked scene.
+/// @throws std::runtime_error if the particle set admits no valid neighbourhoods.
+template <int Dim>
+Model<Dim> build_model(const scene::Scene& scene);
+
+/// The state before the first step: initial search, initial stress.
+template <int Dim>
+State<Dim> initial_state(const Model<Dim>& model, const scene::Scene& scene);
+
+}  // namespace model

@@ -1,0 +1,28 @@
+#pragma once
+
+namespace scene {
+
+// What a scene chooses among. Apart from the scene, as much that needs a choice needs no key.
+
+enum class Layout { cell, vertex };
+enum class KernelKind { cubic_spline, quintic_spline, wendland_c2 };
+enum class Switch { automatic, on, off };
+enum class KinematicsKind { finite_strain, small_strain };
+enum class MaterialModel { elastic, von_mises, drucker_prager, mohr_coulomb };
+enum class ConeMatch { plane_strain, compression_cone };
+enum class HourglassControl { automatic, none, viscosity, stiffness, incremental, mixed };
+enum class Axis { x, y, z };
+/// Faces of the box: left and right are x- and x+, bottom and top y- and y+, front and back z- and
+/// z+. Up is y, in 3D as well.
+enum class Side { left, right, bottom, top, front, back };
+enum class SupportMethod { direct, penalty };
+enum class InitialStressKind { none, geostatic };
+enum class DriveKind { none, displacement, load };
+enum class Lateral { fixed, free };
+enum class LoadKind { traction, gravity };
+enum class SolverPreset { standard, appendix_a };
+enum class SolverMethod { hybrid, newton_krylov, multisecant };
+enum class JacobianKind { analytic, finite_difference };
+enum class PreconditionerKind { two_level, block_jacobi, none };
+
+}  // namespace scene
