@@ -1,10 +1,9 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
-#include "equilibrium/equilibrium.hpp"
-#include "equilibrium/preconditioner.hpp"
 #include "jfnk/solver.hpp"
 #include "model/model.hpp"
 #include "model/state.hpp"
@@ -14,6 +13,13 @@
 namespace scene {
 struct Scene;
 }
+
+namespace equilibrium {
+template <int Dim>
+class Equilibrium;
+template <int Dim>
+class TwoLevelPreconditioner;
+}  // namespace equilibrium
 
 namespace stepping {
 
@@ -53,6 +59,9 @@ class LoadStepper {
   using Watch = std::function<bool(const jfnk::Iteration&)>;
 
   LoadStepper(const scene::Scene& scene, const model::Model<Dim>& model, model::State<Dim>& state);
+  ~LoadStepper();
+  LoadStepper(const LoadStepper&) = delete;
+  LoadStepper& operator=(const LoadStepper&) = delete;
 
   bool finished() const;
   /// Tries one step, with smaller increments as need be. The state is the new one if it converged,
@@ -63,7 +72,7 @@ class LoadStepper {
   /// @return the rows rebuilt
   Eigen::Index re_search();
 
-  std::size_t bytes() const { return equilibrium_.bytes() + preconditioner_.bytes(); }
+  std::size_t bytes() const;
 
  private:
   StepResult attempt(const Watch& watch);
@@ -77,8 +86,8 @@ class LoadStepper {
   const scene::Scene& scene_;
   const model::Model<Dim>& model_;
   model::State<Dim>& state_;
-  equilibrium::Equilibrium<Dim> equilibrium_;
-  equilibrium::TwoLevelPreconditioner<Dim> preconditioner_;
+  std::unique_ptr<equilibrium::Equilibrium<Dim>> equilibrium_;
+  std::unique_ptr<equilibrium::TwoLevelPreconditioner<Dim>> preconditioner_;
   bool use_preconditioner_ = true;
   jfnk::Solver solver_;
   double nominal_increment_ = 1.0;  // of the load parameter
