@@ -45,9 +45,9 @@ struct Model {
   fpm::Field<Dim> area_vector;  // boundary area of each particle, with the correction only
 
   std::vector<constitutive::Material> materials;
-  std::vector<double> youngs_modulus;  // of each material [Pa]
-  std::vector<std::uint8_t> material;  // of each particle
-  Eigen::VectorXd mass;                // [kg] of each particle
+  std::vector<double> youngs_modulus;   // of each material [Pa]
+  std::vector<std::uint16_t> material;  // of each particle
+  Eigen::VectorXd mass;                 // [kg] of each particle
 
   scene::HourglassControl control = scene::HourglassControl::none;
   fpm::PairControlOptions pair_control;

@@ -36,20 +36,21 @@ struct Approximation {
   bool operator==(const Approximation&) const = default;
 };
 
-/// One material and where it is; the first fills the body, later ones win inside their region.
+/// One material and where it is; its parameters are described by libconstitutive; the first fills
+/// the body, later ones win inside their region.
 struct Material {
   std::string name;
-  MaterialModel model = MaterialModel::elastic;
-  double youngs_modulus = 0.0;  // [Pa]
+  std::string model = "elastic";  // a family of models of libconstitutive
+  double youngs_modulus = 0.0;    // [Pa]
   double poissons_ratio = 0.0;
   std::optional<double> cohesion;         // [Pa] present for every yielding model
   std::optional<double> friction_angle;   // [deg] present for the frictional models
   std::optional<double> dilation_angle;   // [deg] present for the frictional models
   double density = 0.0;                   // [kg/m3]
   std::optional<double> dilation_cutoff;  // accumulated plastic volume strain
-  ConeMatch match = ConeMatch::plane_strain;
-  Point region_min;  // [m] empty: everywhere
-  Point region_max;  // [m]
+  std::string match = "plane_strain";     // of a family of several
+  Point region_min;                       // [m] empty: everywhere
+  Point region_max;                       // [m]
   bool operator==(const Material&) const = default;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <limits>
 #include <type_traits>
@@ -14,18 +15,47 @@ namespace constitutive {
 /// With strength = c this equals Tresca's criterion of undrained shear strength c (phi = 0) at
 /// collapse in plane strain; in three dimensions it is the von Mises cylinder of shear strength c.
 struct VonMises {
+  static constexpr std::array<ModelInfo, 1> models{
+      {{.name = "von_mises", .doc = "undrained clay, strength = cohesion", .one_pressure = true}}};
+
   ElasticModuli moduli;
   double strength = 0;  ///< Shear strength [Pa], > 0.
+
+  static VonMises make(const MaterialParameters& p, const ModelInfo&) {
+    return {elastic_moduli(p.youngs_modulus, p.poissons_ratio), p.cohesion};
+  }
 };
 
 /// Drucker-Prager, non-associated and perfectly plastic, with apex and dilation cut-off.
 struct DruckerPrager {
+  static constexpr std::array<ModelInfo, 2> models{
+      {{.name = "drucker_prager",
+        .doc = "cone matched to Mohr-Coulomb",
+        .family = "drucker_prager",
+        .match = "plane_strain",
+        .frictional = true,
+        .one_pressure = true,
+        .only_plane_strain = "the plane strain match holds in 2D only: use match = "
+                             "\"compression_cone\" or model = \"mohr_coulomb\""},
+       {.name = "drucker_prager_compression",
+        .family = "drucker_prager",
+        .match = "compression_cone",
+        .frictional = true,
+        .one_pressure = true}}};
+
   ElasticModuli moduli;
   Cone cone;  ///< By `plane_strain_cone` or `compression_cone`.
   /// No dilation (beta = 0) in a step that begins with plastic_volume_strain >= this [-]; off at
   /// infinity. Being judged at the beginning of the step, it may be overshot by one step's
   /// dilation.
   double dilation_cutoff = std::numeric_limits<double>::infinity();
+
+  static DruckerPrager make(const MaterialParameters& p, const ModelInfo& model) {
+    const auto cone = model.match == "plane_strain" ? plane_strain_cone : compression_cone;
+    return {elastic_moduli(p.youngs_modulus, p.poissons_ratio),
+            cone(p.cohesion, radians(p.friction_angle), radians(p.dilation_angle)),
+            p.dilation_cutoff};
+  }
 };
 
 /// The cylinder of `VonMises`, whatever the plastic volume strain.
