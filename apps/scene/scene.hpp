@@ -152,11 +152,11 @@ struct Solver {
 };
 
 /// Local re-search of neighbours where plastic strain has grown.
-struct Research {
+struct ReSearch {
   bool enabled = false;
   double trigger = 0.15;
   double hysteresis = 0.3;
-  bool operator==(const Research&) const = default;
+  bool operator==(const ReSearch&) const = default;
 };
 
 /// What is written, where and how often.
@@ -195,7 +195,7 @@ struct Scene {
   Drive drive;
   Programme programme;
   Solver solver;
-  Research research;
+  ReSearch re_search;
   Output output;
   Limit limit;
   bool operator==(const Scene&) const = default;

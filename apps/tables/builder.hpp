@@ -129,6 +129,12 @@ class TableBuilder {
     return *this;
   }
 
+  /// The name that the table had before.
+  TableBuilder& formerly(std::string_view name) {
+    table_.former = name;
+    return *this;
+  }
+
   TableBuilder& required() {
     table_.required = true;
     return *this;

@@ -43,7 +43,7 @@ TEST(SceneReader, LeavesAbsentKeysAtTheirDefaults) {
   const auto reading = parse_scene(support::sample_scene, "s.toml");
   ASSERT_TRUE(reading.scene);
   EXPECT_EQ(reading.scene->solver, Solver{});
-  EXPECT_EQ(reading.scene->research, Research{});
+  EXPECT_EQ(reading.scene->re_search, ReSearch{});
   EXPECT_EQ(reading.scene->output, Output{});
   EXPECT_FALSE(reading.scene->initial_stress.K0);
 }
