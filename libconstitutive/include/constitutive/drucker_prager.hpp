@@ -3,6 +3,7 @@
 #include <array>
 #include <concepts>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 #include "constitutive/cone.hpp"
@@ -50,11 +51,16 @@ struct DruckerPrager {
   /// dilation.
   double dilation_cutoff = std::numeric_limits<double>::infinity();
 
+  /// The cone of a step without dilation; absent: `cone` with beta = 0. A match that depends on
+  /// psi (plane strain) has another one, or the strength would fall with the dilation.
+  std::optional<Cone> cut_off;
+
   static DruckerPrager make(const MaterialParameters& p, const ModelInfo& model) {
     const auto cone = model.match == "plane_strain" ? plane_strain_cone : compression_cone;
+    const double phi = radians(p.friction_angle);
     return {elastic_moduli(p.youngs_modulus, p.poissons_ratio),
-            cone(p.cohesion, radians(p.friction_angle), radians(p.dilation_angle)),
-            p.dilation_cutoff};
+            cone(p.cohesion, phi, radians(p.dilation_angle)), p.dilation_cutoff,
+            cone(p.cohesion, phi, 0.0)};
   }
 };
 
@@ -69,9 +75,11 @@ BasicCone<Real> yield_cone(const VonMises& m,
 template <class Real = double>
 BasicCone<Real> yield_cone(const DruckerPrager& m,
                            const std::type_identity_t<Real>& plastic_volume_strain) {
-  const Real beta =
-      select(plastic_volume_strain >= Real(m.dilation_cutoff), Real(0), Real(m.cone.beta));
-  return {.alpha = m.cone.alpha, .beta = beta, .strength = m.cone.strength};
+  const Mask<Real> off = plastic_volume_strain >= Real(m.dilation_cutoff);
+  const Cone flat = m.cut_off.value_or(Cone{m.cone.alpha, 0, m.cone.strength});
+  return {.alpha = select(off, Real(flat.alpha), Real(m.cone.alpha)),
+          .beta = select(off, Real(flat.beta), Real(m.cone.beta)),
+          .strength = select(off, Real(flat.strength), Real(m.cone.strength))};
 }
 
 /// A material whose yield surface is a cone in (sqrt(J2), p) and whose elasticity is isotropic.
