@@ -28,10 +28,11 @@ struct RowLoop {
   using Moments = RowMoments<Dim, Law::mixed, Real>;
   static constexpr fpm::Index none = std::numeric_limits<fpm::Index>::max();
 
-  /// Whether particles of a material can be worked on side by side: not if its branches differ
-  /// from particle to particle.
+  /// Whether particles of a material can be worked on side by side.
   template <class Work, class Material>
-  static constexpr bool wide = Work::wide && !std::same_as<Material, constitutive::MohrCoulomb>;
+  static constexpr bool wide = Work::wide && !requires {
+    Material::one_point_at_a_time;
+  };
 
   /// Rows [begin, end) of one block and one material. `Work::row` returns where it could; the
   /// lowest index where it could not is returned, else `none`.

@@ -28,21 +28,6 @@ fpm::Kernel to_kernel(scene::KernelKind kind) {
   return fpm::Kernel::cubic_spline;
 }
 
-std::string model_name(const scene::Material& material) {
-  switch (material.model) {
-    case scene::MaterialModel::von_mises:
-      return "von_mises";
-    case scene::MaterialModel::drucker_prager:
-      return material.match == scene::ConeMatch::compression_cone ? "drucker_prager_compression"
-                                                                  : "drucker_prager";
-    case scene::MaterialModel::mohr_coulomb:
-      return "mohr_coulomb";
-    case scene::MaterialModel::elastic:
-      break;
-  }
-  return "elastic";
-}
-
 template <int Dim>
 void place_particles(const scene::Scene& scene, Model<Dim>& model) {
   const scene::Geometry& geometry = scene.geometry;
@@ -83,7 +68,7 @@ void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
   model.material.assign(static_cast<std::size_t>(n), 0);
   model.mass.resize(n);
   for (const scene::Material& material : scene.material) {
-    model.materials.push_back(constitutive::make_material(material_parameters(material)));
+    model.materials.push_back(constitutive::make_material(scene::parameters_of(material)));
     model.youngs_modulus.push_back(material.youngs_modulus);
   }
   for (Eigen::Index a = 0; a < n; ++a) {
@@ -101,9 +86,9 @@ void choose_integration(const scene::Scene& scene, Model<Dim>& model) {
   model.pair_control.modulus_factor = scene.hourglass.modulus_factor;
   model.viscosity = scene.hourglass.viscosity;
   model.layout.finite = scene.approximation.kinematics == scene::KinematicsKind::finite_strain;
-  model.layout.plastic = std::any_of(
-      scene.material.begin(), scene.material.end(),
-      [](const scene::Material& m) { return m.model != scene::MaterialModel::elastic; });
+  model.layout.plastic =
+      std::any_of(scene.material.begin(), scene.material.end(),
+                  [](const scene::Material& m) { return scene::model_of(m).yields; });
   model.layout.subpoints = model.control == scene::HourglassControl::mixed;
   model.layout.incremental = model.control == scene::HourglassControl::incremental ||
                              model.control == scene::HourglassControl::mixed;
@@ -174,19 +159,6 @@ void set_geostatic_stress(const scene::Scene& scene, const Model<Dim>& model, St
 }
 
 }  // namespace
-
-constitutive::MaterialParameters material_parameters(const scene::Material& material) {
-  constitutive::MaterialParameters p;
-  p.model = model_name(material);
-  p.youngs_modulus = material.youngs_modulus;
-  p.poissons_ratio = material.poissons_ratio;
-  p.cohesion = material.cohesion.value_or(0.0);
-  p.friction_angle = material.friction_angle.value_or(0.0);
-  p.dilation_angle = material.dilation_angle.value_or(0.0);
-  p.density = material.density;
-  if (material.dilation_cutoff) p.dilation_cutoff = *material.dilation_cutoff;
-  return p;
-}
 
 template <int Dim>
 Model<Dim> build_model(const scene::Scene& scene) {

@@ -3,14 +3,10 @@
 #include "model/model.hpp"
 
 namespace scene {
-struct Material;
 struct Scene;
-}  // namespace scene
+}
 
 namespace model {
-
-/// A material of a scene as libconstitutive takes it.
-constitutive::MaterialParameters material_parameters(const scene::Material& material);
 
 /// Builds the model of a checked scene.
 /// @throws std::runtime_error if the particle set admits no valid neighbourhoods.

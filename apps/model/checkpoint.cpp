@@ -13,6 +13,7 @@
 #include "model/build.hpp"
 #include "model/particle_fields.hpp"
 #include "model/state_file.hpp"
+#include "scene/derived.hpp"
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
@@ -27,7 +28,7 @@ constexpr double load_round_off = 1e-12;
 std::vector<constitutive::MaterialParameters> parameters_of(const scene::Scene& scene) {
   std::vector<constitutive::MaterialParameters> all;
   for (const scene::Material& material : scene.material)
-    all.push_back(material_parameters(material));
+    all.push_back(scene::parameters_of(material));
   return all;
 }
 

@@ -5,6 +5,6 @@
 namespace model {
 
 /// Which of a scene's materials a particle is made of.
-using MaterialIndex = std::uint8_t;
+using MaterialIndex = std::uint16_t;
 
 }  // namespace model

@@ -31,7 +31,7 @@ constexpr std::string_view examples =
     "  fpm-run share/scenes/footing.toml\n"
     "  fpm-run share/scenes/footing.toml --check\n"
     "  fpm-run share/scenes/footing.toml --set geometry.spacing=0.005 --out out/fine\n"
-    "  fpm-run share/scenes/footing.toml --resume --set research.enabled=true\n"
+    "  fpm-run share/scenes/footing.toml --resume --set re_search.enabled=true\n"
     "  fpm-run share/scenes/footing.toml --resume out/footing/checkpoints/step-000120.hdf \\\n"
     "    --out out/branch --set solver.tolerance=3e-4\n"
     "\n"
@@ -204,7 +204,7 @@ std::string scene_summary(const scene::Scene& scene) {
   line("solver", fmt::format("{}, {} Jacobian, {} preconditioner, tolerance {}",
                              scene::name_of(solver.method), scene::name_of(solver.jacobian),
                              scene::name_of(solver.preconditioner), solver.tolerance));
-  line("re-search", scene.research.enabled ? "on" : "off");
+  line("re-search", scene.re_search.enabled ? "on" : "off");
   return out;
 }
 

@@ -104,7 +104,7 @@ class Run {
     recorder.begin();
     try {
       introduce(start, *folder, recorder);
-      if (start.re_search_changed && scene_.research.enabled) {
+      if (start.re_search_changed && scene_.re_search.enabled) {
         // The rule is new: a state that no step leads on from must not wait for one.
         const Eigen::Index rows = stepper.re_search();
         if (rows > 0) recorder.say(fmt::format("{} rows re-searched", rows));

@@ -70,7 +70,7 @@ void resume(const std::filesystem::path& checkpoint, const scene::Scene& scene,
   start.state = model::read_state(file, model, notes.schema);
   start.lineage = lineage_from(checkpoint, notes, start.changes);
   start.history = std::move(notes.history);
-  start.re_search_changed = former.research != scene.research;
+  start.re_search_changed = former.re_search != scene.re_search;
   if (!model::adapt_programme(former, scene, start.state.programme)) {
     start.refusals.push_back(
         fmt::format("drive.target: the checkpoint is already at {} m, beyond the scene's {} m",

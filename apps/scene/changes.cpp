@@ -13,7 +13,7 @@ namespace scene {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> free_tables{"programme.", "solver.", "research.",
+constexpr std::array<std::string_view, 5> free_tables{"programme.", "solver.", "re_search.",
                                                       "output.", "limit."};
 constexpr std::array<std::string_view, 2> free_keys{"title", "drive.target"};
 

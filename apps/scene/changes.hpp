@@ -15,7 +15,7 @@ struct SceneChange {
   std::string after;
   bool allowed = false;  // see may_change_on_resume
 
-  /// `research.enabled: false -> true`.
+  /// `re_search.enabled: false -> true`.
   [[nodiscard]] std::string text() const;
   bool operator==(const SceneChange&) const = default;
 };

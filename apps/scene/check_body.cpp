@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constitutive/parameters.hpp"
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
 #include "scene/names.hpp"
@@ -78,15 +79,41 @@ void check_spacing(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
 }
 
-/// A key that a model needs, or that has no effect on it.
-void check_strength(const std::optional<double>& value, bool needed, const std::string& key,
-                    MaterialModel model, tables::Diagnosis& diagnosis) {
+/// A parameter that a model needs, or that has no effect on it.
+void check_parameter(const constitutive::ParameterInfo& parameter,
+                     const std::optional<double>& value, const Material& material,
+                     const std::string& key, tables::Diagnosis& diagnosis) {
   if (!diagnosis.good({key})) return;
-  if (needed && !value) {
-    diagnosis.error(key, "is missing", fmt::format("the model {} needs it", name_of(model)));
-  } else if (!needed && value.value_or(0.0) != 0.0) {
+  const bool used = parameter.is_used_by(model_of(material));
+  if (used && !value) {
+    diagnosis.error(key, "is missing", fmt::format("the model {} needs it", material.model));
+  } else if (!used && value.value_or(0.0) != 0.0) {
     diagnosis.warning(key, fmt::format("found {}", tables::number_text(*value)),
-                      fmt::format("it has no effect on the model {}", name_of(model)));
+                      fmt::format("it has no effect on the model {}", material.model));
+  }
+}
+
+/// What the model asks of its parameters, in libconstitutive's words.
+void check_parameters(const Scene& scene, const Material& material, const std::string& table,
+                      tables::Diagnosis& diagnosis) {
+  const auto key = [&](std::string_view name) { return fmt::format("{}.{}", table, name); };
+  const constitutive::ModelInfo& model = model_of(material);
+  const auto check = [&](const char* name, const std::optional<double>& value) {
+    check_parameter(constitutive::parameter_info(name), value, material, key(name), diagnosis);
+  };
+  check("cohesion", material.cohesion);
+  check("friction_angle", material.friction_angle);
+  check("dilation_angle", material.dilation_angle);
+  if (diagnosis.good({key("cohesion"), key("friction_angle"), key("dilation_angle")})) {
+    for (auto& objection : constitutive::joint_objections(parameters_of(material), model)) {
+      diagnosis.error(key(objection.parameter), objection.found, objection.allowed);
+    }
+  }
+  if (!model.only_plane_strain.empty() && scene.geometry.dimension == 3 &&
+      diagnosis.good({"geometry.dimension", key("match")})) {
+    diagnosis.error(key(model.match.empty() ? "model" : "match"),
+                    fmt::format("found {} in 3D", model.match.empty() ? model.name : model.match),
+                    std::string(model.only_plane_strain));
   }
 }
 
@@ -106,33 +133,7 @@ void check_material(const Scene& scene, std::size_t index, tables::Diagnosis& di
     check_region(material.region_min, material.region_max, table, scene, diagnosis);
   }
 
-  if (!diagnosis.good({key("model")})) return;
-  const bool yields = material.model != MaterialModel::elastic;
-  const bool frictional = yields && material.model != MaterialModel::von_mises;
-  check_strength(material.cohesion, yields, key("cohesion"), material.model, diagnosis);
-  check_strength(material.friction_angle, frictional, key("friction_angle"), material.model,
-                 diagnosis);
-  check_strength(material.dilation_angle, frictional, key("dilation_angle"), material.model,
-                 diagnosis);
-
-  const bool no_strength = material.cohesion == 0.0 && material.friction_angle.value_or(0.0) == 0.0;
-  if (yields && no_strength && diagnosis.good({key("cohesion"), key("friction_angle")})) {
-    diagnosis.error(key("cohesion"), "found 0 without friction",
-                    "a yielding material needs cohesion or friction");
-  }
-  if (frictional &&
-      material.dilation_angle.value_or(0.0) > material.friction_angle.value_or(90.0)) {
-    diagnosis.error(
-        key("dilation_angle"), fmt::format("found {}", *material.dilation_angle),
-        fmt::format("it must not exceed the friction angle, {}", *material.friction_angle));
-  }
-  const bool cone = material.model == MaterialModel::drucker_prager;
-  if (cone && scene.geometry.dimension == 3 && material.match == ConeMatch::plane_strain &&
-      diagnosis.good({"geometry.dimension", key("match")})) {
-    diagnosis.error(key("match"), "found plane_strain in 3D",
-                    "the plane strain match holds in 2D only: use match = \"compression_cone\" or "
-                    "model = \"mohr_coulomb\"");
-  }
+  if (diagnosis.good({key("model")})) check_parameters(scene, material, table, diagnosis);
 }
 
 }  // namespace
@@ -226,13 +227,16 @@ void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis) {
     for (std::size_t i = 0; i < scene.material.size(); ++i) {
       const Material& material = scene.material[i];
       if (!diagnosis.good({fmt::format("material.{}.model", i)})) continue;
-      if (material.model == MaterialModel::mohr_coulomb) {
-        refuse(fmt::format("found mixed with the mohr_coulomb material \"{}\"", material.name),
+      const constitutive::ModelInfo& model = model_of(material);
+      const auto found =
+          fmt::format("found mixed with the {} material \"{}\"", material.model, material.name);
+      if (!model.yields) {
+        refuse(found,
+               "a body that does not yield gains nothing from sub-points: use \"stiffness\"");
+      } else if (!model.one_pressure) {
+        refuse(found,
                "the sub-points share one pressure, which true corners do not allow: use "
                "\"incremental\", or the model drucker_prager");
-      } else if (material.model == MaterialModel::elastic) {
-        refuse(fmt::format("found mixed with the elastic material \"{}\"", material.name),
-               "a body that does not yield gains nothing from sub-points: use \"stiffness\"");
       }
     }
   }

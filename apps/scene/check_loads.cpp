@@ -205,9 +205,9 @@ void check_run(const Scene& scene, tables::Diagnosis& diagnosis) {
                     "multisecant iterations need one: use two_level or block_jacobi, or method = "
                     "\"newton_krylov\"");
   }
-  if (scene.research.enabled && scene.approximation.kinematics == KinematicsKind::small_strain &&
-      diagnosis.good({"research.enabled", "approximation.kinematics"})) {
-    diagnosis.error("research.enabled", "found true with small_strain kinematics",
+  if (scene.re_search.enabled && scene.approximation.kinematics == KinematicsKind::small_strain &&
+      diagnosis.good({"re_search.enabled", "approximation.kinematics"})) {
+    diagnosis.error("re_search.enabled", "found true with small_strain kinematics",
                     "a geometrically linear body keeps its neighbours: use finite_strain");
   }
   const bool footing = scene.geometry.dimension == 2 && scene.drive.kind == DriveKind::displacement;

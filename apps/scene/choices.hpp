@@ -8,8 +8,6 @@ enum class Layout { cell, vertex };
 enum class KernelKind { cubic_spline, quintic_spline, wendland_c2 };
 enum class Switch { automatic, on, off };
 enum class KinematicsKind { finite_strain, small_strain };
-enum class MaterialModel { elastic, von_mises, drucker_prager, mohr_coulomb };
-enum class ConeMatch { plane_strain, compression_cone };
 enum class HourglassControl { automatic, none, viscosity, stiffness, incremental, mixed };
 enum class Axis { x, y, z };
 /// Faces of the box: left and right are x- and x+, bottom and top y- and y+, front and back z- and

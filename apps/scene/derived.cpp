@@ -2,24 +2,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
+#include "constitutive/parameters.hpp"
 #include "scene/scene.hpp"
 
 namespace scene {
 
+const constitutive::ModelInfo& model_of(const Material& material) {
+  const auto* model = constitutive::find_model(material.model, material.match);
+  if (model == nullptr) throw std::invalid_argument("no model " + material.model);
+  return *model;
+}
+
+constitutive::MaterialParameters parameters_of(const Material& material) {
+  const constitutive::ModelInfo& model = model_of(material);
+  constitutive::MaterialParameters p;
+  p.model = model.name;
+  p.youngs_modulus = material.youngs_modulus;
+  p.poissons_ratio = material.poissons_ratio;
+  p.cohesion = material.cohesion.value_or(p.cohesion);
+  p.friction_angle = material.friction_angle.value_or(p.friction_angle);
+  p.dilation_angle = material.dilation_angle.value_or(p.dilation_angle);
+  p.density = material.density;
+  p.dilation_cutoff = material.dilation_cutoff.value_or(p.dilation_cutoff);
+  // The scene has been warned of what has no effect. An elastic material is archived with it.
+  if (model.yields && !model.frictional) p.friction_angle = p.dilation_angle = 0.0;
+  return p;
+}
+
+bool yields(const Material& material) {
+  return model_of(material).yields;
+}
+
 HourglassControl resolve_control(const Scene& scene) {
   if (scene.hourglass.control != HourglassControl::automatic) return scene.hourglass.control;
   const auto all = [&](auto&& holds) {
-    return std::all_of(scene.material.begin(), scene.material.end(),
-                       [&](const Material& m) { return holds(m.model); });
+    return std::all_of(scene.material.begin(), scene.material.end(), holds);
   };
-  if (all([](MaterialModel m) { return m == MaterialModel::elastic; })) {
+  if (!std::any_of(scene.material.begin(), scene.material.end(), yields)) {
     return HourglassControl::stiffness;
   }
-  const bool has_sub_points =
-      scene.geometry.dimension == 2 && all([](MaterialModel m) {
-        return m == MaterialModel::von_mises || m == MaterialModel::drucker_prager;
-      });
+  const bool has_sub_points = scene.geometry.dimension == 2 &&
+                              all([](const Material& m) { return model_of(m).one_pressure; });
   return has_sub_points ? HourglassControl::mixed : HourglassControl::incremental;
 }
 

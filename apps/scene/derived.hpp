@@ -7,14 +7,29 @@
 
 #include "scene/choices.hpp"
 
+namespace constitutive {
+struct MaterialParameters;
+struct ModelInfo;
+}  // namespace constitutive
+
 namespace scene {
 
 struct Geometry;
+struct Material;
 struct Scene;
 struct Solver;
 
-/// The control `automatic` stands for: stiffness if every material is elastic, mixed in 2D when all
-/// yielding materials are von Mises or Drucker–Prager, incremental otherwise.
+/// The model of a material, by its family and match.
+[[nodiscard]] const constitutive::ModelInfo& model_of(const Material& material);
+
+/// A material as libconstitutive takes it; what its model does not use is left out.
+[[nodiscard]] constitutive::MaterialParameters parameters_of(const Material& material);
+
+/// Whether a material has a strength.
+[[nodiscard]] bool yields(const Material& material);
+
+/// The control `automatic` stands for: stiffness if every material is elastic, mixed in 2D when
+/// every material yields and its sub-points can share one pressure, incremental otherwise.
 [[nodiscard]] HourglassControl resolve_control(const Scene& scene);
 
 /// Hourglass modulus ratio gamma in force: the scene's, else 0.1 for stiffness and incremental,

@@ -16,9 +16,6 @@ inline constexpr std::array<std::string_view, 3> kernel{"cubic_spline", "quintic
                                                         "wendland_c2"};
 inline constexpr std::array<std::string_view, 3> switch_{"auto", "on", "off"};
 inline constexpr std::array<std::string_view, 2> kinematics{"finite_strain", "small_strain"};
-inline constexpr std::array<std::string_view, 4> model{"elastic", "von_mises", "drucker_prager",
-                                                       "mohr_coulomb"};
-inline constexpr std::array<std::string_view, 2> match{"plane_strain", "compression_cone"};
 inline constexpr std::array<std::string_view, 6> control{"auto",      "none",        "viscosity",
                                                          "stiffness", "incremental", "mixed"};
 inline constexpr std::array<std::string_view, 3> axis{"x", "y", "z"};
@@ -48,12 +45,6 @@ constexpr std::span<const std::string_view> names_of(Switch) {
 }
 constexpr std::span<const std::string_view> names_of(KinematicsKind) {
   return names::kinematics;
-}
-constexpr std::span<const std::string_view> names_of(MaterialModel) {
-  return names::model;
-}
-constexpr std::span<const std::string_view> names_of(ConeMatch) {
-  return names::match;
 }
 constexpr std::span<const std::string_view> names_of(HourglassControl) {
   return names::control;

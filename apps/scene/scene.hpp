@@ -36,20 +36,21 @@ struct Approximation {
   bool operator==(const Approximation&) const = default;
 };
 
-/// One material and where it is; the first fills the body, later ones win inside their region.
+/// One material and where it is; its parameters are described by libconstitutive; the first fills
+/// the body, later ones win inside their region.
 struct Material {
   std::string name;
-  MaterialModel model = MaterialModel::elastic;
-  double youngs_modulus = 0.0;  // [Pa]
+  std::string model = "elastic";  // a family of models of libconstitutive
+  double youngs_modulus = 0.0;    // [Pa]
   double poissons_ratio = 0.0;
   std::optional<double> cohesion;         // [Pa] present for every yielding model
   std::optional<double> friction_angle;   // [deg] present for the frictional models
   std::optional<double> dilation_angle;   // [deg] present for the frictional models
   double density = 0.0;                   // [kg/m3]
   std::optional<double> dilation_cutoff;  // accumulated plastic volume strain
-  ConeMatch match = ConeMatch::plane_strain;
-  Point region_min;  // [m] empty: everywhere
-  Point region_max;  // [m]
+  std::string match = "plane_strain";     // of a family of several
+  Point region_min;                       // [m] empty: everywhere
+  Point region_max;                       // [m]
   bool operator==(const Material&) const = default;
 };
 
@@ -151,11 +152,11 @@ struct Solver {
 };
 
 /// Local re-search of neighbours where plastic strain has grown.
-struct Research {
+struct ReSearch {
   bool enabled = false;
   double trigger = 0.15;
   double hysteresis = 0.3;
-  bool operator==(const Research&) const = default;
+  bool operator==(const ReSearch&) const = default;
 };
 
 /// What is written, where and how often.
@@ -194,7 +195,7 @@ struct Scene {
   Drive drive;
   Programme programme;
   Solver solver;
-  Research research;
+  ReSearch re_search;
   Output output;
   Limit limit;
   bool operator==(const Scene&) const = default;

@@ -1,3 +1,9 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "constitutive/parameters.hpp"
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
 #include "scene/tables.hpp"
@@ -7,9 +13,50 @@ namespace scene {
 
 namespace {
 
-// Range of Poisson's ratio in isotropic elasticity: positive bulk and shear moduli.
-constexpr tables::Range poisson_range{-1.0, 0.5, true, true};
-constexpr tables::Range angle_range{0.0, 90.0, false, true};
+/// What libconstitutive says of a parameter.
+tables::FieldNotes notes_of(std::string_view name, tables::Need need,
+                            std::string_view absent = "") {
+  const constitutive::ParameterInfo& info = constitutive::parameter_info(name);
+  return {.need = need,
+          .unit = info.unit,
+          .range = {info.lower, info.upper, info.lower_open, info.upper_open},
+          .doc = info.doc,
+          .absent = absent};
+}
+
+/// `only for elastic and von_mises`: whose parameter it is not. Kept for good, as notes are views.
+tables::FieldNotes notes_of_strength(std::string_view name) {
+  static std::map<std::string_view, std::string> kept;
+  std::string& absent = kept[name];
+  absent.clear();
+  for (const constitutive::ModelInfo& model : constitutive::material_models()) {
+    if (constitutive::parameter_info(name).is_used_by(model)) continue;
+    absent += (absent.empty() ? "only for " : " and ") + std::string(model.family);
+  }
+  return notes_of(name, tables::Need::optional, absent);
+}
+
+/// Each name once, in the order of the models.
+std::vector<std::string_view> names_of_models(std::string_view constitutive::ModelInfo::*name) {
+  std::vector<std::string_view> all;
+  for (const constitutive::ModelInfo& model : constitutive::material_models()) {
+    const std::string_view one = model.*name;
+    if (!one.empty() && std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
+  }
+  return all;
+}
+
+std::string_view doc_of_models() {
+  static const std::string doc = [] {
+    std::string all;
+    for (const constitutive::ModelInfo& model : constitutive::material_models()) {
+      if (model.doc.empty()) continue;
+      all += fmt::format("{}{}: {}.", all.empty() ? "" : " ", model.family, model.doc);
+    }
+    return all;
+  }();
+  return doc;
+}
 
 SceneTable top_level() {
   return tables::TableBuilder<Scene, Scene>("The scene as a whole.")
@@ -82,47 +129,25 @@ SceneTable material() {
       .key("name", &Material::name,
            {.need = tables::Need::required,
             .doc = "Unique; serves messages and --set material.NAME.key."})
-      .key(
-          "model", &Material::model,
-          {.need = tables::Need::required,
-           .doc = "von_mises: undrained clay, strength = cohesion. drucker_prager: cone matched to "
-                  "Mohr-Coulomb. mohr_coulomb: true corners.",
-           .source = "Chen, Huang & Lyamin 2020, section 4.2 (Drucker-Prager)"})
-      .key("youngs_modulus", &Material::youngs_modulus,
+      .key("model", &Material::model,
            {.need = tables::Need::required,
-            .unit = "Pa",
-            .range = tables::positive(),
-            .doc = "Young's modulus E."})
+            .doc = doc_of_models(),
+            .source = "Chen, Huang & Lyamin 2020, section 4.2 (Drucker-Prager)"})
+      .among(names_of_models(&constitutive::ModelInfo::family))
+      .key("youngs_modulus", &Material::youngs_modulus,
+           notes_of("youngs_modulus", tables::Need::required))
       .key("poissons_ratio", &Material::poissons_ratio,
-           {.need = tables::Need::required, .range = poisson_range, .doc = "Poisson's ratio nu."})
-      .key("cohesion", &Material::cohesion,
-           {.need = tables::Need::optional,
-            .unit = "Pa",
-            .range = tables::at_least(0.0),
-            .doc = "Cohesion c.",
-            .absent = "only for elastic"})
-      .key("friction_angle", &Material::friction_angle,
-           {.need = tables::Need::optional,
-            .unit = "deg",
-            .range = angle_range,
-            .doc = "Friction angle phi.",
-            .absent = "only for elastic and von_mises"})
-      .key("dilation_angle", &Material::dilation_angle,
-           {.need = tables::Need::optional,
-            .unit = "deg",
-            .range = angle_range,
-            .doc = "Dilation angle psi, at most phi; psi = phi is associated flow.",
-            .absent = "only for elastic and von_mises"})
-      .key("density", &Material::density,
-           {.unit = "kg/m3", .range = tables::at_least(0.0), .doc = "Mass per initial volume."})
+           notes_of("poissons_ratio", tables::Need::required))
+      .key("cohesion", &Material::cohesion, notes_of_strength("cohesion"))
+      .key("friction_angle", &Material::friction_angle, notes_of_strength("friction_angle"))
+      .key("dilation_angle", &Material::dilation_angle, notes_of_strength("dilation_angle"))
+      .key("density", &Material::density, notes_of("density", tables::Need::defaulted))
       .key("dilation_cutoff", &Material::dilation_cutoff,
-           {.need = tables::Need::optional,
-            .range = tables::at_least(0.0),
-            .doc = "Accumulated plastic volume strain at which dilation stops; 0 is never.",
-            .absent = "never"})
+           notes_of("dilation_cutoff", tables::Need::optional, "never"))
       .key("match", &Material::match,
            {.doc = "Which Mohr-Coulomb states the Drucker-Prager cone meets; plane_strain holds in "
                    "2D only."})
+      .among(names_of_models(&constitutive::ModelInfo::match))
       .key("region_min", &Material::region_min,
            {.need = tables::Need::optional,
             .unit = "m",

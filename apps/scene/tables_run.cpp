@@ -85,19 +85,20 @@ SceneTable solver() {
       .build();
 }
 
-SceneTable research() {
-  return tables::TableBuilder<Scene, Research>(
-             "research", &Scene::research,
+SceneTable re_search() {
+  return tables::TableBuilder<Scene, ReSearch>(
+             "re_search", &Scene::re_search,
              "Local re-search: rows of strongly sheared particles get new "
              "neighbours; stress and history stay on the particles.")
-      .key("enabled", &Research::enabled,
+      .formerly("research")
+      .key("enabled", &ReSearch::enabled,
            {.doc = "Re-search at all; finite_strain only.",
             .source = "Chen, Huang & Lyamin 2020, section 4.3"})
-      .key("trigger", &Research::trigger,
+      .key("trigger", &ReSearch::trigger,
            {.range = tables::positive(),
             .doc = "Equivalent plastic strain gained since the last search, of any row, at which a "
                    "re-search happens."})
-      .key("hysteresis", &Research::hysteresis,
+      .key("hysteresis", &ReSearch::hysteresis,
            {.range = {0.0, 1.0, true, false},
             .doc = "At a re-search, rows above hysteresis x trigger are rebuilt."})
       .build();
@@ -160,7 +161,7 @@ SceneTable limit() {
 }  // namespace
 
 std::vector<SceneTable> run_tables() {
-  return {programme(), solver(), research(), output(), limit()};
+  return {programme(), solver(), re_search(), output(), limit()};
 }
 
 }  // namespace scene

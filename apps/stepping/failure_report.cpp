@@ -54,14 +54,14 @@ std::string advice(const scene::Scene& scene, const model::State<Dim>& state,
   const bool plastic = state.layout.plastic && state.layout.finite;
   const bool strained =
       plastic &&
-      (state.plastic_strain - state.plastic_strain_at_search).maxCoeff() > scene.research.trigger;
-  if (!scene.research.enabled && strained) {
-    return "neighbourhoods are strained beyond research.trigger: resume with --set "
-           "research.enabled=true";
+      (state.plastic_strain - state.plastic_strain_at_search).maxCoeff() > scene.re_search.trigger;
+  if (!scene.re_search.enabled && strained) {
+    return "neighbourhoods are strained beyond re_search.trigger: resume with --set "
+           "re_search.enabled=true";
   }
-  if (scene.research.enabled && plastic && result.folded_particle >= 0) {
-    return fmt::format("search anew earlier: resume with --set research.trigger={:.2g}",
-                       scene.research.trigger / 2.0);
+  if (scene.re_search.enabled && plastic && result.folded_particle >= 0) {
+    return fmt::format("search anew earlier: resume with --set re_search.trigger={:.2g}",
+                       scene.re_search.trigger / 2.0);
   }
   if (result.status == jfnk::Status::evaluation_limit) {
     return fmt::format("resume with --set solver.max_evaluations_per_step={}",

@@ -248,10 +248,10 @@ void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
 // (share/doc/decisions/re-search.md).
 template <int Dim>
 Eigen::Index LoadStepper<Dim>::re_search() {
-  if (!scene_.research.enabled || !state_.layout.finite || !state_.layout.plastic) return 0;
+  if (!scene_.re_search.enabled || !state_.layout.finite || !state_.layout.plastic) return 0;
   const Eigen::VectorXd gained = state_.plastic_strain - state_.plastic_strain_at_search;
-  if (!(gained.maxCoeff() > scene_.research.trigger)) return 0;
-  const double threshold = scene_.research.trigger * scene_.research.hysteresis;
+  if (!(gained.maxCoeff() > scene_.re_search.trigger)) return 0;
+  const double threshold = scene_.re_search.trigger * scene_.re_search.hysteresis;
   std::vector<fpm::Index> rows;
   for (fpm::Index a = 0; a < gained.size(); ++a) {
     if (gained[a] > threshold) rows.push_back(a);

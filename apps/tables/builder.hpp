@@ -114,10 +114,11 @@ class TableBuilder {
     return *this;
   }
 
-  /// Restricts the last key, a list of texts, to these names.
+  /// Restricts the last key, a text or a list of texts, to these names.
   TableBuilder& among(std::span<const std::string_view> allowed) {
-    table_.fields.back().choices.assign(allowed.begin(), allowed.end());
-    table_.fields.back().kind = ValueKind::choices;
+    Field<Root>& field = table_.fields.back();
+    field.choices.assign(allowed.begin(), allowed.end());
+    field.kind = field.kind == ValueKind::text ? ValueKind::choice : ValueKind::choices;
     return *this;
   }
 
@@ -125,6 +126,12 @@ class TableBuilder {
   TableBuilder& in(double unit) {
     auto& access = table_.fields.back().access;
     access = std::make_shared<detail::ScaledAccess<Root>>(std::move(access), unit);
+    return *this;
+  }
+
+  /// The name that the table had before.
+  TableBuilder& formerly(std::string_view name) {
+    table_.former = name;
     return *this;
   }
 

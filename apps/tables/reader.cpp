@@ -19,6 +19,24 @@ std::string place_of(const toml::source_region& region, const std::string& sourc
   return fmt::format("{}:{}:{}", source, region.begin.line, region.begin.column);
 }
 
+/// Gives tables that are written under their former name the one they have now.
+void rename_tables(toml::table& tree, const std::vector<TableInfo>& tables, Diagnosis& diagnosis) {
+  for (const TableInfo& info : tables) {
+    const toml::node* node = info.former.empty() ? nullptr : tree.get(info.former);
+    if (node == nullptr) continue;
+    const std::string former(info.former);
+    diagnosis.place(former, place_of(node->source(), diagnosis.source()));
+    if (tree.contains(info.name)) {
+      diagnosis.error(former, fmt::format("found beside {}", info.title()),
+                      fmt::format("it is the former name of {}: keep one", info.name));
+    } else {
+      diagnosis.warning(former, "found by its former name", "write " + info.title());
+      node->visit([&](const auto& value) { tree.insert(info.name, value); });
+    }
+    tree.erase(former);
+  }
+}
+
 /// Walks the tree along the list of tables.
 class Walker {
  public:
@@ -173,6 +191,7 @@ std::optional<Problem> read_tables(std::string_view text, std::span<const std::s
     return Problem{place_of(failure.source(), diagnosis.source()), "",
                    "not TOML: " + std::string(failure.description()), "", ""};
   }
+  rename_tables(tree, tables, diagnosis);
   apply_settings(tree, settings, tables, diagnosis);
   Walker(tree, tables, sink, diagnosis).walk();
   return std::nullopt;

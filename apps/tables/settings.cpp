@@ -45,8 +45,12 @@ class Setter {
 
   void run() {
     const auto segments = segments_of(setting_.path);
-    const TableInfo* info = find_table(tables_, segments.size() == 1 ? "" : segments.front());
+    const TableInfo* info = table_of(segments.size() == 1 ? "" : segments.front());
     if (info == nullptr) return unknown_table(segments.front());
+    if (segments.size() > 1 && segments.front() == info->former) {
+      diagnosis_.warning(setting_.path, "found by its former name",
+                         fmt::format("write {}.{}", info->name, segments.back()));
+    }
     const std::size_t wanted = info->name.empty() ? 1 : info->repeated ? 3 : 2;
     if (segments.size() != wanted) return wrong_depth(*info);
     const FieldInfo* field = info->find(segments.back());
@@ -65,6 +69,12 @@ class Setter {
   }
 
  private:
+  [[nodiscard]] const TableInfo* table_of(std::string_view name) const {
+    const auto found = std::find_if(tables_.begin(), tables_.end(),
+                                    [&](const TableInfo& table) { return table.is_called(name); });
+    return found == tables_.end() ? nullptr : &*found;
+  }
+
   void unknown_table(const std::string& name) {
     std::vector<std::string_view> all;
     for (const TableInfo& table : tables_) {
@@ -83,8 +93,8 @@ class Setter {
   }
 
   void unknown_key(const TableInfo& info, const std::string& key) {
-    if (info.name.empty() && find_table(tables_, key) != nullptr) {
-      return wrong_depth(*find_table(tables_, key));
+    if (info.name.empty() && table_of(key) != nullptr) {
+      return wrong_depth(*table_of(key));
     }
     std::vector<std::string_view> all;
     for (const FieldInfo& field : info.fields) all.push_back(field.key);

@@ -70,7 +70,12 @@ struct TableHead {
   bool repeated = false;
   bool required = false;
   std::string_view doc;
+  std::string_view former = "";  // a name it had, which is still read, with a line of advice
 
+  /// Whether a table of that name is this one, by its name or its former one.
+  [[nodiscard]] bool is_called(std::string_view other) const {
+    return other == name || (!former.empty() && other == former);
+  }
   /// `[geometry]`, `[[material]]`, `the top level`.
   [[nodiscard]] std::string title() const;
   /// Dotted path of an entry's key, as --set takes it: geometry.spacing, material.0.cohesion.

@@ -26,7 +26,7 @@ def plot_references(axes):
 def main():
     options = common.arguments(__doc__, "footing.png")
     # Beyond 13 % of B the steps without re-search become very hard; the paper's ended at 8.7 %.
-    without = ["research.enabled=false", "drive.target=0.0264"]
+    without = ["re_search.enabled=false", "drive.target=0.0264"]
     runs = [
         ("footing", [], "with re-search", common.BLUE),
         ("footing-no-research", without, "without re-search", common.ORANGE),

@@ -144,4 +144,17 @@ TEST(DilationCutOff, OfZeroMeansNoDilationAtAll) {
   EXPECT_GT(cone.alpha, 0);
 }
 
+// Without dilation the match to Mohr-Coulomb in plane strain is that of psi = 0, so that the load
+// at collapse does not depend on when dilation has ended.
+TEST(DilationCutOff, LeavesThePlaneStrainMatch) {
+  MaterialParameters p = points::soil("drucker_prager", 30, 30);
+  p.dilation_cutoff = 0.01;
+  const Cone beyond = yield_cone(std::get<DruckerPrager>(make_material(p)), 0.01);
+  p.dilation_angle = 0;
+  const Cone flat = yield_cone(std::get<DruckerPrager>(make_material(p)), 0);
+  EXPECT_EQ(beyond.alpha, flat.alpha);
+  EXPECT_EQ(beyond.beta, 0);
+  EXPECT_EQ(beyond.strength, flat.strength);
+}
+
 }  // namespace

@@ -20,8 +20,8 @@ using testing::StartsWith;
 const double infinity = std::numeric_limits<double>::infinity();
 
 TEST(MaterialParameters, OfEveryModelAreAcceptedAndMakeThatMaterial) {
-  for (const std::string_view name : material_model_names()) {
-    EXPECT_THAT(validate(points::soil(std::string(name))), IsEmpty()) << name;
+  for (const ModelInfo& model : material_models()) {
+    EXPECT_THAT(validate(points::soil(std::string(model.name))), IsEmpty()) << model.name;
   }
   EXPECT_TRUE(std::holds_alternative<Elastic>(make_material(points::soil("elastic"))));
   EXPECT_TRUE(std::holds_alternative<VonMises>(make_material(points::soil("von_mises"))));

@@ -205,11 +205,12 @@ TEST(Failure, OfStrainedNeighbourhoodsAdvisesReSearchWithWhichTheRunCompletes) {
                                      "--set", "programme.steps=100",
                                      "--set", "drive.target=0.3"};
   auto without = far, with = far;
-  without.insert(without.end(), {"--set", "research.enabled=false"});
+  without.insert(without.end(), {"--set", "re_search.enabled=false"});
   with.emplace_back("--resume");
   ASSERT_EQ(fpm_run_in(run, footing, without).code, program::ExitCode::not_converged);
-  EXPECT_THAT(log_of(run), HasSubstr("advice: neighbourhoods are strained beyond "
-                                     "research.trigger: resume with --set research.enabled=true"));
+  EXPECT_THAT(log_of(run),
+              HasSubstr("advice: neighbourhoods are strained beyond "
+                        "re_search.trigger: resume with --set re_search.enabled=true"));
   EXPECT_LT(record::read_curve(run / "curve.csv").back().settlement, 0.3);
   const Outcome resumed = fpm_run_in(run, footing, with);
   EXPECT_EQ(resumed.code, program::ExitCode::done) << resumed.err;
@@ -221,13 +222,13 @@ TEST(Failure, OfStrainedNeighbourhoodsAdvisesReSearchWithWhichTheRunCompletes) {
 TEST(Changes, OfToleranceReSearchAndOutputAreTakenAndListed) {
   const support::TemporaryFolder folder;
   const auto run = folder / "run";
-  ASSERT_EQ(fpm_run_in(run, footing, {"--set", "research.enabled=false"}).code,
+  ASSERT_EQ(fpm_run_in(run, footing, {"--set", "re_search.enabled=false"}).code,
             program::ExitCode::done);
   const Outcome outcome = fpm_run_in(run, footing,
                                      {"--resume=" + checkpoint_of(run, 18).string(), "--set",
                                       "solver.tolerance=1e-4", "--set", "output.frames_every=1"});
   ASSERT_EQ(outcome.code, program::ExitCode::done) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("changed: research.enabled: false -> true"));
+  EXPECT_THAT(outcome.out, HasSubstr("changed: re_search.enabled: false -> true"));
   EXPECT_THAT(outcome.out, HasSubstr("changed: solver.tolerance: absent -> 0.0001"));
   EXPECT_THAT(outcome.out, HasSubstr("changed: output.frames_every: 4 -> 1"));
   EXPECT_THAT(outcome.out, HasSubstr(" rows re-searched"));
@@ -284,10 +285,10 @@ TEST(Check, WithResumeListsTheChangesAndWritesNothing) {
             program::ExitCode::interrupted);
   const std::string log = log_of(run);
   const Outcome outcome =
-      fpm_run_in(run, footing, {"--resume", "--check", "--set", "research.trigger=0.5"});
+      fpm_run_in(run, footing, {"--resume", "--check", "--set", "re_search.trigger=0.5"});
   EXPECT_EQ(outcome.code, program::ExitCode::done);
   EXPECT_THAT(outcome.out, HasSubstr("96 particles, 40 mirror ghosts"));
-  EXPECT_THAT(outcome.out, HasSubstr("changed: research.trigger: 0.02 -> 0.5"));
+  EXPECT_THAT(outcome.out, HasSubstr("changed: re_search.trigger: 0.02 -> 0.5"));
   EXPECT_EQ(log_of(run), log);
   EXPECT_EQ(fpm_run_in(folder / "new", footing, {"--check"}).code, program::ExitCode::done);
   EXPECT_FALSE(std::filesystem::exists(folder / "new"));
@@ -297,12 +298,12 @@ TEST(SceneChanges, AreThoseKeysThatDiffer) {
   const auto before = scene::parse_scene(footing, "before");
   const auto after = scene::parse_scene(
       footing, "after",
-      std::vector<std::string>{"research.trigger=0.5", "material.0.density=1900.0"});
+      std::vector<std::string>{"re_search.trigger=0.5", "material.0.density=1900.0"});
   ASSERT_TRUE(before.scene && after.scene);
   EXPECT_THAT(scene::scene_changes(*before.scene, *before.scene), IsEmpty());
   EXPECT_THAT(scene::scene_changes(*before.scene, *after.scene),
               ElementsAre(scene::SceneChange{"material.0.density", "1800.0", "1900.0", false},
-                          scene::SceneChange{"research.trigger", "0.02", "0.5", true}));
+                          scene::SceneChange{"re_search.trigger", "0.02", "0.5", true}));
 }
 
 }  // namespace

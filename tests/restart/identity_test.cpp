@@ -41,7 +41,7 @@ const std::vector<Case> cases{
      true},
     {"mixed_small_strain",
      &footing,
-     {"approximation.kinematics=small_strain", "research.enabled=false"},
+     {"approximation.kinematics=small_strain", "re_search.enabled=false"},
      20},
     {"incremental", &footing, {"hourglass.control=incremental"}, 20, true},
     {"viscosity", &footing, {"hourglass.control=viscosity"}, 20, true},

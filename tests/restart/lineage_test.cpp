@@ -68,7 +68,7 @@ TEST(Branch, NamesItsParentAndLeavesItUntouched) {
 TEST(Branch, GoesOnFromItsOwnStartThoughItsTrunkIsGone) {
   const support::TemporaryFolder folder;
   const auto trunk = folder / "trunk", branch = folder / "branch";
-  const std::vector<std::string> rigid{"--set", "research.enabled=false"};
+  const std::vector<std::string> rigid{"--set", "re_search.enabled=false"};
   ASSERT_EQ(fpm_run_in(trunk, footing, rigid).code, program::ExitCode::done);
   const auto fork = checkpoint_of(trunk, 6);
   const std::vector<std::string> kept{"--set", "output.checkpoints_kept=1000"};
@@ -83,7 +83,8 @@ TEST(Branch, GoesOnFromItsOwnStartThoughItsTrunkIsGone) {
   EXPECT_EQ(notes_in(start).reason, "start of the branch");
   ASSERT_EQ(notes_in(start).lineage.size(), 1U);
   EXPECT_EQ(notes_in(start).lineage.front().checkpoint, fork.string());
-  EXPECT_THAT(notes_in(start).lineage.front().changed, Contains("research.enabled: false -> true"));
+  EXPECT_THAT(notes_in(start).lineage.front().changed,
+              Contains("re_search.enabled: false -> true"));
   std::filesystem::remove_all(trunk);
   arguments = kept;
   arguments.push_back("--resume=" + start.string());

@@ -56,7 +56,7 @@ reference_length = 1.0
 width = 1.0
 [programme]
 steps = 20
-[research]
+[re_search]
 enabled = true
 trigger = 0.02
 [output]

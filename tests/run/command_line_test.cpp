@@ -104,11 +104,11 @@ TEST(FpmRun, ChecksWithASummaryAndACheckOnlyRequest) {
 }
 
 TEST(FpmRun, PrintsTheEffectiveSceneWithoutRunning) {
-  const Called called = call({footing, "--print-effective", "--set", "research.enabled=false"});
+  const Called called = call({footing, "--print-effective", "--set", "re_search.enabled=false"});
   EXPECT_EQ(called.code, program::ExitCode::done);
   EXPECT_FALSE(called.request);
   scene::Scene scene = *scene::read_scene(footing).scene;
-  scene.research.enabled = false;
+  scene.re_search.enabled = false;
   EXPECT_EQ(*scene::parse_scene(called.out, "printed").scene, scene);
 }
 

@@ -38,13 +38,33 @@ TEST(EffectiveScene, KeepsAwkwardNumbersAndTexts) {
   EXPECT_EQ(*again.scene, scene);
 }
 
-TEST(EffectiveScene, NamesEveryKeyOfTheScene) {
-  const auto scene = *parse_scene(support::sample_scene, "s.toml").scene;
+// The text from a table's heading to the next one.
+std::vector<std::string> entries_of(const std::string& text, const SceneTable& table) {
+  std::vector<std::string> entries;
+  const std::string heading = "\n" + table.title() + "\n";
+  if (table.name.empty()) return {"\n" + text.substr(0, text.find("\n["))};
+  for (std::size_t at = text.find(heading); at != std::string::npos; at = text.find(heading, at)) {
+    at += heading.size();
+    entries.push_back("\n" + text.substr(at, text.find("\n[", at) - at));
+    --at;
+  }
+  return entries;
+}
+
+TEST(EffectiveScene, NamesEveryKeyOfEveryTableInThatTable) {
+  auto scene = *parse_scene(support::sample_scene, "s.toml").scene;
+  for (const SceneTable& table : scene_tables()) table.resize(scene, 2);
   const std::string text = effective_toml(scene);
-  for (const SceneTable& table : scene::scene_tables()) {
-    if (table.size(scene) == 0) continue;
-    for (const tables::Field<Scene>& field : table.fields) {
-      EXPECT_NE(text.find(std::string(field.key) + " ="), std::string::npos) << field.key;
+  for (const SceneTable& table : scene_tables()) {
+    const auto entries = entries_of(text, table);
+    ASSERT_EQ(entries.size(), table.size(scene)) << table.title();
+    for (const std::string& entry : entries) {
+      for (const tables::Field<Scene>& field : table.fields) {
+        const std::string key(field.key);
+        const bool given = entry.find("\n" + key + " = ") != std::string::npos;
+        const bool absent = entry.find("\n# " + key + " = ") != std::string::npos;
+        EXPECT_TRUE(given != absent) << table.title() << " " << key << " in" << entry;
+      }
     }
   }
 }

@@ -30,7 +30,7 @@ TEST(SceneReader, FillsEveryKindOfValue) {
   EXPECT_THAT(scene.geometry.min, ElementsAre(0.0, -1.0));
   EXPECT_EQ(scene.geometry.spacing, 0.1);
   ASSERT_EQ(scene.material.size(), 1U);
-  EXPECT_EQ(scene.material[0].model, MaterialModel::drucker_prager);
+  EXPECT_EQ(scene.material[0].model, "drucker_prager");
   EXPECT_EQ(scene.material[0].cohesion, 2.5e3);
   ASSERT_EQ(scene.support.size(), 1U);
   EXPECT_EQ(scene.support[0].side, Side::bottom);
@@ -43,7 +43,7 @@ TEST(SceneReader, LeavesAbsentKeysAtTheirDefaults) {
   const auto reading = parse_scene(support::sample_scene, "s.toml");
   ASSERT_TRUE(reading.scene);
   EXPECT_EQ(reading.scene->solver, Solver{});
-  EXPECT_EQ(reading.scene->research, Research{});
+  EXPECT_EQ(reading.scene->re_search, ReSearch{});
   EXPECT_EQ(reading.scene->output, Output{});
   EXPECT_FALSE(reading.scene->initial_stress.K0);
 }

@@ -24,9 +24,9 @@ TEST(SceneSettings, OverrideWhatTheFileSays) {
 }
 
 TEST(SceneSettings, ReachTablesTheFileDoesNotHave) {
-  const auto reading = with({"research.enabled=true", "solver.tolerance=1e-4"});
+  const auto reading = with({"re_search.enabled=true", "solver.tolerance=1e-4"});
   ASSERT_TRUE(reading.scene);
-  EXPECT_TRUE(reading.scene->research.enabled);
+  EXPECT_TRUE(reading.scene->re_search.enabled);
   EXPECT_EQ(reading.scene->solver.tolerance, 1e-4);
 }
 
@@ -100,9 +100,37 @@ TEST(SceneSettings, RefuseWhatNamesNoKey) {
             "there is none");
 }
 
+TEST(SceneSettings, TakeTheFormerNameOfATableWithALineOfAdvice) {
+  const auto now =
+      parse_scene(std::string(support::sample_scene) + "[re_search]\ntrigger = 0.1\n", "s.toml");
+  const auto former =
+      parse_scene(std::string(support::sample_scene) + "[research]\ntrigger = 0.1\n", "s.toml");
+  const auto set = with({"research.trigger=0.1"});
+  ASSERT_TRUE(now.scene && former.scene && set.scene);
+  EXPECT_TRUE(now.warnings.empty());
+  EXPECT_EQ(now.scene->re_search.trigger, 0.1);
+  EXPECT_EQ(*former.scene, *now.scene);
+  EXPECT_EQ(*set.scene, *now.scene);
+  ASSERT_EQ(former.warnings.size(), 1U);
+  EXPECT_EQ(former.warnings[0].text(),
+            "s.toml:34:1: research: found by its former name; write [re_search]");
+  ASSERT_EQ(set.warnings.size(), 1U);
+  EXPECT_EQ(set.warnings[0].text(),
+            "--set research.trigger=0.1: research.trigger: found by its former name; write "
+            "re_search.trigger");
+  EXPECT_EQ(only_error({"research.trigger=-1"}),
+            "--set research.trigger=-1: re_search.trigger: found -1; allowed is a number > 0");
+  const auto both =
+      parse_scene(std::string(support::sample_scene) + "[research]\n[re_search]\n", "s.toml");
+  ASSERT_EQ(both.errors.size(), 1U);
+  EXPECT_EQ(both.errors[0].text(),
+            "s.toml:34:1: research: found beside [re_search]; it is the former name of re_search: "
+            "keep one");
+}
+
 TEST(SceneSettings, CannotSmuggleFurtherKeysIn) {
   EXPECT_FALSE(with({"drive.target=0.02\ndirection = [1.0, 0.0]"}).scene);
-  EXPECT_FALSE(with({"title=\"a\"\n[research]\nenabled = true"}).scene);
+  EXPECT_FALSE(with({"title=\"a\"\n[re_search]\nenabled = true"}).scene);
 }
 
 }  // namespace

@@ -176,9 +176,9 @@ double current_volume(const Run<2>& run) {
 // Two runs of the footing, alike until one re-searches at the end of a step.
 TEST(Research, KeepsStressPositionsVolumeAndMomentum) {
   Settings early = coarse_footing;
-  early.push_back("research.trigger=0.02");
+  early.push_back("re_search.trigger=0.02");
   Settings never = coarse_footing;
-  never.push_back("research.enabled=false");
+  never.push_back("re_search.enabled=false");
   verification::Run<2> with(shipped_scene("footing.toml", early));
   verification::Run<2> without(shipped_scene("footing.toml", never));
   Eigen::Index rebuilt = 0;

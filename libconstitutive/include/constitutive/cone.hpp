@@ -14,15 +14,16 @@ namespace constitutive {
 /// p = tr(sigma) / 3, tension positive; 0 <= beta <= alpha. alpha = 0 is a cylinder (no apex).
 template <class Real>
 struct BasicCone {
-  double alpha = 0;     ///< Friction slope [-].
-  Real beta = 0;        ///< Dilation slope [-]; may differ from point to point (cut-off).
-  double strength = 0;  ///< sqrt(J2) at p = 0 [Pa]; > 0 unless alpha > 0.
+  // All may differ from point to point (dilation cut-off).
+  Real alpha = 0;     ///< Friction slope [-].
+  Real beta = 0;      ///< Dilation slope [-].
+  Real strength = 0;  ///< sqrt(J2) at p = 0 [Pa]; > 0 unless alpha > 0.
 
   /// Largest sqrt(J2) admitted at mean stress p; <= 0 at and beyond the apex [Pa].
   [[nodiscard]] Real radius(const Real& p) const { return strength - 3 * alpha * p; }
 
   /// Mean stress of the apex, strength / (3 alpha); infinite for a cylinder [Pa].
-  [[nodiscard]] double apex_pressure() const { return strength / (3 * alpha); }
+  [[nodiscard]] Real apex_pressure() const { return strength / (3 * alpha); }
 
   /// Whether (sqrt_j2, p) lies outside by more than round-off (`yield_round_off`).
   [[nodiscard]] Mask<Real> is_exceeded(const Real& sqrt_j2, const Real& p) const {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <type_traits>
 
+#include "constitutive/parameters.hpp"
 #include "constitutive/state.hpp"
 #include "constitutive/tensor.hpp"
 
@@ -24,6 +27,11 @@ inline ElasticModuli elastic_moduli(double youngs_modulus, double poissons_ratio
       youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio));
   const double bulk = youngs_modulus / (3 * (1 - 2 * poissons_ratio));
   return {lame, shear, bulk};
+}
+
+/// Radians of an angle in degrees.
+inline double radians(double degrees) {
+  return degrees * (std::numbers::pi / 180);
 }
 
 /// Elastic stiffness D = d(stress)/d(strain), strain with engineering shear [Pa].
@@ -65,7 +73,13 @@ Real equivalent_elastic_strain(const ElasticModuli& m, const Real& p, const Real
 
 /// Isotropic linear elasticity (hypoelastic at finite strain: the trial stress is the stress).
 struct Elastic {
+  static constexpr std::array<ModelInfo, 1> models{{{.name = "elastic", .yields = false}}};
+
   ElasticModuli moduli;
+
+  static Elastic make(const MaterialParameters& p, const ModelInfo&) {
+    return {elastic_moduli(p.youngs_modulus, p.poissons_ratio)};
+  }
 };
 
 /// Accepts the trial stress; fails only if it is not finite.

@@ -45,7 +45,7 @@ struct [[nodiscard]] MixedResult {
 template <std::size_t M, int Dim = 2, class Real = double>
 struct MixedTangent {
   ElasticModuli moduli;
-  double three_alpha = 0;                         ///< 3 alpha.
+  Real three_alpha = 0;                           ///< 3 alpha.
   Real pressure_scale = 1;                        ///< 1 / (1 + 9 K alpha beta w_A / mu), 0 apex.
   std::array<Real, M> pressure_weight;            ///< 3 K beta w_k / mu if yielding, else 0.
   std::array<Real, M> factor;                     ///< q_k, 1 of an elastic sub-point, 0 apex.

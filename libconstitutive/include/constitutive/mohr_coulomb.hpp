@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -17,6 +18,11 @@ namespace constitutive {
 /// f = (1 + sin phi) sigma_1 - (1 - sin phi) sigma_3 - 2 c cos phi, sigma_1 >= sigma_2 >= sigma_3,
 /// tension positive; the potential has psi for phi. phi = 0 is Tresca's prism (no apex).
 struct MohrCoulomb {
+  static constexpr std::array<ModelInfo, 1> models{
+      {{.name = "mohr_coulomb", .doc = "true corners", .frictional = true}}};
+  /// Its branches differ from point to point.
+  static constexpr bool one_point_at_a_time = true;
+
   ElasticModuli moduli;
   double cohesion = 0;  ///< c [Pa].
   double sin_friction = 0;
@@ -24,6 +30,16 @@ struct MohrCoulomb {
   double sin_dilation = 0;
   /// No dilation (psi = 0) in a step that begins with plastic_volume_strain >= this [-].
   double dilation_cutoff = std::numeric_limits<double>::infinity();
+
+  static MohrCoulomb make(const MaterialParameters& p, const ModelInfo&) {
+    const double phi = radians(p.friction_angle), psi = radians(p.dilation_angle);
+    return {elastic_moduli(p.youngs_modulus, p.poissons_ratio),
+            p.cohesion,
+            std::sin(phi),
+            std::cos(phi),
+            std::sin(psi),
+            p.dilation_cutoff};
+  }
 };
 
 namespace detail {

@@ -28,7 +28,7 @@ TEST(FootingTo15PerCent, IsInTheWindowsWithResearch) {
 // It arrives there too: a Lagrangian kernel has no tension instability to die of. What re-search
 // changes is the load, once neighbours at the edge of the plate have been torn apart.
 TEST(FootingTo15PerCent, ArrivesWithoutResearch) {
-  const Footing footing = reported({"research.enabled=false"});
+  const Footing footing = reported({"re_search.enabled=false"});
   EXPECT_EQ(footing.re_searches, 0);
   EXPECT_NEAR(footing.settlement, end, 1e-12);
   expect_in_windows(footing.curve);
@@ -36,14 +36,14 @@ TEST(FootingTo15PerCent, ArrivesWithoutResearch) {
 
 // The paper's viscosity at theta = 0.01 per step carries load of its own: above the windows.
 TEST(FootingTo15PerCent, IsTooStiffWithPaperViscosity) {
-  const Footing without = reported({"hourglass.control=viscosity", "research.enabled=false"});
+  const Footing without = reported({"hourglass.control=viscosity", "re_search.enabled=false"});
   EXPECT_GT(interpolated(without.curve, footing_windows[0].settlement), footing_windows[0].highest);
 }
 
 // Without re-search to 5 % of B, then resumed with it.
 TEST(FootingTo15PerCent, IsResumedWithResearchFromARunWithout) {
   const std::string scene = "footing.toml";
-  verification::Run<2> before(shipped_scene(scene, {"research.enabled=false"}));
+  verification::Run<2> before(shipped_scene(scene, {"re_search.enabled=false"}));
   before.advance_to(1.0 / 3.0);
   const double early = before.state.programme.load;
   const TestScene with = shipped_scene(scene);

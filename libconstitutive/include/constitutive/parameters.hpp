@@ -1,0 +1,123 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace constitutive {
+
+/// What a user writes down about a material. What each may be, and which model uses it, is in
+/// `parameter_infos()`.
+struct MaterialParameters {
+  /// The name of one of `material_models()`.
+  std::string model = "drucker_prager";
+  /// Required: the default is refused by `validate`.
+  double youngs_modulus = 0;
+  double poissons_ratio = 0.3;
+  double cohesion = 0;
+  double friction_angle = 0;
+  double dilation_angle = 0;
+  double density = 0;
+  double dilation_cutoff = std::numeric_limits<double>::infinity();
+
+  /// Calls visitor(name, field) for every field, in a fixed order.
+  template <class Visitor>
+  void for_each_field(Visitor&& visitor) {
+    visit_fields(*this, visitor);
+  }
+
+  /// Read-only form of `for_each_field`.
+  template <class Visitor>
+  void for_each_field(Visitor&& visitor) const {
+    visit_fields(*this, visitor);
+  }
+
+  bool operator==(const MaterialParameters&) const = default;
+
+ private:
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor& visitor) {
+    visitor("model", self.model);
+    visitor("youngs_modulus", self.youngs_modulus);
+    visitor("poissons_ratio", self.poissons_ratio);
+    visitor("cohesion", self.cohesion);
+    visitor("friction_angle", self.friction_angle);
+    visitor("dilation_angle", self.dilation_angle);
+    visitor("density", self.density);
+    visitor("dilation_cutoff", self.dilation_cutoff);
+  }
+};
+
+/// One model of a material, described by the material itself (its member `models`). `Material`
+/// lists the materials; everything else that is said of models comes from here.
+struct ModelInfo {
+  std::string_view name;      ///< As `MaterialParameters::model` takes it.
+  std::string_view doc = "";  ///< What it is, in a line.
+  /// Models of one surface with different constants are a family, told apart by whose states of
+  /// Mohr-Coulomb they match; a model alone is its own family.
+  std::string_view family = name;
+  std::string_view match = "";
+  bool yields = true;       ///< Cohesion is a parameter.
+  bool frictional = false;  ///< Friction, dilation and its cut-off are, too.
+  /// Deviatoric points can share one pressure (`mixed.hpp`).
+  bool one_pressure = false;
+  /// Why it is for plane strain only; "" if it is for three dimensions as well.
+  std::string_view only_plane_strain = "";
+};
+
+/// Which models use a parameter.
+enum class Use { all, yielding, frictional };
+
+/// One parameter: what it may be, and for whom.
+struct ParameterInfo {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view doc;
+  double lower, upper;  ///< Ends of its range; an infinite one is none.
+  bool lower_open, upper_open;
+  Use use;
+  double MaterialParameters::*member;
+
+  [[nodiscard]] bool is_used_by(const ModelInfo& model) const {
+    return use == Use::all || (use == Use::yielding ? model.yields : model.frictional);
+  }
+  /// Whether a value lies in the range; not a number does not.
+  [[nodiscard]] bool holds(double value) const;
+  /// `> 0 [Pa]`.
+  [[nodiscard]] std::string allowed() const;
+};
+
+/// Every number of `MaterialParameters`.
+std::span<const ParameterInfo> parameter_infos();
+
+/// The parameter of that name.
+/// @throws std::out_of_range if there is none
+const ParameterInfo& parameter_info(std::string_view name);
+
+/// Every model, in the order of `Material`.
+std::span<const ModelInfo> material_models();
+
+/// The model of that name, or nullptr.
+const ModelInfo* find_model(std::string_view name);
+
+/// The model of a family with that match (which a model alone does not ask for), or nullptr.
+const ModelInfo* find_model(std::string_view family, std::string_view match);
+
+/// What is wrong with parameters, by the parameter at fault.
+struct Objection {
+  std::string_view parameter;
+  std::string found;
+  std::string allowed;
+};
+
+/// Objections by the rules that join parameters, each of which is in its range.
+std::vector<Objection> joint_objections(const MaterialParameters& parameters,
+                                        const ModelInfo& model);
+
+/// All objections to the parameters, each naming field, value and what is allowed; empty if none.
+/// @param dimension  2 (plane strain) or 3
+std::vector<std::string> validate(const MaterialParameters& parameters, int dimension = 2);
+
+}  // namespace constitutive
