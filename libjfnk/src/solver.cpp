@@ -69,7 +69,7 @@ void resize(Workspace& work, Eigen::Index n, Eigen::Index global, const Options&
     linear.restart = options.krylov.restart;
     linear.max_iterations = options.krylov.max_iterations;
     linear.flexible = options.krylov.flexible;
-    if (options.krylov.solver == Krylov::Solver::gmres) {
+    if (options.krylov.solver != Krylov::Solver::bicgstab) {
       work.gmres.resize(n, linear, preconditioned);
     } else {
       work.bicgstab.resize(n, preconditioned);
