@@ -103,9 +103,11 @@ struct NewtonCourse {
   int last_norms_count = 0;
   double window_norm = 0.0;  ///< ||F|| at the beginning of the window of stagnation
   int window_steps = 0;
-  int poor_steps = 0;     ///< in a row, that kept little of what the linear model promised
-  int short_steps = 0;    ///< in a row, shorter than the rounding of u
-  bool by_lines = false;  ///< line searches only
+  int poor_steps = 0;          ///< in a row, that kept little of what the linear model promised
+  int short_steps = 0;         ///< in a row, shorter than the rounding of u
+  bool by_lines = false;       ///< line searches only
+  bool by_full_steps = false;  ///< no search, and a new preconditioner at every step
+  int since_best = 0;          ///< full steps since the last lowest ||F||
 
   template <class Visitor>
   void for_each_field(Visitor& visit) {
@@ -118,6 +120,8 @@ struct NewtonCourse {
     visit(poor_steps);
     visit(short_steps);
     visit(by_lines);
+    visit(by_full_steps);
+    visit(since_best);
   }
 };
 
@@ -129,6 +133,7 @@ struct RescueCourse {
   double noise_norm = 0.0;  ///< ||F|| where that was
   bool restarted = false;
   bool transient_tried = false;
+  bool full_steps_tried = false;
   int round_cost = 0;  ///< evaluations of the last round of Newton; 0: none yet
 
   template <class Visitor>
@@ -139,6 +144,7 @@ struct RescueCourse {
     visit(noise_norm);
     visit(restarted);
     visit(transient_tried);
+    visit(full_steps_tried);
     visit(round_cost);
   }
 };

@@ -102,6 +102,8 @@ class Evaluator {
   [[nodiscard]] bool preconditioned_by_learning() const {
     return state_.learnt && !state_.without_preconditioner;
   }
+  /// Whether the caller's preconditioner has a `setup`.
+  [[nodiscard]] bool caller_can_set_up() const { return preconditioner_.has_setup(); }
   /// Goes on without the preconditioner.
   void drop_preconditioner() { state_.without_preconditioner = true; }
   /// Takes a dropped one up again.

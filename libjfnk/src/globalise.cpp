@@ -196,9 +196,37 @@ Ending search_dogleg(Solve& solve, Iteration& line) {
   return fail(solve, test, 1.0, line);
 }
 
+/// Takes the step as it is; cuts it only where F has no value.
+Ending take_whole_step(Solve& solve, Iteration& line) {
+  Workspace& work = solve.work;
+  const Globalisation& rule = solve.options.globalisation;
+  solve.evaluator.filter(work.base.u, work.direction);
+  double lambda = 1.0;
+  for (int cut = 0; cut <= rule.max_cuts; ++cut) {
+    work.trial.u = work.base.u + lambda * work.direction;
+    const Outcome outcome = look(solve, cut);
+    if (outcome == Outcome::stopped || outcome == Outcome::limit) return refused(outcome);
+    if (outcome == Outcome::ok) {
+      line.step_norm = lambda * solve.evaluator.product().norm(work.direction);
+      take_trial(solve, lambda, line);
+      return Ending::go_on;
+    }
+    lambda *= rule.domain_factor;
+  }
+  solve.note_trouble(Trouble::domain_edge);
+  return Ending::line_search_failed;
+}
+
 }  // namespace
 
+bool by_full_steps(const Solve& solve) {
+  const NewtonCourse& course = solve.course.newton;
+  const bool chosen = solve.options.globalisation.rule == Globalisation::Rule::full_steps;
+  return course.by_full_steps || (chosen && !course.by_lines);
+}
+
 Ending globalise(Solve& solve, bool gmres, Iteration& line) {
+  if (by_full_steps(solve)) return take_whole_step(solve, line);
   const bool dogleg = solve.options.globalisation.rule == Globalisation::Rule::dogleg &&
                       !solve.course.newton.by_lines;
   return dogleg && gmres ? search_dogleg(solve, line) : search_line(solve, line);

@@ -33,6 +33,23 @@ Evaluation answer(Outcome outcome) {
   }
 }
 
+/// du = -P F, P taken for J^-1.
+LinearSolution invert_by_preconditioner(Solve& solve, Iteration& line) {
+  Workspace& work = solve.work;
+  solve.evaluator.precondition(work.base.r, work.direction);
+  work.direction *= -1.0;
+  solve.report.last_linear_residual = 0.0;
+  solve.report.last_forcing = 0.0;
+  line.forcing = 0.0;
+  line.linear_residual = 0.0;
+  const double length = solve.evaluator.product().norm(work.direction);
+  if (!(length > 0.0) || !std::isfinite(length)) {
+    solve.note_trouble(Trouble::singular);
+    return {Ending::krylov_stalled};
+  }
+  return {};
+}
+
 }  // namespace
 
 LinearSolution find_direction(Solve& solve, double eta, double shift, Iteration& line) {
@@ -41,6 +58,12 @@ LinearSolution find_direction(Solve& solve, double eta, double shift, Iteration&
   const Outcome ready = evaluator.linearise(work.base);
   if (ready == Outcome::stopped) return {Ending::stopped};
   if (ready != Outcome::ok) return {Ending::linearisation_failed};
+
+  const bool direct =
+      solve.options.krylov.solver == Krylov::Solver::direct || solve.course.newton.by_full_steps;
+  if (direct && shift == 0.0 && !evaluator.preconditioner().is_identity()) {
+    return invert_by_preconditioner(solve, line);
+  }
 
   Outcome last = Outcome::ok;
   bool flat = true;
@@ -60,7 +83,7 @@ LinearSolution find_direction(Solve& solve, double eta, double shift, Iteration&
   linear.global_size = evaluator.residual().global_size(work.base.u.size());
   work.step = -work.base.r;
   work.direction.setZero();
-  const bool by_gmres = solve.options.krylov.solver == Krylov::Solver::gmres;
+  const bool by_gmres = solve.options.krylov.solver != Krylov::Solver::bicgstab;
   const GmresResult result =
       by_gmres ? work.gmres.solve(OperatorRef(action), work.step, work.direction, linear, P,
                                   evaluator.product())

@@ -78,6 +78,8 @@ void begin_newton(Solve& solve, int steps) {
   course.newton.window_steps = 0;
   course.newton.poor_steps = 0;
   course.newton.short_steps = 0;
+  course.newton.by_full_steps = false;
+  course.newton.since_best = 0;
 }
 
 Ending newton_step(Solve& solve) {
@@ -92,8 +94,12 @@ Ending newton_step(Solve& solve) {
     return ending;
   }
   ++solve.report.newton_iterations;
+  const double lowest = solve.work.best.norm;
   if (const Ending ending = solve.accept_base(line); ending != Ending::go_on) return ending;
-  return judge_progress(solve, norm, line);
+  if (!by_full_steps(solve)) return judge_progress(solve, norm, line);
+  int& since_best = solve.course.newton.since_best;
+  since_best = solve.work.best.norm < lowest ? 0 : since_best + 1;
+  return since_best < solve.options.globalisation.watchdog ? Ending::go_on : Ending::stagnated;
 }
 
 }  // namespace jfnk::detail

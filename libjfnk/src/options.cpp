@@ -62,6 +62,7 @@ void check_globalisation(const Globalisation& g, Checker& check) {
   check.fraction(g.domain_factor, "globalisation.domain_factor");
   check.at_least(g.max_cuts, 0, "globalisation.max_cuts");
   check.half_open(g.sufficient_decrease, "globalisation.sufficient_decrease");
+  check.at_least(g.watchdog, 1, "globalisation.watchdog");
   check.require(g.window >= 1 && g.window <= max_window, "globalisation.window", "in [1, 10]",
                 g.window);
 }
@@ -188,6 +189,16 @@ Options hybrid() {
 Options newton_krylov() {
   Options options;
   options.method = Method::newton_krylov;
+  return options;
+}
+
+Options semismooth() {
+  Options options;
+  options.method = Method::newton_krylov;
+  options.max_iterations = 200;
+  options.krylov.solver = Krylov::Solver::direct;
+  options.globalisation.rule = Globalisation::Rule::full_steps;
+  options.preconditioner_setup = PreconditionerSetup::every_newton_step;
   return options;
 }
 

@@ -108,6 +108,27 @@ bool try_first_point_by_lines(Solve& solve) {
   return true;
 }
 
+/// Last of all, where there are factors that can be had anew at each step: full steps from the
+/// first point, without regard to ||F||, as semismooth systems want them.
+bool try_full_steps(Solve& solve) {
+  Course& course = solve.course;
+  Workspace& work = solve.work;
+  const bool renewable = work.evaluator_state.learnt || solve.evaluator.caller_can_set_up();
+  if (!solve.options.stagnation.restart || course.rescue.full_steps_tried || !renewable ||
+      solve.options.globalisation.rule == Globalisation::Rule::full_steps) {
+    return false;
+  }
+  course.rescue.full_steps_tried = true;
+  course.stage.round = solve.options.hybrid.rounds;
+  solve.evaluator.resume_preconditioner();
+  begin_newton(solve, final_newton_steps(solve.options));
+  work.base = work.first;
+  solve.evaluator.accept(work.base.u);
+  course.newton.by_lines = false;
+  course.newton.by_full_steps = true;
+  return true;
+}
+
 /// The plain method and its rescues, as if nothing had been learnt.
 void begin_unlearnt(Solve& solve) {
   solve.course.rescue.restarted = false;
@@ -124,6 +145,7 @@ void rescue_with_learnt_factors(Solve& solve) {
 Ending rescue(Solve& solve, Ending failure) {
   Course& course = solve.course;
   if (course.rescue.newton_failure == Ending::go_on) course.rescue.newton_failure = failure;
+  if (course.newton.by_full_steps) return course.rescue.newton_failure;  // the last rescue
   if (solve.evaluator.preconditioned_by_learning()) {
     rescue_with_learnt_factors(solve);
     return Ending::go_on;
@@ -133,6 +155,7 @@ Ending rescue(Solve& solve, Ending failure) {
     return Ending::go_on;
   }
   if (try_first_point_by_lines(solve) || try_transient(solve)) return Ending::go_on;
+  if (try_full_steps(solve)) return Ending::go_on;
   return course.rescue.newton_failure;
 }
 
@@ -166,6 +189,7 @@ Ending after_pseudo_transient(Solve& solve) {
   const bool gained = solve.work.best.norm < solve.course.stage.start_norm;
   const bool learnt = solve.evaluator.preconditioned_by_learning();
   if (!gained && learnt) return rescue(solve, solve.course.rescue.newton_failure);
+  if (!gained && try_full_steps(solve)) return Ending::go_on;
   if (!gained) return solve.course.rescue.newton_failure;
   if (learnt)
     solve.course.preconditioner.stale =
@@ -191,6 +215,7 @@ bool setup_pays(Solve& solve, double cost) {
 
 bool setup_is_due(Solve& solve) {
   const bool newton = solve.course.stage.kind == Stage::newton;
+  if (newton && solve.course.newton.by_full_steps) return true;
   if (solve.evaluator.preconditioned_by_learning()) {
     const int cost = solve.work.evaluator.learnt.groups();
     constexpr double head_start = 2.0;  // its cost is known, and small

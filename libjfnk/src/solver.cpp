@@ -69,7 +69,7 @@ void resize(Workspace& work, Eigen::Index n, Eigen::Index global, const Options&
     linear.restart = options.krylov.restart;
     linear.max_iterations = options.krylov.max_iterations;
     linear.flexible = options.krylov.flexible;
-    if (options.krylov.solver == Krylov::Solver::gmres) {
+    if (options.krylov.solver != Krylov::Solver::bicgstab) {
       work.gmres.resize(n, linear, preconditioned);
     } else {
       work.bicgstab.resize(n, preconditioned);
@@ -94,7 +94,10 @@ void begin(Report& report, const Options& options) {
   std::vector<Iteration> history = std::move(report.history);
   history.clear();
   history.reserve(static_cast<std::size_t>(std::min(options.max_evaluations, most_lines)) + 1);
-  report = Report{};
+  // Copied into what the report holds already: a new one would allocate its words.
+  static const Report blank;
+  report = blank;
+  report.reason.clear();
   report.history = std::move(history);
   report.status = Status::in_progress;
   report.residual_norm = std::numeric_limits<double>::quiet_NaN();

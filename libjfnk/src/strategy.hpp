@@ -85,6 +85,9 @@ void begin_newton(Solve& solve, int steps);
 void begin_newton_afresh(Solve& solve, int steps);
 void begin_pseudo_transient(Solve& solve);
 
+/// Whether Newton steps are taken whole.
+[[nodiscard]] bool by_full_steps(const Solve& solve);
+
 /// The rounds of multisecant and Newton from the best point, remembering nothing.
 void begin_rounds(Solve& solve);
 

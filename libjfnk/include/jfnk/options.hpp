@@ -47,8 +47,10 @@ struct Forcing {
 /// The linear solver of a Newton step.
 struct Krylov {
   enum class Solver {
-    gmres,    ///< lowest residual of the space; memory grows with the iterations
-    bicgstab  ///< fixed memory, two Jacobian actions per iteration (van der Vorst 1992)
+    gmres,     ///< lowest residual of the space; memory grows with the iterations
+    bicgstab,  ///< fixed memory, two Jacobian actions per iteration (van der Vorst 1992)
+    direct  ///< du = -P F without any action, for a P that is J^-1 where it was set up; gmres where
+            ///< there is no preconditioner
   };
   Solver solver = Solver::gmres;
   /// Columns kept before a restart; memory is restart + 1 vectors, of which only those used are
@@ -68,8 +70,10 @@ struct Globalisation {
     backtracking,  ///< u + lambda du, lambda = 1, factor, factor^2, ...
     parabola,      ///< lambda at the lowest point of the parabola through what is known of ||F||^2,
                    ///< kept between least_cut and greatest_cut of the last (Dennis & Schnabel 1983)
-    dogleg         ///< within a radius, from the steepest descent of the linear model in the Krylov
-            ///< space to its solution (Powell 1970; Brown & Saad 1990); lines after a restart
+    dogleg,        ///< within a radius, from the steepest descent of the linear model in the Krylov
+             ///< space to its solution (Powell 1970; Brown & Saad 1990); lines after a restart
+    full_steps  ///< lambda = 1 wherever F has a value, whether or not ||F|| falls, until
+                ///< `watchdog` ends it: semismooth Newton for contact and obstacles; then lines
   };
   Rule rule = Rule::dogleg;
   /// backtracking: lambda *= factor after a trial that did not reduce ||F|| enough (Chen, Huang &
@@ -86,6 +90,8 @@ struct Globalisation {
   /// Accept if ||F(u + s)|| <= (1 - sufficient_decrease (1 - rho)) m, rho = ||F + J s|| / ||F||
   /// (Eisenstat & Walker 1994); 0 is the simple decrease of the paper. Range [0, 1).
   double sufficient_decrease = 1e-4;
+  /// full_steps: given up after so many steps in a row without a new lowest ||F||. Range [1, inf).
+  int watchdog = 100;
   /// m above is the highest of the last `window` norms: 1 is monotone, 5 suits semismooth
   /// residuals (Grippo, Lampariello & Lucidi 1986). Range [1, 10].
   int window = 1;
@@ -276,6 +282,12 @@ struct Options {
 
 /// The plain Newton-Krylov method: Method::newton_krylov, all else as it comes.
 [[nodiscard]] Options newton_krylov();
+
+/// Semismooth Newton, for contact, obstacles and the like written with Fischer-Burmeister or
+/// minimum functions: full steps by a preconditioner that is set up at every one of them and is
+/// taken for J^-1 (ColouredJacobian, or factors of your own). The work is in the setups: without
+/// one, or with one that is not exact, each step solves by GMRES if `krylov.solver` is set so.
+[[nodiscard]] Options semismooth();
 
 /// The hybrid for load steps of plasticity with a good preconditioner: six rounds of multisecant
 /// with 20 pairs, each rescued by three Newton steps of GMRES(60), eta = 0.3, cut by 0.8.
