@@ -10,7 +10,7 @@
 #include "files/unsealed_file.hpp"
 #include "record/checkpoint_file.hpp"
 #include "record/checkpoint_folder.hpp"
-#include "record/curve.hpp"
+#include "record/curve_file.hpp"
 
 namespace comparison {
 
@@ -21,6 +21,7 @@ using record::CurveRow;
 namespace {
 
 const std::string curve_group = "curve/";
+constexpr int plane = 2;  // whose names of columns stand for those in 3D, too
 const std::string points_path = "/VTKHDF/Points";
 
 /// Where each field of a source is: its column of the curve, or its dataset.
@@ -46,13 +47,19 @@ Quantity dataset_of(const Hdf5File& file, const std::string& path) {
   return quantity;
 }
 
-Quantity column_of(const std::vector<CurveRow>& rows, const record::CurveColumn& column) {
-  const auto take = [&](auto member) {
-    std::vector<std::remove_cvref_t<decltype(rows.front().*member)>> values;
-    for (const CurveRow& row : rows) values.push_back(row.*member);
-    return decltype(Quantity::values)(std::move(values));
-  };
-  return {"", {rows.size()}, std::visit(take, column.member)};
+Quantity column_of(const std::vector<CurveRow>& rows, const std::string& name) {
+  Quantity quantity{"", {rows.size()}, {}};
+  for (const CurveRow& row : rows) {
+    CurveRow::for_each_column(row, [&](std::string_view column, const auto& value, auto&&...) {
+      if (column != name) return;
+      using Values = std::vector<std::remove_cvref_t<decltype(value)>>;
+      if (quantity.values.index() != decltype(quantity.values)(Values()).index()) {
+        quantity.values = Values();
+      }
+      std::get<Values>(quantity.values).push_back(value);
+    });
+  }
+  return quantity;
 }
 
 void add_datasets(Origins& origins, const std::string& group, const std::string& prefix) {
@@ -67,16 +74,16 @@ void add_datasets(Origins& origins, const std::string& group, const std::string&
 }
 
 // The wall time is another one in every run.
-bool is_compared(const record::CurveColumn& column) {
-  return column.name != "wall_s";
+bool is_compared(const std::string& column) {
+  return column != "wall_s";
 }
 
 Quantity loaded(const Origins& origins, const std::string& name) {
   if (const auto found = origins.datasets.find(name); found != origins.datasets.end()) {
     return dataset_of(*origins.file, found->second);
   }
-  for (const record::CurveColumn& column : record::curve_columns()) {
-    if (name == curve_group + std::string(column.name)) return column_of(origins.rows, column);
+  if (name.starts_with(curve_group)) {
+    return column_of(origins.rows, name.substr(curve_group.size()));
   }
   throw std::logic_error(name + " is no field of the source");
 }
@@ -85,8 +92,8 @@ Source source_of(std::string what, Origins origins) {
   Source source{std::move(what), {}, {}, {}, {}};
   for (const auto& entry : origins.datasets) source.names.push_back(entry.first);
   if (!origins.rows.empty()) {
-    for (const record::CurveColumn& column : record::curve_columns()) {
-      if (is_compared(column)) source.names.push_back(curve_group + std::string(column.name));
+    for (const std::string& column : record::curve_columns(plane)) {
+      if (is_compared(column)) source.names.push_back(curve_group + column);
     }
   }
   std::ranges::sort(source.names);

@@ -1,54 +1,69 @@
 #include "equilibrium/equilibrium.hpp"
 
-#include <limits>
+#include <cmath>
+#include <stdexcept>
+#include <string>
 
-#include "equilibrium/mixed_law.hpp"
-#include "equilibrium/plain_law.hpp"
+#include "equilibrium/hourglass_work.hpp"
+#include "equilibrium/local_response.hpp"
+#include "equilibrium/tangent_layout.hpp"
 #include "fpm/consistency.hpp"
+#include "fpm/hourglass.hpp"
 
 namespace equilibrium {
+namespace {
+
+template <int Dim>
+LawLoops<Dim> choose_loops(const model::StateLayout& layout) {
+  if constexpr (Dim == 2) {
+    if (layout.subpoints) {
+      return layout.finite ? law_loops<2, MixedLaw<true>>() : law_loops<2, MixedLaw<false>>();
+    }
+  }
+  return layout.finite ? law_loops<Dim, PlainLaw<Dim, true>>()
+                       : law_loops<Dim, PlainLaw<Dim, false>>();
+}
+
+template <int Dim>
+ArraySizes array_sizes(const model::Model<Dim>& model, const fpm::MomentOperator<Dim>& op) {
+  const Eigen::Index n = model.size();
+  const auto count = [n](bool needed) { return needed ? n : 0; };
+  const bool viscosity = model.control == scene::HourglassControl::viscosity;
+  ArraySizes sizes;
+  sizes.particles = n;
+  sizes.extended = op.stride();
+  sizes.stress_entries = op.stress_count();
+  sizes.pairs = count(model.channels.pair);
+  sizes.subpoints = count(model.channels.second);
+  sizes.viscosity = count(viscosity);
+  sizes.viscosity_finite = count(viscosity && model.layout.finite);
+  sizes.tangent_entries = model.layout.subpoints
+                              ? StressTangents<generalised_size<Dim, true>>::total(n)
+                              : StressTangents<generalised_size<Dim, false>>::total(n);
+  sizes.rotation_entries = RotationTangents<Dim>::total(count(model.layout.incremental));
+  return sizes;
+}
+
+}  // namespace
 
 template <int Dim>
 Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>& state)
-    : model_(model), state_(state), loops_(choose_loops()) {
+    : model_(model), state_(state), loops_(choose_loops<Dim>(model.layout)) {
   if (model_.consistency) {
     // The correction belongs to the initial configuration, whatever was re-searched since.
     const fpm::Rows<Dim> initial(model_.particles, model_.ghosts, model_.row_options);
     potential_ = fpm::consistency_potential(initial, model_.ghosts, model_.area_vector);
   }
   rebuild_operator();
-  const Eigen::Index n = model_.size();
-  const Eigen::Index extended = operator_.stride();
-  position_.setZero(extended * Dim);
-  extended_.setZero(extended * Dim);
-  force_.setZero(extended * Dim);
-  stress_.setZero(extended * operator_.stress_count());
-  own_force_.setZero(n * Dim);
-  unmasked_.setZero(n * Dim);
-  external_.setZero(n * Dim);
-  second_gradient_.setZero(6, model_.channels.second ? n : 0);
-  const Eigen::Index pairs = model_.channels.pair ? n : 0;
-  memory_first_.setZero(Dim, pairs);
-  memory_second_.setZero(Dim * Dim, pairs);
-  pair_stiffness_.setZero(pairs);
-  pair_gradient_.setZero(Dim * Dim, pairs);
-  base_increment_.setZero(n * Dim);
-  displacement_.setZero(n, Dim);
-  if (model_.control == scene::HourglassControl::viscosity) {
-    inverse_transposed_.setZero(model_.layout.finite ? n : 0, Dim * Dim);
-    volume_ = state_.rows.reference_volume();
-  }
+  const ArraySizes sizes = array_sizes(model_, operator_);
+  allocate(step_, sizes);
+  allocate(evaluation_, sizes);
+  if (sizes.viscosity > 0) evaluation_.volume = state_.rows.reference_volume();
 }
 
 template <int Dim>
-LawLoops<Dim> Equilibrium<Dim>::choose_loops() const {
-  const bool finite = model_.layout.finite;
-  if constexpr (Dim == 2) {
-    if (model_.layout.subpoints) {
-      return finite ? law_loops<2, MixedLaw<true>>() : law_loops<2, MixedLaw<false>>();
-    }
-  }
-  return finite ? law_loops<Dim, PlainLaw<Dim, true>>() : law_loops<Dim, PlainLaw<Dim, false>>();
+LoopData<Dim> Equilibrium<Dim>::loop_data() {
+  return {operator_, model_.materials, model_.material, state_, step_, evaluation_, tangents_};
 }
 
 template <int Dim>
@@ -64,27 +79,27 @@ void Equilibrium<Dim>::rebuild_operator() {
 
 template <int Dim>
 void Equilibrium<Dim>::begin_step(double load) {
-  load_ = load;
-  external_ = model_.constant_load + load * model_.scaled_load;
-  start_position_ = model_.particles.position + state_.displacement;
-  operator_.extend_positions(start_position_.data(), position_.data());
+  step_.load = load;
+  step_.external = model_.constant_load + load * model_.scaled_load;
+  step_.start_position = model_.particles.position + state_.displacement;
+  operator_.extend_positions(step_.start_position.data(), step_.position.data());
   if (!model_.channels.pair && !model_.channels.second) return;
 
   const int m = operator_.channel_count();
-  const int second_channel = Dim + (model_.channels.pair ? 1 + Dim : 0);
+  const int second_moment = Dim * model_.channels.second_gradient(Dim);
 #pragma omp parallel
   {
     Eigen::VectorXd moments(m * Dim * fpm::MomentOperator<Dim>::block_stride);
     Eigen::VectorXd row(m * Dim);
 #pragma omp for schedule(static)
     for (fpm::Index block = 0; block < operator_.block_count(); ++block) {
-      operator_.gather(block, position_.data(), moments.data());
+      operator_.gather(block, step_.position.data(), moments.data());
       for (fpm::Index r = 0; r < operator_.block_size(block); ++r) {
         const Eigen::Index a = operator_.block_first(block) + r;
         for (int e = 0; e < m * Dim; ++e) {
           row[e] = moments[e * fpm::MomentOperator<Dim>::block_stride + r];
         }
-        if (model_.channels.second) second_gradient_.col(a) = row.segment(second_channel * Dim, 6);
+        if (model_.channels.second) step_.second_gradient.col(a) = row.segment(second_moment, 6);
         if (model_.channels.pair) remember_pairs(a, row);
       }
     }
@@ -96,11 +111,13 @@ void Equilibrium<Dim>::remember_pairs(Eigen::Index a, const Eigen::VectorXd& pos
   using Tensor = fpm::Tensor<Dim>;
   const auto row = static_cast<fpm::Index>(a);
   const Eigen::Map<const Tensor> gradient(position_moments.data());
-  const Eigen::Map<const fpm::Vector<Dim>> first(position_moments.data() + Dim * Dim);
-  const Eigen::Map<const Tensor> second(position_moments.data() + Dim * Dim + Dim);
-  pair_gradient_.col(a) = position_moments.head(Dim * Dim);
-  memory_first_.col(a) = first - gradient * operator_.first_moment(row);
-  Eigen::Map<Tensor>(memory_second_.col(a).data()) =
+  const Eigen::Map<const fpm::Vector<Dim>> first(position_moments.data() +
+                                                 Dim * fpm::Channels::kappa(Dim));
+  const Eigen::Map<const Tensor> second(position_moments.data() +
+                                        Dim * fpm::Channels::kappa_x(Dim));
+  step_.pair_gradient.col(a) = position_moments.head(Dim * Dim);
+  step_.memory_first.col(a) = first - gradient * operator_.first_moment(row);
+  Eigen::Map<Tensor>(step_.memory_second.col(a).data()) =
       second - gradient * operator_.second_moment(row);
 
   const double youngs_modulus = model_.youngs_modulus[model_.material[static_cast<std::size_t>(a)]];
@@ -111,17 +128,18 @@ void Equilibrium<Dim>::remember_pairs(Eigen::Index a, const Eigen::VectorXd& pos
     modulus = fpm::pair_modulus(youngs_modulus, model_.pair_control.modulus_factor, sqrt_j2,
                                 state_.plastic_increment[a]);
   }
-  pair_stiffness_[a] =
+  step_.pair_stiffness[a] =
       model_.pair_control.stiffness_ratio * modulus * state_.rows.reference_volume()[a];
 }
 
 template <int Dim>
 void Equilibrium<Dim>::assemble(const double* field, double* force) {
-  operator_.scatter(stress_.data(), field, position_.data(), force_.data());
+  operator_.scatter(evaluation_.stress.data(), field, step_.position.data(),
+                    evaluation_.force.data());
   const Eigen::Index n = model_.size();
   for (int i = 0; i < Dim; ++i) {
-    const double* component = force_.data() + i * operator_.stride();
-    const double* own = own_force_.data() + i * n;
+    const double* component = evaluation_.force.data() + i * operator_.stride();
+    const double* own = evaluation_.own_force.data() + i * n;
     double* out = force + i * n;
     if (model_.channels.pair) {
       for (Eigen::Index a = 0; a < n; ++a) out[a] = component[a] + own[a];
@@ -134,36 +152,39 @@ void Equilibrium<Dim>::assemble(const double* field, double* force) {
 template <int Dim>
 jfnk::Evaluation Equilibrium<Dim>::operator()(const Eigen::VectorXd& increment,
                                               Eigen::VectorXd& residual) {
-  operator_.extend(increment.data(), extended_.data());
-  failure_.particle = loops_.respond(*this);
-  if (failure_.particle >= 0) return jfnk::Evaluation::out_of_domain;
-  assemble(extended_.data(), unmasked_.data());
-  unmasked_ -= external_;
+  operator_.extend(increment.data(), evaluation_.extended.data());
+  const LoopOutcome outcome = loops_.respond(loop_data());
+  failure_.particle = outcome.failed;
+  if (!outcome.ok()) return jfnk::Evaluation::out_of_domain;
+  assemble(evaluation_.extended.data(), evaluation_.unmasked.data());
+  evaluation_.unmasked -= step_.external;
   add_boundary_terms(increment);
   if (failure_.particle >= 0) return jfnk::Evaluation::out_of_domain;
   double reaction_square = 0.0;
-  for (Eigen::Index k = 0; k < unmasked_.size(); ++k) {
+  for (Eigen::Index k = 0; k < evaluation_.unmasked.size(); ++k) {
     const bool given = model_.prescribed[static_cast<std::size_t>(k)] != 0;
-    if (given) reaction_square += unmasked_[k] * unmasked_[k];
-    residual[k] = given ? 0.0 : unmasked_[k];
+    if (given) reaction_square += evaluation_.unmasked[k] * evaluation_.unmasked[k];
+    residual[k] = given ? 0.0 : evaluation_.unmasked[k];
   }
-  reference_norm_ = std::max(std::sqrt(reaction_square), external_.norm());
+  reference_norm_ = std::max(std::sqrt(reaction_square), step_.external.norm());
   return jfnk::Evaluation::ok;
 }
 
 template <int Dim>
 bool Equilibrium<Dim>::linearise(const Eigen::VectorXd& increment) {
-  operator_.extend(increment.data(), extended_.data());
-  base_increment_ = increment;
-  failure_.particle = loops_.linearise(*this);
-  return failure_.particle < 0;
+  operator_.extend(increment.data(), evaluation_.extended.data());
+  evaluation_.base_increment = increment;
+  if (tangents_.stress.size() == 0) allocate(tangents_, step_.sizes);
+  const LoopOutcome outcome = loops_.linearise(loop_data());
+  failure_.particle = outcome.failed;
+  return outcome.ok();
 }
 
 template <int Dim>
 void Equilibrium<Dim>::apply_jacobian(const Eigen::VectorXd& v, Eigen::VectorXd& jv) {
-  operator_.extend(v.data(), extended_.data());
-  loops_.apply(*this);
-  assemble(extended_.data(), jv.data());
+  operator_.extend(v.data(), evaluation_.extended.data());
+  loops_.apply(loop_data());
+  assemble(evaluation_.extended.data(), jv.data());
   add_boundary_actions(v, jv);
   for (Eigen::Index k = 0; k < jv.size(); ++k) {
     if (model_.prescribed[static_cast<std::size_t>(k)] != 0) jv[k] = 0.0;
@@ -175,21 +196,23 @@ template <int Dim>
 void Equilibrium<Dim>::add_boundary_terms(const Eigen::VectorXd& increment) {
   using View = Eigen::Map<const fpm::Field<Dim>>;
   const Eigen::Index n = model_.size();
-  Eigen::Map<fpm::Field<Dim>> force(unmasked_.data(), n, Dim);
+  Eigen::Map<fpm::Field<Dim>> force(evaluation_.unmasked.data(), n, Dim);
   const View step(increment.data(), n, Dim);
   if (model_.control == scene::HourglassControl::viscosity) {
-    viscosity_.add_force(model_.viscosity, start_position_, step, inverse_transposed_, volume_,
-                         force);
+    viscosity_.add_force(model_.viscosity, step_.start_position, step,
+                         evaluation_.inverse_transposed, evaluation_.volume, force);
   }
   if (model_.following_pressures.empty() && model_.penalty_supports.empty()) return;
-  displacement_ = state_.displacement + step;
+  evaluation_.displacement = state_.displacement + step;
   for (const auto& support : model_.penalty_supports) {
     fpm::add_penalty_force<Dim>(support.op, support.points, support.options, support.target,
-                                displacement_, force);
+                                evaluation_.displacement, force);
   }
   for (const auto& load : model_.following_pressures) {
-    const double pressure = -load.pressure * (load.scaled ? load_ : 1.0);  // f_ext is subtracted
-    if (fpm::add_following_pressure<Dim>(load.op, load.points, pressure, displacement_, force)) {
+    const double pressure =
+        -load.pressure * (load.scaled ? step_.load : 1.0);  // f_ext is subtracted
+    if (fpm::add_following_pressure<Dim>(load.op, load.points, pressure, evaluation_.displacement,
+                                         force)) {
       failure_.particle = 0;
     }
   }
@@ -201,80 +224,40 @@ void Equilibrium<Dim>::add_boundary_actions(const Eigen::VectorXd& v, Eigen::Vec
   const Eigen::Index n = model_.size();
   Eigen::Map<fpm::Field<Dim>> force(jv.data(), n, Dim);
   const View direction(v.data(), n, Dim);
-  const View step(base_increment_.data(), n, Dim);
+  const View step(evaluation_.base_increment.data(), n, Dim);
   if (model_.control == scene::HourglassControl::viscosity) {
-    viscosity_.add_action(model_.viscosity, start_position_, step, direction, inverse_transposed_,
-                          volume_, force);
+    viscosity_.add_action(model_.viscosity, step_.start_position, step, direction,
+                          evaluation_.inverse_transposed, evaluation_.volume, force);
   }
   for (const auto& support : model_.penalty_supports) {
     fpm::add_penalty_action<Dim>(support.op, support.points, support.options, direction, force);
   }
   if (model_.following_pressures.empty()) return;
-  displacement_ = state_.displacement + step;
+  evaluation_.displacement = state_.displacement + step;
   for (const auto& load : model_.following_pressures) {
-    const double pressure = -load.pressure * (load.scaled ? load_ : 1.0);
-    fpm::add_following_pressure_action<Dim>(load.op, load.points, pressure, displacement_,
-                                            direction, force);
+    const double pressure = -load.pressure * (load.scaled ? step_.load : 1.0);
+    fpm::add_following_pressure_action<Dim>(load.op, load.points, pressure,
+                                            evaluation_.displacement, direction, force);
   }
-}
-
-// Sum over pairs of k kappa y . (e - e(n)): what the control took from the work of the loads.
-// Departure: not in the paper (share/doc/decisions/energy-corrected-load.md).
-template <int Dim>
-double Equilibrium<Dim>::hourglass_work(const Eigen::VectorXd& increment) const {
-  if (!model_.channels.pair) return 0.0;
-  using Tensor = fpm::Tensor<Dim>;
-  using Vector = fpm::Vector<Dim>;
-  const Eigen::Index stride = operator_.stride();
-  Eigen::VectorXd extended(stride * Dim);
-  operator_.extend(increment.data(), extended.data());
-  const auto difference = [&](const Eigen::VectorXd& field, fpm::Index a, fpm::Index b) {
-    Vector d;
-    for (int i = 0; i < Dim; ++i) d[i] = field[i * stride + b] - field[i * stride + a];
-    return d;
-  };
-  double work = 0.0;
-  for (fpm::Index a = 0; a < operator_.size(); ++a) {
-    const auto start = start_of<double>(a);
-    Tensor gradient = Tensor::Zero();
-    operator_.for_each_entry(a, [&](fpm::Index b, const double* w) {
-      gradient += difference(extended, a, b) * Eigen::Map<const Eigen::Matrix<double, 1, Dim>>(w);
-    });
-    Tensor defect = Tensor::Identity();
-    if (model_.layout.incremental && state_.released[a] > 0.0) {
-      defect -= model_.layout.finite ? constitutive::objective_increment<Dim>(
-                                           gradient, Tensor(start.gradient + 0.5 * gradient))
-                                           .rotation
-                                     : Tensor(Tensor::Identity());
-    }
-    const Eigen::Map<const Tensor> begin(pair_gradient_.col(a).data());
-    double row = 0.0;
-    operator_.for_each_entry(a, [&](fpm::Index b, const double* w) {
-      const double kappa = w[Dim];
-      if (kappa <= 0.0) return;
-      const Vector x = Eigen::Map<const Vector>(w + Dim + 1) / kappa;
-      const Vector change = difference(extended, a, b) - gradient * x;
-      const Vector memory = difference(position_, a, b) - begin * x;
-      row += kappa * (change + defect * memory).dot(change);
-    });
-    work += pair_stiffness_[a] * row;
-  }
-  return work;
 }
 
 template <int Dim>
 StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
   StepForces forces;
-  forces.reaction = model_.measure.dot(unmasked_);
-  forces.hourglass_work = hourglass_work(increment);
-  forces.external_work = external_.dot(increment);
+  forces.reaction = model_.measure.dot(evaluation_.unmasked);
+  operator_.extend(increment.data(), evaluation_.extended.data());
+  forces.hourglass_work = hourglass_work(loop_data());
+  forces.external_work = step_.external.dot(increment);
   for (Eigen::Index k = 0; k < increment.size(); ++k) {
     const bool given = model_.prescribed[static_cast<std::size_t>(k)] != 0;
-    state_.reaction.data()[k] = given ? unmasked_[k] : 0.0;
-    if (given) forces.external_work += unmasked_[k] * increment[k];
+    state_.reaction.data()[k] = given ? evaluation_.unmasked[k] : 0.0;
+    if (given) forces.external_work += evaluation_.unmasked[k] * increment[k];
   }
-  operator_.extend(increment.data(), extended_.data());
-  loops_.commit(*this);
+  const LoopOutcome outcome = loops_.commit(loop_data());
+  if (!outcome.ok()) {
+    throw std::logic_error("commit at an increment at which particle " +
+                           std::to_string(outcome.failed) + " cannot be evaluated");
+  }
   state_.increment = Eigen::Map<const fpm::Field<Dim>>(increment.data(), model_.size(), Dim);
   state_.displacement += state_.increment;
   if (model_.layout.plastic) {
@@ -286,13 +269,8 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
 
 template <int Dim>
 std::size_t Equilibrium<Dim>::bytes() const {
-  const auto doubles = position_.size() + extended_.size() + force_.size() + stress_.size() +
-                       own_force_.size() + unmasked_.size() + external_.size() +
-                       second_gradient_.size() + memory_first_.size() + memory_second_.size() +
-                       pair_stiffness_.size() + pair_gradient_.size() + tangent_.size() +
-                       rotation_tangent_.size() + potential_.size() + base_increment_.size() +
-                       inverse_transposed_.size() + volume_.size();
-  return operator_.bytes() + static_cast<std::size_t>(doubles) * sizeof(double);
+  return operator_.bytes() + viscosity_.bytes() + bytes_of(step_) + bytes_of(evaluation_) +
+         bytes_of(tangents_) + static_cast<std::size_t>(potential_.size()) * sizeof(double);
 }
 
 template class Equilibrium<2>;

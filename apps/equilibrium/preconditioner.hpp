@@ -1,10 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <vector>
 
+#include "equilibrium/background_grid.hpp"
 #include "fpm/moment_operator.hpp"
 #include "model/model.hpp"
 
@@ -33,34 +32,15 @@ class TwoLevelPreconditioner {
   std::size_t bytes() const;
 
  private:
-  using FloatMatrix = Eigen::SparseMatrix<float>;
   using Blocks = Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic>;
   void build_blocks(const model::Model<Dim>& model, const fpm::MomentOperator<Dim>& op);
-  void build_grid(const model::Model<Dim>& model, double grid_spacing);
-  std::vector<Eigen::Triplet<double>> grid_stiffness(const model::Model<Dim>& model);
   void add_penalty_blocks(const model::Model<Dim>& model, Blocks& sum) const;
   void invert_blocks(const Blocks& sum);
-  void add_grid_supports(const model::Model<Dim>& model,
-                         std::vector<Eigen::Triplet<double>>& entries) const;
-  void interpolation_of(const Eigen::Matrix<double, 1, Dim>& position,
-                        Eigen::Matrix<fpm::Index, 1 << Dim, 1>& nodes,
-                        Eigen::Matrix<double, 1 << Dim, 1>& values,
-                        Eigen::Matrix<double, Dim, 1 << Dim>& gradients) const;
 
   Eigen::Index size_ = 0;
   std::vector<char> prescribed_;
   Blocks block_inverse_;
-
-  // The grid.
-  fpm::Vector<Dim> origin_, cell_;
-  Eigen::Matrix<fpm::Index, Dim, 1> cells_;
-  fpm::Index nodes_ = 0;
-  Eigen::Matrix<fpm::Index, 1 << Dim, Eigen::Dynamic> corner_;  // of each particle's cell
-  Eigen::Matrix<float, 1 << Dim, Eigen::Dynamic> weight_;       // interpolation
-  FloatMatrix factor_;                                          // lower, single precision
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation_;
-  Eigen::VectorXd coarse_;
-  Eigen::VectorXf coarse_single_;
+  BackgroundGrid<Dim> grid_;
 };
 
 }  // namespace equilibrium

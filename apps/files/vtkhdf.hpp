@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -59,42 +57,5 @@ PointField tensor_field(std::string name, std::string unit, std::size_t particle
 /// @throws std::invalid_argument if a field's size does not fit; FileError.
 void write_vtkhdf(Hdf5File& file, std::span<const double> points,
                   std::span<const PointField> fields);
-
-/// Writes one frame file durably: /VTKHDF and the attributes step and time of "/".
-/// @param deflate  compression, see Hdf5Layout
-void write_frame(const std::filesystem::path& file, std::int64_t step, double time,
-                 std::span<const double> points, std::span<const PointField> fields,
-                 int deflate = 0, const SystemCalls& system = system_calls());
-
-/// The list of a run's frames with their times, `run.hdf.series`, which ParaView opens as one
-/// animated data set. Every change is written durably at once.
-class FrameSeries {
- public:
-  struct Entry {
-    std::string name;  // relative to the series file
-    double time = 0.0;
-    bool operator==(const Entry&) const = default;
-  };
-
-  /// Starts an empty list (the file appears with the first frame).
-  explicit FrameSeries(std::filesystem::path file, const SystemCalls& system = system_calls())
-      : file_(std::move(file)), system_(&system) {}
-
-  /// Takes up an existing list and drops frames later than `time`; a file that does not exist is an
-  /// empty list.
-  /// @throws FileError if the file is not such a list.
-  [[nodiscard]] static FrameSeries resume(std::filesystem::path file, double time,
-                                          const SystemCalls& system = system_calls());
-
-  void append(std::string name, double time);
-  [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
-
- private:
-  void write() const;
-
-  std::filesystem::path file_;
-  const SystemCalls* system_;
-  std::vector<Entry> entries_;
-};
 
 }  // namespace files

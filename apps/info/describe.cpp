@@ -11,7 +11,7 @@
 #include "files/unsealed_file.hpp"
 #include "files/vtkhdf.hpp"
 #include "info/describe_checkpoint.hpp"
-#include "record/curve.hpp"
+#include "record/curve_file.hpp"
 #include "record/run_lock.hpp"
 
 namespace info {

@@ -16,6 +16,7 @@
 #include "limit/report.hpp"
 #include "program/command_line.hpp"
 #include "program/version.hpp"
+#include "record/curve_file.hpp"
 #include "scene/reader.hpp"
 #include "tables/reader.hpp"
 

@@ -58,8 +58,8 @@ void place_particles(const scene::Scene& scene, Model<Dim>& model) {
 }
 
 template <int Dim>
-std::uint16_t material_at(const scene::Scene& scene, const Eigen::Matrix<double, 1, Dim>& x) {
-  return static_cast<std::uint16_t>(scene::material_at(scene, {x.data(), Dim}));
+MaterialIndex material_at(const scene::Scene& scene, const Eigen::Matrix<double, 1, Dim>& x) {
+  return static_cast<MaterialIndex>(scene::material_at(scene, {x.data(), Dim}));
 }
 
 template <int Dim>

@@ -9,6 +9,7 @@
 #include "fpm/mirror.hpp"
 #include "fpm/particles.hpp"
 #include "fpm/rows.hpp"
+#include "model/material_index.hpp"
 #include "model/state.hpp"
 #include "scene/choices.hpp"
 
@@ -46,7 +47,7 @@ struct Model {
 
   std::vector<constitutive::Material> materials;
   std::vector<double> youngs_modulus;   // of each material [Pa]
-  std::vector<std::uint16_t> material;  // of each particle
+  std::vector<MaterialIndex> material;  // of each particle
   Eigen::VectorXd mass;                 // [kg] of each particle
 
   scene::HourglassControl control = scene::HourglassControl::none;

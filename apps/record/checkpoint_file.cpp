@@ -7,7 +7,7 @@
 
 #include "files/file_seal.hpp"
 #include "files/unsealed_file.hpp"
-#include "record/checkpoint_folder.hpp"
+#include "record/checkpoint_name.hpp"
 
 namespace record {
 
@@ -140,12 +140,6 @@ CheckpointNotes notes_of(const files::Hdf5File& file) {
 }
 
 }  // namespace
-
-std::string curve_text(int dimension, const std::vector<CurveRow>& rows) {
-  std::string text = curve_header(dimension) + "\n";
-  for (const CurveRow& row : rows) text += curve_line(row) + "\n";
-  return text;
-}
 
 void write_notes(files::Hdf5File& file, const CheckpointNotes& notes,
                  files::ContentDigest& digest) {

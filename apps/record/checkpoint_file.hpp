@@ -13,8 +13,8 @@
 namespace record {
 
 /// Layout of checkpoint files; raised when a reader of the former one would go wrong. Older ones
-/// are read: 1 had no seal (see open_unsealed), and of the lineage only the parent's name; 1 and 2 had
-/// no reactions in the state.
+/// are read: 1 had no seal (see open_unsealed), and of the lineage only the parent's name; 1 and 2
+/// had no reactions in the state.
 inline constexpr std::int64_t checkpoint_schema = 3;
 
 /// What a checkpoint holds beside the mechanical state. It makes a checkpoint sufficient by itself:
@@ -44,9 +44,6 @@ struct CheckpointNotes {
     visit("reason", self.reason);
   }
 };
-
-/// A curve file's content.
-[[nodiscard]] std::string curve_text(int dimension, const std::vector<CurveRow>& rows);
 
 /// Writes /meta and /history, and as attributes of "/" what a look from outside wants.
 void write_notes(files::Hdf5File& file, const CheckpointNotes& notes, files::ContentDigest& digest);

@@ -1,13 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
-
-#include "files/output_file.hpp"
 
 namespace record {
 
@@ -33,17 +29,35 @@ struct CurveRow {
   double hourglass_work_ratio = 0.0;  // work of the control over that of the loads, so far
   double wall = 0.0;                  // [s] since the run began; the one column that may differ
   bool operator==(const CurveRow&) const = default;
+
+  /// Visits every column in the order of the file, visit(name, value) with the unit in the name, or
+  /// visit(name, value, name_3d) where the unit is another one in 3D.
+  template <class Self, class Visitor>
+  static void for_each_column(Self& row, Visitor&& visit) {
+    visit("step", row.step);
+    visit("load_parameter", row.load_parameter);
+    visit("settlement_m", row.settlement);
+    visit("settlement_over_B", row.settlement_over_B);
+    visit("reaction_N_per_m", row.reaction, "reaction_N");
+    visit("mean_pressure_Pa", row.mean_pressure);
+    visit("corrected_pressure_Pa", row.corrected_pressure);
+    visit("increment_m", row.increment);
+    visit("newton_iterations", row.newton_iterations);
+    visit("residual_evaluations", row.residual_evaluations);
+    visit("jacobian_actions", row.jacobian_actions);
+    visit("evaluations", row.evaluations);
+    visit("cuts", row.cuts);
+    visit("plastic_particles", row.plastic_particles);
+    visit("researched_rows", row.re_searched_rows);
+    visit("residual_ratio", row.residual_ratio);
+    visit("max_plastic_strain", row.max_plastic_strain);
+    visit("hourglass_work_ratio", row.hourglass_work_ratio);
+    visit("wall_s", row.wall);
+  }
 };
 
-/// One column of the curve file: its header, with the unit, and its member.
-struct CurveColumn {
-  std::string_view name;
-  std::string_view name_3d;  // where the unit is another one in 3D, else empty
-  std::variant<std::int64_t CurveRow::*, double CurveRow::*> member;
-};
-
-/// All columns in the order of the file.
-[[nodiscard]] const std::vector<CurveColumn>& curve_columns();
+/// Names of all columns in the order of the file.
+[[nodiscard]] std::vector<std::string> curve_columns(int dimension);
 
 /// Header line without its end.
 [[nodiscard]] std::string curve_header(int dimension);
@@ -52,37 +66,7 @@ struct CurveColumn {
 /// The row of a line.
 /// @throws std::invalid_argument naming the column that is no number.
 [[nodiscard]] CurveRow parse_curve_line(std::string_view line);
-/// All rows of a curve file.
-/// @throws FileError if it is no curve file or has a broken line.
-[[nodiscard]] std::vector<CurveRow> read_curve(const std::filesystem::path& file);
-
-/// The curve file of a running run: one row per converged step, visible in the file at once.
-class CurveFile {
- public:
-  /// Begins a new curve; an old file of that name is replaced.
-  [[nodiscard]] static CurveFile create(const std::filesystem::path& file, int dimension,
-                                        const files::SystemCalls& system = files::system_calls());
-
-  /// Goes on with the rows of `source` up to and including `step`; later rows, and a last line that
-  /// a killed run left unfinished, are dropped. Kept lines are copied as they are. `file` and
-  /// `source` may be one file; it then is replaced durably.
-  /// @throws FileError if `source` does not reach `step` or is broken before it.
-  [[nodiscard]] static CurveFile resume(const std::filesystem::path& file,
-                                        const std::filesystem::path& source, int dimension,
-                                        std::int64_t step,
-                                        const files::SystemCalls& system = files::system_calls());
-
-  /// Adds a row.
-  /// @throws FileError if it cannot be written.
-  void append(const CurveRow& row) { file_.write(curve_line(row) + "\n"); }
-  /// Forces all rows to disk; call before a checkpoint that counts on them.
-  void sync() { file_.sync(); }
-
- private:
-  CurveFile(const std::filesystem::path& file, const files::SystemCalls& system)
-      : file_(files::OutputFile::append(file, system)) {}
-
-  files::OutputFile file_;
-};
+/// A curve file's content.
+[[nodiscard]] std::string curve_text(int dimension, const std::vector<CurveRow>& rows);
 
 }  // namespace record

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "files/durable_file.hpp"
-#include "scene/scene.hpp"
 
 namespace record {
 
@@ -27,14 +26,27 @@ void remove_later(const std::filesystem::path& folder, std::int64_t step) {
 
 }  // namespace
 
-Frames::Frames(const RunFolder& folder, const scene::Output& output, std::int64_t step,
+void write_frame(const std::filesystem::path& path, std::int64_t step, double time,
+                 std::span<const double> points, std::span<const files::PointField> fields,
+                 int deflate, const files::SystemCalls& system) {
+  const auto fill = [&](const std::filesystem::path& temporary) {
+    files::Hdf5File file = files::Hdf5File::create(temporary, {.deflate = deflate}, system);
+    file.write_attribute("/", "step", step);
+    file.write_attribute("/", "time", time);
+    files::write_vtkhdf(file, points, fields);
+    file.close();
+  };
+  files::write_durably(path, fill, system);
+}
+
+Frames::Frames(const RunFolder& folder, int every, int deflate, std::int64_t step,
                std::optional<double> last_time)
     : folder_(folder.frames()),
       system_(folder.system()),
-      every_(output.frames_every),
-      deflate_(output.compression),
-      series_(last_time ? files::FrameSeries::resume(folder.series(), *last_time, system_)
-                        : files::FrameSeries(folder.series(), system_)) {
+      every_(every),
+      deflate_(deflate),
+      series_(last_time ? FrameSeries::resume(folder.series(), *last_time, system_)
+                        : FrameSeries(folder.series(), system_)) {
   if (every_ > 0) files::create_folder(folder_, system_);
   if (last_time) remove_later(folder_, step);
 }
@@ -54,7 +66,7 @@ bool Frames::lacks(std::int64_t step) const {
 
 void Frames::write(std::int64_t step, double time, std::span<const double> points,
                    std::span<const files::PointField> fields) {
-  files::write_frame(folder_ / name(step), step, time, points, fields, deflate_, system_);
+  write_frame(folder_ / name(step), step, time, points, fields, deflate_, system_);
   series_.append("frames/" + name(step), time);
 }
 

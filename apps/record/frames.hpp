@@ -2,26 +2,31 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "files/vtkhdf.hpp"
+#include "record/frame_series.hpp"
 #include "record/run_folder.hpp"
 
-namespace scene {
-struct Output;
-}
-
 namespace record {
+
+/// Writes one frame file durably: /VTKHDF and the attributes step and time of "/".
+/// @param deflate  compression, see Hdf5Layout
+void write_frame(const std::filesystem::path& file, std::int64_t step, double time,
+                 std::span<const double> points, std::span<const files::PointField> fields,
+                 int deflate = 0, const files::SystemCalls& system = files::system_calls());
 
 /// The frames of a run, `frames/frame-000120.hdf` of the steps asked for, and their series file.
 class Frames {
  public:
-  /// @param output  how often, and how compressed
+  /// @param every  steps between frames; 0: none
+  /// @param deflate  compression, see Hdf5Layout
+  /// @param step  the run begins at
   /// @param last_time  of the curve a run goes on with: later frames are removed; absent: a new run
   /// @throws FileError if the folder or the series cannot be read or written.
-  Frames(const RunFolder& folder, const scene::Output& output, std::int64_t step,
+  Frames(const RunFolder& folder, int every, int deflate, std::int64_t step,
          std::optional<double> last_time);
 
   [[nodiscard]] bool due(std::int64_t step) const;
@@ -38,7 +43,7 @@ class Frames {
   const files::SystemCalls& system_;
   int every_;
   int deflate_;
-  files::FrameSeries series_;
+  FrameSeries series_;
 };
 
 }  // namespace record

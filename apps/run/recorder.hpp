@@ -6,36 +6,37 @@
 #include <vector>
 
 #include "model/model.hpp"
-#include "program/logging.hpp"
 #include "program/progress.hpp"
 #include "record/checkpoint_file.hpp"
 #include "record/curve.hpp"
-#include "record/frames.hpp"
 #include "record/run_folder.hpp"
+#include "run/outputs.hpp"
 #include "run/request.hpp"
 #include "run/start.hpp"
 #include "stepping/stepper.hpp"
 
 namespace run {
 
-/// All that observes a run: curve, frames, checkpoints, progress and log. Outputs of an earlier run
-/// are cut back to the checkpoint the run goes on from, so that they have each step once.
+/// All that observes a run: curve, frames, checkpoints, progress and log.
 template <int Dim>
 class Recorder {
  public:
-  /// Prepares the folder for this start; a fresh run gets its row, and its frame, of step 0.
   /// @param state  of the run, always at a converged step when a member is called
-  /// @throws FileError
+  /// @param outputs  the folder as `prepare` left it for this start
   Recorder(const RunRequest& request, const record::RunFolder& folder,
            const model::Model<Dim>& model, const RunStart<Dim>& start, model::State<Dim>& state,
-           std::ostream& out);
+           Outputs outputs, std::ostream& out);
+
+  /// Begins the record; that of a fresh run with its row, its frame and its checkpoint of step 0.
+  void begin();
 
   /// Gives a branch a checkpoint of its own before its first step: it no longer needs the folder it
   /// comes from. Does nothing for a run that has one.
   void begin_branch();
 
   /// Records a converged step; checkpoints and frames as often as the scene says.
-  void take(const stepping::StepRecord& record);
+  /// @param row  but for the wall time
+  void take(record::CurveRow row);
 
   /// Ends the record: the last frame, unless the run is merely interrupted, and a checkpoint of the
   /// state unless there is one.
@@ -47,7 +48,7 @@ class Recorder {
 
   /// One line for the user and the log.
   void say(const std::string& line);
-  program::Log& log() { return log_; }
+  program::Log& log() { return outputs_.log; }
 
   [[nodiscard]] const std::vector<record::CurveRow>& history() const { return history_; }
   /// The last checkpoint written or resumed from; empty if there is none.
@@ -59,27 +60,21 @@ class Recorder {
   void write_frame();
   void write_checkpoint(const std::string& reason);
   [[nodiscard]] std::string why_checkpoint_is_due() const;
-  program::ProgressStatus status(const stepping::StepRecord& record) const;
+  [[nodiscard]] program::ProgressStatus status() const;
 
   const scene::Scene& scene_;
   const model::Model<Dim>& model_;
   model::State<Dim>& state_;
   const record::RunFolder& folder_;
+  Outputs outputs_;
+  program::Progress progress_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  double earlier_ = 0.0;  // [s] of the run before the checkpoint
   std::vector<record::CurveRow> history_;
   record::CheckpointNotes notes_;
-  double earlier_ = 0.0;  // [s] of the run before the checkpoint
   std::filesystem::path last_checkpoint_;
   std::int64_t checkpointed_step_ = -1;
   double checkpointed_at_ = 0.0;  // [s] of elapsed()
-  std::int64_t cuts_ = 0;
-  std::int64_t re_searched_ = 0;
-
-  std::optional<std::filesystem::path> previous_;
-  program::Log log_;
-  record::CurveFile curve_;
-  record::Frames frames_;
-  program::Progress progress_;
 };
 
 }  // namespace run

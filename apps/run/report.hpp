@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
+#include <vector>
 
-#include "run/recorder.hpp"
+#include "record/curve.hpp"
+#include "record/run_folder.hpp"
 #include "scene/scene.hpp"
 
 namespace run {

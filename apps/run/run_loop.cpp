@@ -90,7 +90,7 @@ class Run {
     std::exception_ptr no_folder;  // which a finished run does not need
     const bool exists = std::filesystem::is_directory(request_.directory);
     if (exists && !request_.check_only) no_folder = take(folder);
-    RunStart<Dim> start = start_of(request_, model_);
+    RunStart<Dim> start = find_start(request_, model_);
     for (const std::string& refusal : start.refusals) err_ << "error: " << refusal << '\n';
     if (!start.refusals.empty()) return program::ExitCode::input_refused;
     stepping::LoadStepper<Dim> stepper(scene_, model_, start.state);
@@ -99,7 +99,9 @@ class Run {
     if (no_folder) std::rethrow_exception(no_folder);
 
     if (!folder) folder.emplace(request_.directory, system_);
-    Recorder<Dim> recorder(request_, *folder, model_, start, start.state, out_);
+    Recorder<Dim> recorder(request_, *folder, model_, start, start.state,
+                           prepare(*folder, scene_, start), out_);
+    recorder.begin();
     try {
       introduce(start, *folder, recorder);
       if (start.re_search_changed && scene_.re_search.enabled) {

@@ -8,6 +8,7 @@
 #include "model/checkpoint.hpp"
 #include "model/state_file.hpp"
 #include "record/checkpoint_folder.hpp"
+#include "record/checkpoint_name.hpp"
 
 namespace run {
 
@@ -80,7 +81,7 @@ void resume(const std::filesystem::path& checkpoint, const scene::Scene& scene,
 }  // namespace
 
 template <int Dim>
-RunStart<Dim> start_of(const RunRequest& request, const model::Model<Dim>& model) {
+RunStart<Dim> find_start(const RunRequest& request, const model::Model<Dim>& model) {
   RunStart<Dim> start;
   if (!request.resume) {
     start.state = initial_state(model, request.scene);
@@ -97,7 +98,7 @@ RunStart<Dim> start_of(const RunRequest& request, const model::Model<Dim>& model
   return start;
 }
 
-template RunStart<2> start_of<2>(const RunRequest&, const model::Model<2>&);
-template RunStart<3> start_of<3>(const RunRequest&, const model::Model<3>&);
+template RunStart<2> find_start<2>(const RunRequest&, const model::Model<2>&);
+template RunStart<3> find_start<3>(const RunRequest&, const model::Model<3>&);
 
 }  // namespace run

@@ -31,6 +31,6 @@ struct RunStart {
 /// @throws FileError if that checkpoint, or any if none is named, is unusable; it names the next
 /// older usable one. There is no silent start from zero.
 template <int Dim>
-RunStart<Dim> start_of(const RunRequest& request, const model::Model<Dim>& model);
+RunStart<Dim> find_start(const RunRequest& request, const model::Model<Dim>& model);
 
 }  // namespace run

@@ -5,6 +5,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "equilibrium/equilibrium.hpp"
+#include "equilibrium/preconditioner.hpp"
 #include "jfnk/gmres.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
@@ -61,8 +63,9 @@ LoadStepper<Dim>::LoadStepper(const scene::Scene& scene, const model::Model<Dim>
     : scene_(scene),
       model_(model),
       state_(state),
-      equilibrium_(model, state),
-      preconditioner_(model, initial_operator(model), coarse_spacing(scene)),
+      equilibrium_(std::make_unique<equilibrium::Equilibrium<Dim>>(model, state)),
+      preconditioner_(std::make_unique<equilibrium::TwoLevelPreconditioner<Dim>>(
+          model, initial_operator(model), coarse_spacing(scene))),
       use_preconditioner_(scene::resolve_solver(scene.solver).preconditioner !=
                           scene::PreconditionerKind::none),
       solver_(solver_options(scene)),
@@ -70,6 +73,14 @@ LoadStepper<Dim>::LoadStepper(const scene::Scene& scene, const model::Model<Dim>
       patience_(scene.programme.patience, nominal_increment_, state.programme.load),
       increment_(model.unknowns()) {
   if (state_.programme.next_increment <= 0.0) state_.programme.next_increment = nominal_increment_;
+}
+
+template <int Dim>
+LoadStepper<Dim>::~LoadStepper() = default;
+
+template <int Dim>
+std::size_t LoadStepper<Dim>::bytes() const {
+  return equilibrium_->bytes() + preconditioner_->bytes();
 }
 
 template <int Dim>
@@ -94,16 +105,18 @@ bool LoadStepper<Dim>::predict_by_tangent(double increment, Eigen::VectorXd& u,
   u.setZero();
   Eigen::VectorXd residual(u.size());
   ++record.residual_evaluations;
-  if (equilibrium_(u, residual) != jfnk::Evaluation::ok || !equilibrium_.linearise(u)) return false;
+  if ((*equilibrium_)(u, residual) != jfnk::Evaluation::ok || !equilibrium_->linearise(u)) {
+    return false;
+  }
   Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(u.size());
   set_prescribed(increment, prescribed);
   Eigen::VectorXd action(u.size());
-  equilibrium_.apply_jacobian(prescribed, action);
+  equilibrium_->apply_jacobian(prescribed, action);
   const Eigen::VectorXd rhs = -(residual + action);
   const auto jacobian = [&](const Eigen::VectorXd& v, Eigen::VectorXd& jv) {
-    equilibrium_.apply_jacobian(v, jv);
+    equilibrium_->apply_jacobian(v, jv);
   };
-  const auto result = use_preconditioner_ ? jfnk::gmres(jacobian, rhs, u, options, preconditioner_)
+  const auto result = use_preconditioner_ ? jfnk::gmres(jacobian, rhs, u, options, *preconditioner_)
                                           : jfnk::gmres(jacobian, rhs, u, options);
   record.jacobian_actions += result.iterations + 1;
   u += prescribed;
@@ -114,8 +127,8 @@ template <int Dim>
 bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult& result) {
   const auto observer = [&](const jfnk::Iteration& i) { return !watch || watch(i); };
   const jfnk::Report& report = use_preconditioner_
-                                   ? solver_.solve(equilibrium_, u, preconditioner_, observer)
-                                   : solver_.solve(equilibrium_, u, jfnk::Identity{}, observer);
+                                   ? solver_.solve(*equilibrium_, u, *preconditioner_, observer)
+                                   : solver_.solve(*equilibrium_, u, jfnk::Identity{}, observer);
   StepRecord& record = result.record;
   record.newton_iterations += report.newton_iterations;
   record.residual_evaluations += report.counts.residuals();
@@ -124,7 +137,7 @@ bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult&
   result.status = report.status;
   if (report.converged()) return true;
   result.reason = report.reason;
-  result.folded_particle = equilibrium_.failure().particle;
+  result.folded_particle = equilibrium_->failure().particle;
   if (report.status == jfnk::Status::stopped) result.outcome = StepOutcome::stopped;
   return false;
 }
@@ -146,7 +159,7 @@ StepResult LoadStepper<Dim>::attempt(const Watch& watch) {
     const double left = 1.0 - programme.load;
     double increment = std::min(programme.next_increment, left);
     if (left - increment < end_slack) increment = left;
-    equilibrium_.begin_step(increment == left ? 1.0 : programme.load + increment);
+    equilibrium_->begin_step(increment == left ? 1.0 : programme.load + increment);
 
     // Predictor: the last increment. Moving the prescribed unknowns alone would tear the body.
     bool solved = false;
@@ -185,7 +198,7 @@ StepResult& LoadStepper<Dim>::give_up(StepOutcome outcome, StepResult& result) {
   result.patience_mark = patience_.mark();
   if (!increment_.allFinite()) return result;
   Eigen::VectorXd residual(increment_.size());
-  if (equilibrium_(increment_, residual) != jfnk::Evaluation::ok) return result;
+  if ((*equilibrium_)(increment_, residual) != jfnk::Evaluation::ok) return result;
   result.attempt = increment_;
   result.residual = std::move(residual);
   return result;
@@ -194,7 +207,7 @@ StepResult& LoadStepper<Dim>::give_up(StepOutcome outcome, StepResult& result) {
 template <int Dim>
 void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
   model::ProgrammeState& programme = state_.programme;
-  const equilibrium::StepForces forces = equilibrium_.commit(increment_);
+  const equilibrium::StepForces forces = equilibrium_->commit(increment_);
   const bool displaced = scene_.drive.kind == scene::DriveKind::displacement;
   const double length = displaced ? scene_.drive.target : 1.0;
 
@@ -207,8 +220,10 @@ void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
   programme.external_work += forces.external_work;
 
   record.step = programme.step;
-  record.load = programme.load;
+  record.load_parameter = programme.load;
   record.settlement = displaced ? length * programme.load : 0.0;
+  const double reference = scene_.drive.reference_length.value_or(0.0);
+  record.settlement_over_B = reference > 0.0 ? record.settlement / reference : 0.0;
   record.increment = length * increment;
   record.reaction = forces.reaction;
   const double width = scene_.drive.width.value_or(0.0);
@@ -258,7 +273,7 @@ Eigen::Index LoadStepper<Dim>::re_search() {
   for (const fpm::Index a : rows) {
     state_.plastic_strain_at_search[a] = state_.plastic_strain[a];
   }
-  if (!rebuilt.empty()) equilibrium_.rebuild_operator();
+  if (!rebuilt.empty()) equilibrium_->rebuild_operator();
   ++state_.programme.re_searches;
   return static_cast<Eigen::Index>(rebuilt.size());
 }

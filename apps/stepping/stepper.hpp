@@ -1,41 +1,32 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
-#include "equilibrium/equilibrium.hpp"
-#include "equilibrium/preconditioner.hpp"
 #include "jfnk/solver.hpp"
 #include "model/model.hpp"
 #include "model/state.hpp"
+#include "record/curve.hpp"
 #include "stepping/patience.hpp"
 
 namespace scene {
 struct Scene;
 }
 
+namespace equilibrium {
+template <int Dim>
+class Equilibrium;
+template <int Dim>
+class TwoLevelPreconditioner;
+}  // namespace equilibrium
+
 namespace stepping {
 
-/// What one converged step did; the curve and the progress line are made of it.
-struct StepRecord {
-  std::int64_t step = 0;
-  double load = 0.0;                // load parameter reached
-  double settlement = 0.0;          // [m] of the drive
-  double increment = 0.0;           // [m] of the drive, or of the load parameter in a load drive
-  double reaction = 0.0;            // [N/m or N]
-  double mean_pressure = 0.0;       // [Pa] reaction over width, if a width is given
-  double corrected_pressure = 0.0;  // [Pa] less what the hourglass control took
-  int newton_iterations = 0;
-  int residual_evaluations = 0;
-  int jacobian_actions = 0;
-  int evaluations = 0;  // of all attempts at this step, predictors included
-  int cuts = 0;
-  Eigen::Index plastic_particles = 0;
-  Eigen::Index re_searched_rows = 0;
-  double residual_ratio = 0.0;  // |r_free| over the reference norm
-  double max_plastic_strain = 0.0;
-  double hourglass_work_ratio = 0.0;  // accumulated, over the work of the loads
-  double max_displacement = 0.0;      // [m]
+/// What one converged step did: its row of the curve, but for the wall time, which is the
+/// recorder's, and what the curve does not show.
+struct StepRecord : record::CurveRow {
+  double max_displacement = 0.0;  // [m]
 };
 
 enum class StepOutcome {
@@ -68,6 +59,9 @@ class LoadStepper {
   using Watch = std::function<bool(const jfnk::Iteration&)>;
 
   LoadStepper(const scene::Scene& scene, const model::Model<Dim>& model, model::State<Dim>& state);
+  ~LoadStepper();
+  LoadStepper(const LoadStepper&) = delete;
+  LoadStepper& operator=(const LoadStepper&) = delete;
 
   bool finished() const;
   /// Tries one step, with smaller increments as need be. The state is the new one if it converged,
@@ -78,7 +72,7 @@ class LoadStepper {
   /// @return the rows rebuilt
   Eigen::Index re_search();
 
-  std::size_t bytes() const { return equilibrium_.bytes() + preconditioner_.bytes(); }
+  std::size_t bytes() const;
 
  private:
   StepResult attempt(const Watch& watch);
@@ -92,8 +86,8 @@ class LoadStepper {
   const scene::Scene& scene_;
   const model::Model<Dim>& model_;
   model::State<Dim>& state_;
-  equilibrium::Equilibrium<Dim> equilibrium_;
-  equilibrium::TwoLevelPreconditioner<Dim> preconditioner_;
+  std::unique_ptr<equilibrium::Equilibrium<Dim>> equilibrium_;
+  std::unique_ptr<equilibrium::TwoLevelPreconditioner<Dim>> preconditioner_;
   bool use_preconditioner_ = true;
   jfnk::Solver solver_;
   double nominal_increment_ = 1.0;  // of the load parameter

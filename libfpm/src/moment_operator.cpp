@@ -84,7 +84,7 @@ MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const MirrorGhosts<Di
   }
   // A gradient acts on differences, so its row has a self entry; the caller handles that of pairs.
   std::vector<char> in_sum(static_cast<std::size_t>(channel_count()), 1);
-  if (channels.pair) std::fill_n(in_sum.begin() + Dim, 1 + Dim, char{0});
+  if (channels.pair) std::fill_n(in_sum.begin() + Channels::kappa(Dim), 1 + Dim, char{0});
   const Index nodes = size_ + ghosts_.size();
   forward_ = detail::segment(weighted, block_rows, nodes);
   weighted = detail::transpose(weighted, nodes, in_sum);

@@ -89,7 +89,7 @@ FPM_INLINE void gather_rows(const Entries& entries, Index width, Index base, Ind
 template <int Dim, bool Pair, bool Second>
 FPM_INLINE void gather_segments(const KernelRows& rows, const double* field, std::ptrdiff_t stride,
                                 Index block_first, double* moments, std::ptrdiff_t moment_stride) {
-  constexpr int count = channel_count<Dim>(Channels{Pair, Second});
+  constexpr int count = Channels{Pair, Second}.count(Dim);
   for (const Segment* s = rows.begin; s != rows.end; ++s) {
     const Index* ids = rows.ids + s->id_begin;
     const double* weights = rows.weights + s->weight_begin;
@@ -111,10 +111,10 @@ template <int Dim, bool Pair, bool Second, class Entries>
 FPM_INLINE void scatter_rows(const Entries& entries, Index width, Index base, Index count,
                              const double* stress, const double* v, const double* x,
                              std::ptrdiff_t stride, double* force) {
-  constexpr int channels = channel_count<Dim>(Channels{Pair, Second});
+  constexpr Channels channels{Pair, Second};
+  constexpr int count_of_weights = channels.count(Dim);
   constexpr int pair = Dim * Dim;  // first stress entry of the pairs, then that of the sub-points
   constexpr int second = pair + (Pair ? 1 + Dim + 2 * Dim * Dim : 0);
-  constexpr int second_channel = Dim + (Pair ? 1 + Dim : 0);
   Lanes sum[Dim] = {};
   Lanes stiffness = {};
   Lanes rotation[Dim][Dim] = {};
@@ -123,14 +123,14 @@ FPM_INLINE void scatter_rows(const Entries& entries, Index width, Index base, In
       return entries.field(stress + e * stride, k);
     };
     const auto weight = [&](int c) __attribute__((always_inline)) {
-      return entries.template weight<channels>(k, c);
+      return entries.template weight<count_of_weights>(k, c);
     };
     for (int j = 0; j < Dim; ++j) {
       const Lanes w = weight(j);
       for (int i = 0; i < Dim; ++i) sum[i] += w * entry(j * Dim + i);
     }
     if constexpr (Pair) {
-      const Lanes kappa = weight(Dim);
+      const Lanes kappa = weight(channels.kappa(Dim));
       stiffness += kappa * entry(pair);
       for (int i = 0; i < Dim; ++i) {
         sum[i] += kappa * entry(pair + 1 + i);
@@ -139,13 +139,13 @@ FPM_INLINE void scatter_rows(const Entries& entries, Index width, Index base, In
         }
       }
       for (int j = 0; j < Dim; ++j) {
-        const Lanes w = weight(Dim + 1 + j);
+        const Lanes w = weight(channels.kappa_x(Dim) + j);
         for (int i = 0; i < Dim; ++i) sum[i] -= w * entry(pair + 1 + Dim + Dim * Dim + i * Dim + j);
       }
     }
     if constexpr (Second) {
       for (int c = 0; c < second_gradient_size<Dim>; ++c) {
-        const Lanes w = weight(second_channel + c);
+        const Lanes w = weight(channels.second_gradient(Dim) + c);
         for (int i = 0; i < Dim; ++i) sum[i] += w * entry(second + c * Dim + i);
       }
     }

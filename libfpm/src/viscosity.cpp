@@ -140,6 +140,16 @@ void PairViscosity<Dim>::add_action(double theta, const FieldView<Dim>& position
   sum_pairs(force);
 }
 
+template <int Dim>
+std::size_t PairViscosity<Dim>::bytes() const {
+  const auto doubles = modulus_.size() + smoothing_length_.size() + midpoint_.size() +
+                       field_.size() + node_force_.size();
+  return static_cast<std::size_t>(doubles) * sizeof(double) +
+         (row_begin_.size() + node_begin_.size() + node_pair_.size()) * sizeof(std::size_t) +
+         neighbour_.size() * sizeof(Index) +
+         (gradient_.size() + pair_force_.size()) * sizeof(Vector<Dim>);
+}
+
 template Eigen::VectorXd smoothing_lengths<2>(const Rows<2>&);
 template Eigen::VectorXd smoothing_lengths<3>(const Rows<3>&);
 template class PairViscosity<2>;

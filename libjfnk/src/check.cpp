@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
@@ -21,9 +20,7 @@ using detail::Outcome;
 constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return text;
+  return detail::number(value, 2);
 }
 
 /// One look at a residual: what the parts of a check share.

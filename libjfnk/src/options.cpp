@@ -4,6 +4,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "outcome_text.hpp"
+
 namespace jfnk {
 namespace {
 
@@ -14,7 +16,8 @@ class Checker {
  public:
   void require(bool good, const char* name, const char* range, double value) {
     if (!good) {
-      messages_.push_back(std::string(name) + " = " + number(value) + " must be " + range);
+      messages_.push_back(std::string(name) + " = " + detail::number(value, 10) + " must be " +
+                          range);
     }
   }
   void at_least(int value, int low, const char* name) {
@@ -37,10 +40,6 @@ class Checker {
   void add(std::string message) { messages_.push_back(std::move(message)); }
 
  private:
-  static std::string number(double value) {
-    std::string text = std::to_string(value);
-    return value == std::floor(value) ? text.substr(0, text.find('.')) : text;
-  }
   std::vector<std::string> messages_;
 };
 

@@ -8,6 +8,9 @@
 
 namespace jfnk::detail {
 
+/// A number to be read: so many digits, no trailing zeros, no minus before zero.
+[[nodiscard]] std::string number(double value, int digits = 3);
+
 /// Index of the first NaN or infinity, -1 if there is none.
 /// @param written_only  pass over what the residual did not write
 [[nodiscard]] Eigen::Index first_not_finite(const Vector& v, bool written_only = false);

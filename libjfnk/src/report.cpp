@@ -36,6 +36,10 @@ std::string_view to_string(Status status) {
       return "stopped";
     case Status::noise_floor:
       return "noise_floor";
+    case Status::not_started:
+      return "not_started";
+    case Status::threw:
+      return "threw";
   }
   return "unknown";
 }
@@ -80,12 +84,6 @@ std::string_view to_string(Trouble trouble) {
 
 namespace detail {
 namespace {
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 /// "s 7 (-1.1), 3 (0.4)": the components of the largest |F_i|.
 std::string worst(const Report& report) {
@@ -170,6 +168,12 @@ std::string noise_text(const Report& report) {
 
 }  // namespace
 
+std::string number(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value == 0.0 ? 0.0 : value);
+  return text;
+}
+
 Eigen::Index first_not_finite(const Vector& v, bool written_only) {
   for (Eigen::Index i = 0; i < v.size(); ++i) {
     if (!std::isfinite(v[i]) && !(written_only && is_unwritten(v[i]))) return i;
@@ -230,6 +234,10 @@ std::string reason(const Report& report, const Options& options, double decades)
              where(report) + hints;
     case Status::noise_floor:
       return noise_text(report);
+    case Status::not_started:
+      return "no solve was started";
+    case Status::threw:
+      return "the residual, preconditioner or observer threw an exception: begin again by `start`";
     case Status::in_progress:
       return "the solve has not yet come to an end: " + where(report);
     case Status::stopped:

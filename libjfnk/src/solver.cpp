@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "memory.hpp"
 #include "outcome_text.hpp"
@@ -211,8 +212,8 @@ void require_fit(const Options& options, const ResidualRef& residual, const Vect
     const bool low = options.lower.size() > 0 && !(u[i] >= options.lower[i]);
     const bool high = options.upper.size() > 0 && !(u[i] <= options.upper[i]);
     if (!low && !high) continue;
-    throw std::invalid_argument("jfnk::Solver: u[" + std::to_string(i) +
-                                "] = " + std::to_string(u[i]) + " is outside its bounds");
+    throw std::invalid_argument("jfnk::Solver: u[" + std::to_string(i) + "] = " + number(u[i], 6) +
+                                " is outside its bounds");
   }
 }
 
@@ -251,6 +252,21 @@ bool start(Solve& solve) {
   return true;
 }
 
+constexpr double double_rounding = std::numeric_limits<double>::epsilon();
+
+/// Calls what may throw an exception of the caller's, after which the solve is at an end.
+template <class Call>
+bool unless_thrown(Course& course, Report& report, Call&& call) {
+  try {
+    return call();
+  } catch (...) {
+    course = {};
+    report.status = Status::threw;
+    report.reason = reason(report, {}, 0.0);
+    throw;
+  }
+}
+
 }  // namespace
 }  // namespace detail
 
@@ -282,7 +298,8 @@ Vector Solver::solution() const {
 }
 
 bool Solver::start_erased(const ResidualRef& residual, const Vector& u,
-                          const PreconditionerRef& preconditioner, const ObserverRef& observer) {
+                          const PreconditionerRef& preconditioner, const ObserverRef& observer,
+                          double rounding) {
   Memory& m = *memory_;
   detail::require_fit(m.options, residual, u);
   detail::resize(m.work, u.size(), residual.global_size(u.size()), m.options,
@@ -291,13 +308,16 @@ bool Solver::start_erased(const ResidualRef& residual, const Vector& u,
   m.course = {};
   m.needs_setup = false;
   m.work.evaluator_state = {};
-  m.work.evaluator_state.noise = m.options.jacobian.noise;
+  const double chosen = m.options.jacobian.noise;
+  m.work.evaluator_state.noise = chosen == Jacobian{}.noise && rounding > detail::double_rounding
+                                     ? std::sqrt(rounding)
+                                     : chosen;
   detail::Evaluator evaluator(residual, preconditioner, m.options, m.report.counts,
                               m.work.evaluator, m.work.evaluator_state);
   m.work.best.u = u;
   evaluator.to_solver_units(m.work.best.u);
   detail::Solve solve{m.options, evaluator, observer, m.work, m.course, m.report};
-  return detail::start(solve);
+  return detail::unless_thrown(m.course, m.report, [&] { return detail::start(solve); });
 }
 
 bool Solver::step_erased(const ResidualRef& residual, const PreconditionerRef& preconditioner,
@@ -307,26 +327,27 @@ bool Solver::step_erased(const ResidualRef& residual, const PreconditionerRef& p
   detail::Evaluator evaluator(residual, preconditioner, m.options, m.report.counts,
                               m.work.evaluator, m.work.evaluator_state);
   detail::Solve solve{m.options, evaluator, observer, m.work, m.course, m.report};
-  if (m.needs_setup) {
-    const bool was_set_up = m.work.setup_point.size() > 0;
-    if (was_set_up && preconditioner.has_setup()) {
-      preconditioner.setup(evaluator.physical(m.work.setup_point));
+  return detail::unless_thrown(m.course, m.report, [&] {
+    if (std::exchange(m.needs_setup, false)) {
+      const bool was_set_up = m.work.setup_point.size() > 0;
+      if (was_set_up && preconditioner.has_setup()) {
+        preconditioner.setup(evaluator.physical(m.work.setup_point));
+      }
     }
-    m.needs_setup = false;
-  }
-  const detail::Ending ending = detail::advance(solve);
-  if (ending == detail::Ending::go_on) {
-    detail::describe_best(solve);
-    return true;
-  }
-  detail::finish(solve, detail::status_of(ending, m.report));
-  return false;
+    const detail::Ending ending = detail::advance(solve);
+    if (ending == detail::Ending::go_on) {
+      detail::describe_best(solve);
+      return true;
+    }
+    detail::finish(solve, detail::status_of(ending, m.report));
+    return false;
+  });
 }
 
 const Report& Solver::solve_erased(const ResidualRef& residual, Vector& u,
                                    const PreconditionerRef& preconditioner,
-                                   const ObserverRef& observer) {
-  bool more = start_erased(residual, u, preconditioner, observer);
+                                   const ObserverRef& observer, double rounding) {
+  bool more = start_erased(residual, u, preconditioner, observer, rounding);
   while (more) more = step_erased(residual, preconditioner, observer);
   if (!memory_->report.history.empty()) u = solution();
   return memory_->report;

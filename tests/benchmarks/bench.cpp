@@ -78,8 +78,7 @@ std::function<bool()> start_gather(Prepared<Dim>& p) {
   return [&op, field] {
 #pragma omp parallel
     {
-      constexpr int most_channels = Dim + 1 + Dim + fpm::second_gradient_size<Dim>;
-      alignas(64) double moments[most_channels * Dim * Operator::block_stride];
+      alignas(64) double moments[fpm::most_channels<Dim> * Dim * Operator::block_stride];
 #pragma omp for schedule(static)
       for (fpm::Index block = 0; block < op.block_count(); ++block) {
         op.gather(block, field->data(), moments);

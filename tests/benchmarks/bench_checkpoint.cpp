@@ -21,6 +21,7 @@
 #include "model/checkpoint.hpp"
 #include "model/particle_fields.hpp"
 #include "record/checkpoint_folder.hpp"
+#include "record/checkpoint_name.hpp"
 #include "stepping/stepper.hpp"
 
 namespace benchmarks {

@@ -5,7 +5,8 @@
 #include "compare/difference.hpp"
 #include "files/durable_file.hpp"
 #include "files/vtkhdf.hpp"
-#include "record/curve.hpp"
+#include "record/curve_file.hpp"
+#include "record/frames.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace {
@@ -59,7 +60,7 @@ TEST(Source, OfAFrameIsItsPointsAndFields) {
   const std::vector<files::PointField> fields{
       files::scalar_field("plastic_strain", "-", 2, [](std::size_t i) { return double(i); })};
   const auto frame = folder / "frame-000001.hdf";
-  files::write_frame(frame, 1, 0.5, std::vector<double>{0, 1, 0, 2, 3, 0}, fields);
+  record::write_frame(frame, 1, 0.5, std::vector<double>{0, 1, 0, 2, 3, 0}, fields);
   const comparison::Source source = comparison::open_source(frame);
   EXPECT_THAT(source.names, ElementsAre("Points", "plastic_strain"));
   EXPECT_TRUE(all_identical(source, comparison::open_source(frame)));

@@ -19,7 +19,7 @@ TEST(Programme, CutsAHugeFirstStep) {
   const auto first = run.stepper.advance();
   ASSERT_EQ(first.outcome, stepping::StepOutcome::converged);
   EXPECT_GT(first.record.cuts, 0);
-  EXPECT_LT(first.record.load, 1.0);
+  EXPECT_LT(first.record.load_parameter, 1.0);
   EXPECT_GT(first.record.mean_pressure, 0.0);
   expect_finite(run);
 }

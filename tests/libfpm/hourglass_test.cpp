@@ -105,8 +105,9 @@ struct Body {
     double sum = 0.0;
     for (Index a = 0; a < size(); ++a) {
       op.for_each_entry(a, [&](Index b, const double* w) {
-        const double kappa = w[Dim];
-        const Vector<Dim> reference = Eigen::Map<const Vector<Dim>>(w + Dim + 1) / kappa;
+        const double kappa = w[fpm::Channels::kappa(Dim)];
+        const Vector<Dim> reference =
+            Eigen::Map<const Vector<Dim>>(w + fpm::Channels::kappa_x(Dim)) / kappa;
         const Vector<Dim> before = at(x, b) - at(x, a) - gradient(moments_n, a) * reference;
         const Vector<Dim> y = at(v, b) - at(v, a) - gradient(m, a) * reference +
                               defect[static_cast<std::size_t>(a)] * before;

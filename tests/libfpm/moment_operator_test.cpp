@@ -138,6 +138,43 @@ TEST(MomentOperator, ForEachEntryVisitsTheRowsWeights) {
   }
 }
 
+template <int Dim>
+void expect_channels_where_they_say(const LatticeOptions<Dim>& options) {
+  const Model<Dim> m(options, true);
+  fpm::RowGeometry<Dim> geometry;
+  fpm::RowWeights<Dim> weights;
+  constexpr Index row = 0;
+  m.rows.geometry(row, geometry);
+  compute_weights(geometry, m.rows.options().kernel, true, weights);
+  for (const Channels channels : every_channels) {
+    const MomentOperator<Dim> op(m.rows, m.ghosts, channels);
+    ASSERT_EQ(op.channel_count(), channels.count(Dim));
+    ASSERT_LE(channels.count(Dim), fpm::most_channels<Dim>);
+    Eigen::Index k = 0;
+    op.for_each_entry(row, [&](Index, const double* w) {
+      int used = 0;
+      const auto expect = [&](int at, const Eigen::VectorXd& values) {
+        for (const double value : values) EXPECT_EQ(w[at++], value);
+        used += static_cast<int>(values.size());
+      };
+      expect(0, weights.gradient.col(k));
+      if (channels.pair) {
+        expect(Channels::kappa(Dim), weights.kappa.segment(k, 1));
+        expect(Channels::kappa_x(Dim), weights.kappa[k] * geometry.offset.col(k));
+      }
+      if (channels.second) expect(channels.second_gradient(Dim), weights.second.col(k));
+      EXPECT_EQ(used, channels.count(Dim));
+      ++k;
+    });
+    EXPECT_EQ(k, geometry.size());
+  }
+}
+
+TEST(Channels, SayWhereTheWeightsOfEachKindBegin) {
+  expect_channels_where_they_say<2>(lattice<2>({5, 4}));
+  expect_channels_where_they_say<3>(lattice<3>({5, 4, 4}));
+}
+
 TEST(MomentOperator, PairMomentsAreThoseOfTheWeights) {
   const Model<3> m(lattice<3>({5, 4, 4}));
   const MomentOperator<3> op(m.rows, m.ghosts, {.pair = true});

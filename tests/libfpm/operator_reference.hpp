@@ -24,7 +24,7 @@ ReferenceRow<Dim> reference_row(const Rows<Dim>& rows, Index a, fpm::Channels ch
   compute_weights(geometry, rows.options().kernel, channels.second, weights);
   ReferenceRow<Dim> row;
   row.node.assign(rows.neighbours(a).begin(), rows.neighbours(a).end());
-  row.weight.resize(fpm::channel_count<Dim>(channels), geometry.size());
+  row.weight.resize(channels.count(Dim), geometry.size());
   row.weight.template topRows<Dim>() = weights.gradient;
   if (channels.pair) {
     row.weight.row(Dim) = weights.kappa.transpose();

@@ -14,7 +14,7 @@
 #include "faulty_system.hpp"
 #include "files/hdf5_file.hpp"
 #include "program/stop_signals.hpp"
-#include "record/curve.hpp"
+#include "record/curve_file.hpp"
 #include "restart.hpp"
 #include "scene/changes.hpp"
 #include "scene/reader.hpp"

@@ -16,7 +16,7 @@
 
 #include "faulty_system.hpp"
 #include "record/checkpoint_folder.hpp"
-#include "record/curve.hpp"
+#include "record/curve_file.hpp"
 #include "record/run_folder.hpp"
 #include "restart.hpp"
 

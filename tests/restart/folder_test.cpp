@@ -10,9 +10,10 @@
 #include <fstream>
 
 #include "files/durable_file.hpp"
-#include "files/vtkhdf.hpp"
 #include "record/checkpoint_folder.hpp"
-#include "record/curve.hpp"
+#include "record/checkpoint_name.hpp"
+#include "record/curve_file.hpp"
+#include "record/frame_series.hpp"
 #include "record/run_folder.hpp"
 #include "restart.hpp"
 
@@ -35,7 +36,7 @@ std::vector<std::string> names_in(const std::filesystem::path& folder) {
 std::vector<std::string> frames_listed(const std::filesystem::path& folder) {
   std::vector<std::string> names;
   const double all = 1e300;
-  const files::FrameSeries series = files::FrameSeries::resume(folder / "run.hdf.series", all);
+  const record::FrameSeries series = record::FrameSeries::resume(folder / "run.hdf.series", all);
   for (const auto& entry : series.entries()) {
     names.push_back(std::filesystem::path(entry.name).filename().string());
   }

@@ -7,7 +7,8 @@
 
 #include "files/hdf5_file.hpp"
 #include "record/checkpoint_folder.hpp"
-#include "record/curve.hpp"
+#include "record/checkpoint_name.hpp"
+#include "record/curve_file.hpp"
 #include "run/command_line.hpp"
 #include "run/run_loop.hpp"
 
@@ -178,13 +179,12 @@ std::vector<std::string> curve_without_wall(const std::filesystem::path& folder)
 
 double column_sum_after(const std::filesystem::path& folder, const std::string& column, int step) {
   double sum = 0.0;
-  for (const record::CurveColumn& known : record::curve_columns()) {
-    if (known.name != column) continue;
-    for (const record::CurveRow& row : record::read_curve(folder / "curve.csv")) {
-      if (row.step <= step) continue;
-      sum +=
-          std::visit([&](auto member) { return static_cast<double>(row.*member); }, known.member);
-    }
+  for (const record::CurveRow& row : record::read_curve(folder / "curve.csv")) {
+    if (row.step <= step) continue;
+    record::CurveRow::for_each_column(row,
+                                      [&](std::string_view name, const auto& value, auto&&...) {
+                                        if (name == column) sum += static_cast<double>(value);
+                                      });
   }
   return sum;
 }

@@ -9,6 +9,7 @@
 #include "model/build.hpp"
 #include "model/checkpoint.hpp"
 #include "model/state_file.hpp"
+#include "record/curve_file.hpp"
 #include "restart.hpp"
 #include "scene/scene.hpp"
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "equilibrium/equilibrium.hpp"
 #include "measure.hpp"
 #include "scene/scene.hpp"
 

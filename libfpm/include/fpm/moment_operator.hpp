@@ -60,7 +60,7 @@ class MomentOperator {
 
   Index size() const { return size_; }
   Channels channels() const { return channels_; }
-  int channel_count() const { return fpm::channel_count<Dim>(channels_); }
+  int channel_count() const { return channels_.count(Dim); }
   const MirrorGhosts<Dim>& ghosts() const { return ghosts_; }
 
   /// Length between the components of an extended nodal array (particles, ghosts, padding).
@@ -142,7 +142,7 @@ void MomentOperator<Dim>::for_each_entry(Index row, Visitor&& visit) const {
   const auto& segment = forward_.segments[s];
   const auto m = static_cast<std::size_t>(channel_count());
   const auto lane = static_cast<std::size_t>(row - segment.first);
-  double weights[Dim + 1 + Dim + second_gradient_size<Dim>];
+  double weights[most_channels<Dim>];
   for (std::size_t k = 0; k < static_cast<std::size_t>(segment.width); ++k) {
     if (segment.shared) {
       visit(row + forward_.ids[segment.id_begin + k],

@@ -8,19 +8,26 @@
 namespace fpm {
 
 /// Which weights a scene needs besides the gradient; what it does not need is neither computed
-/// nor stored.
+/// nor stored. The weights of a neighbour lie in the order gradient, kappa, kappa X, second
+/// gradient: the functions say where each kind begins in a space of `dim` dimensions.
 struct Channels {
   bool pair = false;    ///< kappa and kappa X: hourglass control on the non-affine part
   bool second = false;  ///< second-gradient weights: sub-points
 
+  static constexpr int kappa(int dim) { return dim; }        ///< with pairs only
+  static constexpr int kappa_x(int dim) { return dim + 1; }  ///< with pairs only
+  constexpr int second_gradient(int dim) const { return dim + (pair ? 1 + dim : 0); }
+  /// Number of weights per neighbour.
+  constexpr int count(int dim) const {
+    return second_gradient(dim) + (second ? dim * (dim + 1) / 2 : 0);
+  }
+
   bool operator==(const Channels&) const = default;
 };
 
-/// Number of weights per neighbour: gradient, then (kappa, kappa X), then second gradient.
+/// Number of weights per neighbour with every channel there is.
 template <int Dim>
-constexpr int channel_count(Channels channels) {
-  return Dim + (channels.pair ? 1 + Dim : 0) + (channels.second ? second_gradient_size<Dim> : 0);
-}
+inline constexpr int most_channels = Channels{true, true}.count(Dim);
 
 /// The neighbourhood of one row in its reference configuration, the row itself excluded.
 template <int Dim>

@@ -69,6 +69,9 @@ class PairViscosity {
                   const FieldView<Dim>& direction, const FieldView<Dim * Dim>& inverse_transposed,
                   const Eigen::Ref<const Eigen::VectorXd>& volume, FieldTarget<Dim> force);
 
+  /// Memory of the pairs and the buffers [bytes].
+  std::size_t bytes() const;
+
  private:
   void set_midpoint(const FieldView<Dim>& position, const FieldView<Dim>& increment);
   void set_field(const FieldView<Dim>& field);

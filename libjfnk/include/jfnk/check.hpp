@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "jfnk/misuse.hpp"
 #include "jfnk/options.hpp"
 #include "jfnk/residual.hpp"
 
@@ -50,9 +51,10 @@ struct CheckReport {
                                 const Options& options = {}, int directions = 3);
 
 /// The same for anything that is a residual.
-template <Residual F>
+template <class F>
 requires(!std::same_as<std::remove_cvref_t<F>, ResidualRef>) [[nodiscard]] CheckReport
     check(F&& residual, const Vector& u, const Options& options = {}, int directions = 3) {
+  detail::explain_residual<std::remove_reference_t<F>, Vector>();
   return check(ResidualRef(residual), u, options, directions);
 }
 

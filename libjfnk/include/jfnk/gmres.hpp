@@ -54,9 +54,8 @@ class OperatorRef {
   template <class Op>
   requires(!std::same_as<std::remove_cv_t<Op>, OperatorRef> &&
            Residual<Op>) explicit OperatorRef(Op& op)
-      : object_(const_cast<void*>(static_cast<const void*>(std::addressof(op)))),
-        apply_([](void* o, const Vector& v, Vector& Av) {
-          return detail::outcome_of([&] { return (*static_cast<Op*>(o))(v, Av); });
+      : object_(detail::erase(op)), apply_([](void* o, const Vector& v, Vector& Av) {
+          return detail::outcome_of([&] { return detail::restore<Op>(o)(v, Av); });
         }) {}
 
   /// A v into Av.

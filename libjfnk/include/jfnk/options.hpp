@@ -59,7 +59,7 @@ struct Krylov {
   int max_iterations = 200;
   /// Keep the preconditioned vectors so that the preconditioner may vary (twice the memory).
   bool flexible = false;
-  Forcing forcing;
+  Forcing forcing = {};
 };
 
 /// How a Newton direction du is shortened until ||F|| falls.
@@ -230,7 +230,7 @@ enum class PreconditionerSetup {
 /// All choices of a solve.
 struct Options {
   Method method = Method::hybrid;
-  Tolerances tolerances;
+  Tolerances tolerances = {};
   /// Typical size of each unknown; the solver works in u / u_scale. Empty: ones. Each > 0, finite.
   Eigen::VectorXd u_scale = {};
   /// Typical size of each residual; all norms are of F / f_scale. Empty: ones. Each > 0, finite.
@@ -244,14 +244,14 @@ struct Options {
   int max_iterations = 100;
   /// Residual evaluations + Jacobian actions <= max_evaluations. Range [1, inf).
   int max_evaluations = 10000;
-  Krylov krylov;
-  Globalisation globalisation;
-  Jacobian jacobian;
-  Multisecant multisecant;
-  Hybrid hybrid;
-  Stagnation stagnation;
-  PseudoTransient pseudo_transient;
-  Learning learning;
+  Krylov krylov = {};
+  Globalisation globalisation = {};
+  Jacobian jacobian = {};
+  Multisecant multisecant = {};
+  Hybrid hybrid = {};
+  Stagnation stagnation = {};
+  PseudoTransient pseudo_transient = {};
+  Learning learning = {};
   PreconditionerSetup preconditioner_setup = PreconditionerSetup::when_it_pays;
   /// Cost of one `setup`, in evaluations of F; see when_it_pays. Range [0, inf).
   double setup_cost = 10.0;

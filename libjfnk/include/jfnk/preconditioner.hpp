@@ -7,13 +7,37 @@
 
 namespace jfnk {
 
-/// Any object whose `apply(r, z)` overwrites z with an approximation of J^{-1} r.
+namespace detail {
+
+template <class P, class V>
+concept HasApply = requires(P& p, const V& r, V& z) {
+  p.apply(r, z);
+};
+template <class P, class V>
+concept CallableOn = requires(P& p, const V& r, V& z) {
+  p(r, z);
+};
+template <class P, class V>
+concept PreconditionerOn = HasApply<P, V> || CallableOn<P, V>;
+
+/// z = P r by `apply` if there is one, else by a call.
+template <class P, class V>
+void apply_preconditioner(P& p, const V& r, V& z) {
+  if constexpr (HasApply<P, V>) {
+    p.apply(r, z);
+  } else {
+    p(r, z);
+  }
+}
+
+}  // namespace detail
+
+/// Any object whose `apply(r, z)` overwrites z with an approximation of J^{-1} r, or anything that
+/// can be called so.
 ///
 /// It must be linear in r and the same from call to call unless the Krylov solver is `flexible`.
 template <class P>
-concept Preconditioner = requires(P& p, const Vector& r, Vector& z) {
-  p.apply(r, z);
-};
+concept Preconditioner = detail::PreconditionerOn<P, Vector>;
 
 /// A preconditioner that wants to see the point of linearisation: `setup(u)`.
 template <class P>
@@ -34,10 +58,12 @@ class PreconditionerRef {
   requires(!std::same_as<std::remove_cv_t<P>, PreconditionerRef> &&
            Preconditioner<P>) explicit PreconditionerRef(P& p) {
     if constexpr (!std::same_as<std::remove_cv_t<P>, Identity>) {
-      object_ = const_cast<void*>(static_cast<const void*>(std::addressof(p)));
-      apply_ = [](void* o, const Vector& r, Vector& z) { static_cast<P*>(o)->apply(r, z); };
+      object_ = detail::erase(p);
+      apply_ = [](void* o, const Vector& r, Vector& z) {
+        detail::apply_preconditioner(detail::restore<P>(o), r, z);
+      };
       if constexpr (HasSetup<P>) {
-        setup_ = [](void* o, const Vector& u) { static_cast<P*>(o)->setup(u); };
+        setup_ = [](void* o, const Vector& u) { detail::restore<P>(o).setup(u); };
       }
     }
   }

@@ -21,7 +21,9 @@ enum class Status {
   local_minimum,  ///< no direction lowers ||F||: J^T F = 0 but F is not; u updated if improved
   in_progress,    ///< `step` has not yet come to an end
   stopped,        ///< the residual or the observer asked to stop; u updated if improved
-  noise_floor     ///< ||F|| is at the noise or rounding of F, above the tolerance; u updated
+  noise_floor,    ///< ||F|| is at the noise or rounding of F, above the tolerance; u updated
+  not_started,    ///< there has been no solve
+  threw           ///< a callable threw an exception; `solution` is the best point before that
 };
 
 /// What the Newton step that failed at the lowest ||F|| showed.
@@ -98,11 +100,11 @@ struct Component {
 
 /// What happened, why, and at what cost.
 struct Report {
-  Status status = Status::max_iterations;
-  std::string reason;                  ///< one sentence with numbers, and what to try
-  double residual_norm = 0.0;          ///< ||F|| at the returned u; NaN if never evaluated
-  double initial_residual_norm = 0.0;  ///< ||F(u0)||; NaN if never evaluated
-  double reference_norm = 0.0;         ///< scale of the relative tolerance at the returned u
+  Status status = Status::not_started;
+  std::string reason = "no solve was started";  ///< one sentence with numbers, and what to try
+  double residual_norm = 0.0;                   ///< ||F|| at the returned u; NaN if never evaluated
+  double initial_residual_norm = 0.0;           ///< ||F(u0)||; NaN if never evaluated
+  double reference_norm = 0.0;        ///< scale of the relative tolerance at the returned u
   double tolerance = 0.0;             ///< ||F|| that was asked: max(absolute, relative * reference)
   Eigen::Index worst_component = -1;  ///< of the largest |F_i|, or of the first that is not
                                       ///< finite at the start; -1 if unknown

@@ -40,6 +40,26 @@ template <class R>
 inline constexpr bool is_outcome =
     std::is_void_v<R> || std::same_as<R, bool> || std::same_as<R, Evaluation>;
 
+/// The address of anything callable, functions included, without its type.
+template <class T>
+void* erase(T& t) {
+  if constexpr (std::is_function_v<T>) {
+    return reinterpret_cast<void*>(std::addressof(t));
+  } else {
+    return const_cast<void*>(static_cast<const void*>(std::addressof(t)));
+  }
+}
+
+/// What `erase` was given.
+template <class T>
+T& restore(void* address) {
+  if constexpr (std::is_function_v<T>) {
+    return *reinterpret_cast<T*>(address);
+  } else {
+    return *static_cast<T*>(address);
+  }
+}
+
 /// Calls `call` and reads its answer: nothing means ok, false means out_of_domain.
 template <class Call>
 Evaluation outcome_of(Call&& call) {
@@ -144,30 +164,36 @@ class ResidualRef {
   template <class F>
   requires(!std::same_as<std::remove_cv_t<F>, ResidualRef> &&
            Residual<F>) explicit ResidualRef(F& f)
-      : object_(erase(f)) {
+      : object_(detail::erase(f)) {
     evaluate_ = [](void* o, const Vector& u, Vector& r) {
-      return detail::outcome_of([&] { return restore<F>(o)(u, r); });
+      return detail::outcome_of([&] { return detail::restore<F>(o)(u, r); });
     };
     if constexpr (HasJacobian<F>) {
       linearise_ = [](void* o, const Vector& u) {
-        return detail::outcome_of([&] { return restore<F>(o).linearise(u); });
+        return detail::outcome_of([&] { return detail::restore<F>(o).linearise(u); });
       };
       apply_jacobian_ = [](void* o, const Vector& v, Vector& Jv) {
-        return detail::outcome_of([&] { return restore<F>(o).apply_jacobian(v, Jv); });
+        return detail::outcome_of([&] { return detail::restore<F>(o).apply_jacobian(v, Jv); });
       };
     }
     if constexpr (HasReferenceNorm<F>) {
-      reference_norm_ = [](void* o) { return static_cast<double>(restore<F>(o).reference_norm()); };
+      reference_norm_ = [](void* o) {
+        return static_cast<double>(detail::restore<F>(o).reference_norm());
+      };
     }
     if constexpr (HasInnerProduct<F>) inner_product_ = InnerProductRef(std::as_const(f));
     if constexpr (HasGlobalSize<F>) {
-      global_size_ = [](void* o) { return static_cast<Eigen::Index>(restore<F>(o).global_size()); };
+      global_size_ = [](void* o) {
+        return static_cast<Eigen::Index>(detail::restore<F>(o).global_size());
+      };
     }
     if constexpr (HasOnAccept<F>) {
-      on_accept_ = [](void* o, const Vector& u) { restore<F>(o).on_accept(u); };
+      on_accept_ = [](void* o, const Vector& u) { detail::restore<F>(o).on_accept(u); };
     }
     if constexpr (HasStepFilter<F>) {
-      filter_step_ = [](void* o, const Vector& u, Vector& du) { restore<F>(o).filter_step(u, du); };
+      filter_step_ = [](void* o, const Vector& u, Vector& du) {
+        detail::restore<F>(o).filter_step(u, du);
+      };
     }
   }
 
@@ -203,15 +229,6 @@ class ResidualRef {
   void filter_step(const Vector& u, Vector& du) const { filter_step_(object_, u, du); }
 
  private:
-  template <class F>
-  static void* erase(F& f) {
-    return const_cast<void*>(static_cast<const void*>(std::addressof(f)));
-  }
-  template <class F>
-  static F& restore(void* o) {
-    return *static_cast<F*>(o);
-  }
-
   void* object_;
   Evaluation (*evaluate_)(void*, const Vector&, Vector&) = nullptr;
   Evaluation (*linearise_)(void*, const Vector&) = nullptr;

@@ -2,13 +2,17 @@
 
 #include <concepts>
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
+#include "jfnk/misuse.hpp"
 #include "jfnk/options.hpp"
 #include "jfnk/preconditioner.hpp"
 #include "jfnk/report.hpp"
 #include "jfnk/residual.hpp"
+#include "jfnk/vector_traits.hpp"
 
 namespace jfnk {
 
@@ -30,13 +34,12 @@ class ObserverRef {
   template <class O>
   requires(!std::same_as<std::remove_cv_t<O>, ObserverRef> &&
            Observer<O>) explicit ObserverRef(O& o)
-      : object_(const_cast<void*>(static_cast<const void*>(std::addressof(o)))),
-        call_([](void* p, const Iteration& i) {
+      : object_(detail::erase(o)), call_([](void* p, const Iteration& i) {
           if constexpr (std::is_void_v<decltype(std::declval<O&>()(i))>) {
-            (*static_cast<O*>(p))(i);
+            detail::restore<O>(p)(i);
             return true;
           } else {
-            return (*static_cast<O*>(p))(i);
+            return detail::restore<O>(p)(i);
           }
         }) {}
 
@@ -47,6 +50,69 @@ class ObserverRef {
   void* object_;
   bool (*call_)(void*, const Iteration&);
 };
+
+namespace detail {
+
+/// Vectors of doubles of Eigen's: mapped and fixed ones, parts of others, expressions.
+template <class U>
+concept EigenDoubles = requires(const U& u) {
+  []<class D>(const Eigen::MatrixBase<D>&) {}(u);
+  requires std::same_as<typename U::Scalar, double>;
+  requires U::ColsAtCompileTime == 1;
+};
+
+template <class O>
+constexpr void explain_observer() {
+  static_assert(Observer<O>,
+                "jfnk: the observer must be callable with a const Iteration& and return nothing or "
+                "bool (false: stop)");
+}
+
+/// Calls `run(residual, values, preconditioner, rounding)` on vectors of doubles, whatever the type
+/// of u: that of the residual's arguments, or one whose values fit into them.
+/// @param write  whether u receives the values afterwards
+template <bool write, class F, class U, class P, class Run>
+auto on_doubles(F& residual, U& u, P& preconditioner, Run&& run) {
+  using V = std::remove_const_t<U>;
+  constexpr double rounding = std::numeric_limits<double>::epsilon();
+  // Asked first where it costs no compiling of a generic residual for vectors it was not made for.
+  constexpr bool native = std::same_as<V, Vector>;
+  if constexpr (native) {
+    explain_residual<F, Vector>();
+    explain_preconditioner<P, Vector>();
+    return run(residual, u, preconditioner, rounding);
+  } else if constexpr (EigenDoubles<V> && TakesUAndR<F, Vector> &&
+                       (!write || std::is_assignable_v<U&, const Vector&>)) {
+    explain_residual<F, Vector>();
+    explain_preconditioner<P, Vector>();
+    Vector values = u;
+    const auto result = run(residual, values, preconditioner, rounding);
+    if constexpr (write) u = values;
+    return result;
+  } else if constexpr (ForeignVector<V>) {
+    explain_residual<F, V>();
+    Vector values(VectorTraits<V>::size(u));
+    VectorTraits<V>::read(u, values);
+    ForeignResidual<V, F> f(residual, u);
+    const auto result = [&] {
+      if constexpr (PreconditionerOn<P, Vector>) {
+        return run(f, values, preconditioner, rounding_of<V>);
+      } else {
+        explain_preconditioner<P, V>();
+        ForeignPreconditioner<V, P> p(preconditioner, u);
+        return run(f, values, p, rounding_of<V>);
+      }
+    }();
+    if constexpr (write) VectorTraits<V>::write(values, u);
+    return result;
+  } else {
+    static_assert(native,
+                  "jfnk: u must be a jfnk::Vector, another vector of Eigen's, a std::vector of "
+                  "float or double, or of a type with a specialisation of jfnk::VectorTraits");
+  }
+}
+
+}  // namespace detail
 
 /// All that a solve needs to go on, as plain numbers: two solvers with equal options, residual and
 /// preconditioner continue from equal snapshots bit for bit.
@@ -76,6 +142,11 @@ class Solver {
 
   /// Finds u with F(u) = 0.
   ///
+  /// u is a `Vector`, or any other vector of doubles of Eigen's (a map, a fixed one) with a
+  /// residual on `Vector`; or residual, preconditioner and u are all of one type with VectorTraits,
+  /// such as std::vector (but `dot` takes two `Vector`, the local parts). In single precision
+  /// `jacobian.noise`, unless chosen, becomes the root of its rounding unit. Functions, lambdas and
+  /// objects will do.
   /// Exceptions of the residual, preconditioner or observer pass through; u is then unchanged.
   /// @param F  residual; see the concepts in residual.hpp for what it may offer
   /// @param[in,out] u  first guess; on return the solution or the best iterate (see Status)
@@ -85,34 +156,64 @@ class Solver {
   /// @throws std::invalid_argument if u is empty, sizes of options disagree with it, or the
   /// residual
   ///   resizes its output
-  template <Residual F, Preconditioner P = Identity, Observer O = NoObserver>
-  const Report& solve(F&& residual, Vector& u, P&& preconditioner = {}, O&& observer = {}) {
-    return solve_erased(ResidualRef(residual), u, PreconditionerRef(preconditioner),
-                        ObserverRef(observer));
+  template <class F, class U, class P = Identity, class O = NoObserver>
+  const Report& solve(F&& residual, U&& u, P&& preconditioner = {}, O&& observer = {}) {
+    detail::explain_observer<std::remove_reference_t<O>>();
+    return *detail::on_doubles<true>(
+        residual, u, preconditioner, [&](auto& f, Vector& values, auto& p, double rounding) {
+          return &solve_erased(ResidualRef(f), values, PreconditionerRef(p), ObserverRef(observer),
+                               rounding);
+        });
   }
 
   /// The same by hand: `start`, then `step` while it returns true, then `report` and `solution`.
-  /// `start` evaluates F at u and sets up the preconditioner.
+  /// `start` evaluates F at u and sets up the preconditioner. Vectors as for `solve`.
   /// @return whether there is anything left to do
-  template <Residual F, Preconditioner P = Identity, Observer O = NoObserver>
-  bool start(F&& residual, const Vector& u, P&& preconditioner = {}, O&& observer = {}) {
-    return start_erased(ResidualRef(residual), u, PreconditionerRef(preconditioner),
-                        ObserverRef(observer));
+  template <class F, class U, class P = Identity, class O = NoObserver>
+  bool start(F&& residual, const U& u, P&& preconditioner = {}, O&& observer = {}) {
+    detail::explain_observer<std::remove_reference_t<O>>();
+    return detail::on_doubles<false>(
+        residual, u, preconditioner, [&](auto& f, const Vector& values, auto& p, double rounding) {
+          return start_erased(ResidualRef(f), values, PreconditionerRef(p), ObserverRef(observer),
+                              rounding);
+        });
   }
 
-  /// One nonlinear iteration. After an exception of a callable, begin again by `start`.
+  /// One nonlinear iteration. After an exception of a callable there is nothing left to do.
   /// @return whether there is anything left to do; false as well if nothing was started
-  template <Residual F, Preconditioner P = Identity, Observer O = NoObserver>
+  template <Residual F, class P = Identity, class O = NoObserver>
+  requires Preconditioner<P>
   bool step(F&& residual, P&& preconditioner = {}, O&& observer = {}) {
+    detail::explain_residual<std::remove_reference_t<F>, Vector>();
+    detail::explain_observer<std::remove_reference_t<O>>();
     return step_erased(ResidualRef(residual), PreconditionerRef(preconditioner),
                        ObserverRef(observer));
   }
 
-  /// What has happened so far; `Status::in_progress` until `step` has returned false.
+  /// The same for a residual on another type of vector than `Vector`.
+  /// @param like  any vector of that type and of the size of u; its values are not looked at
+  template <class F, class U, class P = Identity, class O = NoObserver>
+  requires(!Preconditioner<U>) bool step(F&& residual, const U& like, P&& preconditioner = {},
+                                         O&& observer = {}) {
+    detail::explain_observer<std::remove_reference_t<O>>();
+    return detail::on_doubles<false>(
+        residual, like, preconditioner, [&](auto& f, const Vector&, auto& p, double) {
+          return step_erased(ResidualRef(f), PreconditionerRef(p), ObserverRef(observer));
+        });
+  }
+
+  /// What has happened so far: `Status::not_started` before `start`, `Status::in_progress` until
+  /// `step` has returned false.
   [[nodiscard]] const Report& report() const;
 
   /// The iterate of the lowest ||F|| so far; empty before `start`.
   [[nodiscard]] Vector solution() const;
+  /// The same into a vector of another type.
+  /// @param[out] u  of the size of the first guess
+  template <ForeignVector V>
+  void solution(V& u) const {
+    VectorTraits<V>::write(solution(), u);
+  }
 
   /// The state between two steps.
   [[nodiscard]] Snapshot save() const;
@@ -124,9 +225,11 @@ class Solver {
 
  private:
   const Report& solve_erased(const ResidualRef& residual, Vector& u,
-                             const PreconditionerRef& preconditioner, const ObserverRef& observer);
+                             const PreconditionerRef& preconditioner, const ObserverRef& observer,
+                             double rounding);
   bool start_erased(const ResidualRef& residual, const Vector& u,
-                    const PreconditionerRef& preconditioner, const ObserverRef& observer);
+                    const PreconditionerRef& preconditioner, const ObserverRef& observer,
+                    double rounding);
   bool step_erased(const ResidualRef& residual, const PreconditionerRef& preconditioner,
                    const ObserverRef& observer);
 
@@ -135,8 +238,8 @@ class Solver {
 };
 
 /// Finds u with F(u) = 0 once. See `Solver::solve`.
-template <Residual F, Preconditioner P = Identity, Observer O = NoObserver>
-[[nodiscard]] Report solve(F&& residual, Vector& u, const Options& options = {},
+template <class F, class U, class P = Identity, class O = NoObserver>
+[[nodiscard]] Report solve(F&& residual, U&& u, const Options& options = {},
                            P&& preconditioner = {}, O&& observer = {}) {
   Solver solver(options);
   return solver.solve(residual, u, preconditioner, observer);

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <limits>
+#include <variant>
+
+#include "equilibrium/row_data.hpp"
+
+// One binary serves every x86-64; the loader picks the widest variant the processor has. Sanitizer
+// builds keep to one (their runtime is not up when the loader resolves the variants).
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && defined(__OPTIMIZE__)
+#define EQUILIBRIUM_HOT __attribute__((target_clones("arch=x86-64-v3", "default"), flatten))
+#else
+#define EQUILIBRIUM_HOT
+#endif
+
+namespace equilibrium {
+
+/// Runs some work over all rows of an operator, block by block, in parallel.
+///
+/// The work on a particle is a template over `Real`; `lane_count` consecutive particles are worked
+/// on at a time as long as there are so many of one material.
+template <int Dim, class Law>
+struct RowLoop {
+  template <class Real>
+  using Moments = RowMoments<Dim, Law::mixed, Real>;
+  static constexpr fpm::Index none = std::numeric_limits<fpm::Index>::max();
+
+  /// Whether particles of a material can be worked on side by side.
+  template <class Work, class Material>
+  static constexpr bool wide = Work::wide && !requires {
+    Material::one_point_at_a_time;
+  };
+
+  /// Rows [begin, end) of one block and one material. `Work::row` returns where it could; the
+  /// lowest index where it could not is returned, else `none`.
+  template <class Work, class Material>
+  static fpm::Index plain_rows(const LoopData<Dim>& data, fpm::Index begin, fpm::Index end,
+                               const double* moments, const Material& material) {
+    const fpm::Channels channels = data.op.channels();
+    fpm::Index failed = none;
+    fpm::Index a = begin;
+    if constexpr (wide<Work, Material>) {
+      for (; a + lane_count <= end; a += lane_count) {
+        const LaneMask could =
+            Work::row(data, a, Moments<Lanes>{moments + (a - begin), channels}, material);
+        if (!any(!could)) continue;
+        for (int lane = lane_count - 1; lane >= 0; --lane) {
+          if (!could[lane]) failed = std::min(failed, a + lane);
+        }
+      }
+    }
+    for (; a < end; ++a) {
+      if (!Work::row(data, a, Moments<double>{moments + (a - begin), channels}, material)) {
+        failed = std::min(failed, a);
+      }
+    }
+    return failed;
+  }
+
+  /// The same, compiled for several instruction sets with everything inlined.
+  template <class Work, class Material>
+  EQUILIBRIUM_HOT static fpm::Index hot_rows(const LoopData<Dim>& data, fpm::Index begin,
+                                             fpm::Index end, const double* moments,
+                                             const Material& material) {
+    return plain_rows<Work>(data, begin, end, moments, material);
+  }
+
+  template <class Work, class Material>
+  static fpm::Index rows(const LoopData<Dim>& data, fpm::Index begin, fpm::Index end,
+                         const double* moments, const Material& material) {
+    // The scene's check refuses a material that its integration does not support.
+    if constexpr (!Law::template supports<Material>) {
+      return begin;
+    } else if constexpr (wide<Work, Material>) {
+      return hot_rows<Work>(data, begin, end, moments, material);
+    } else {
+      return plain_rows<Work>(data, begin, end, moments, material);
+    }
+  }
+
+  /// Rows of one block, with one visit per run of equal material.
+  template <class Work>
+  static fpm::Index material_runs(const LoopData<Dim>& data, fpm::Index first, fpm::Index end,
+                                  const double* moments) {
+    const auto& material_of = data.material_of;
+    fpm::Index failed = none;
+    for (fpm::Index begin = first; begin < end;) {
+      const auto material = material_of[static_cast<std::size_t>(begin)];
+      fpm::Index run_end = begin + 1;
+      while (run_end < end && material_of[static_cast<std::size_t>(run_end)] == material) {
+        ++run_end;
+      }
+      const fpm::Index run_failed = std::visit(
+          [&](const auto& m) {
+            return rows<Work>(data, begin, run_end, moments + (begin - first), m);
+          },
+          data.materials[material]);
+      failed = std::min(failed, run_failed);
+      begin = run_end;
+    }
+    return failed;
+  }
+
+  /// Runs `Work` over all rows, block by block.
+  template <class Work>
+  static LoopOutcome for_each_row(const LoopData<Dim>& data) {
+    const auto& op = data.op;
+    fpm::Index failed = none;
+#pragma omp parallel reduction(min : failed)
+    {
+      alignas(64) double
+          moments[fpm::most_channels<Dim> * Dim * fpm::MomentOperator<Dim>::block_stride];
+#pragma omp for schedule(static)
+      for (fpm::Index block = 0; block < op.block_count(); ++block) {
+        op.gather(block, data.evaluation.extended.data(), moments);
+        const fpm::Index first = op.block_first(block);
+        const fpm::Index end = first + op.block_size(block);
+        if constexpr (Work::by_material) {
+          failed = std::min(failed, material_runs<Work>(data, first, end, moments));
+        } else {
+          failed = std::min(failed, hot_rows<Work>(data, first, end, moments, std::monostate{}));
+        }
+      }
+    }
+    return {failed == none ? -1 : failed};
+  }
+};
+
+}  // namespace equilibrium
