@@ -137,23 +137,13 @@ void constrain(const scene::Scene& scene, Model<Dim>& model) {
 template <int Dim>
 void set_geostatic_stress(const scene::Scene& scene, const Model<Dim>& model, State<Dim>& state) {
   constexpr int up = 1;
-  const double gravity = -scene.gravity.acceleration[static_cast<std::size_t>(up)];
-  const double surface = scene.initial_stress.surface.value_or(model.box_max[up]);
-  // Weight of the column above, in slices of at most a spacing, each of the material at its middle.
   for (Eigen::Index a = 0; a < model.size(); ++a) {
     const scene::Material& material = scene.material[model.material[static_cast<std::size_t>(a)]];
-    Eigen::Matrix<double, 1, Dim> x = model.particles.position.row(a);
-    const double depth = surface - x[up];
-    const double slices = std::max(1.0, std::ceil(std::abs(depth) / model.spacing));
-    double vertical = -scene.initial_stress.surcharge;
-    for (double k = 0.5; k < slices; k += 1.0) {
-      x[up] = surface - depth * (k / slices);
-      vertical -= scene.material[material_at<Dim>(scene, x)].density * gravity * (depth / slices);
-    }
-    const double k0 =
-        scene.initial_stress.K0.value_or(material.poissons_ratio / (1.0 - material.poissons_ratio));
+    const fpm::Vector<Dim> x = model.particles.position.row(a).transpose();
+    const double vertical = scene::geostatic_stress(scene, {x.data(), Dim});
     state.stress.col(a).setZero();
-    state.stress.col(a).template head<3>().setConstant(k0 * vertical);
+    state.stress.col(a).template head<3>().setConstant(scene::resolve_K0(scene, material) *
+                                                       vertical);
     state.stress(up, a) = vertical;
   }
 }

@@ -1,8 +1,10 @@
 #include "model/loads.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "model/selection.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
 
@@ -108,18 +110,65 @@ void add_tractions(const scene::Scene& scene, Model<Dim>& model) {
   }
 }
 
+// The particles of a region, or the one at a place, as points: each with the area of one face of
+// its cell.
+template <int Dim>
+SidePoints<Dim> particle_points(const scene::Scene& scene, const Model<Dim>& model,
+                                const scene::Support& support) {
+  SidePoints<Dim> result;
+  std::vector<fpm::Index> particles;
+  for (const Eigen::Index a : supported_particles(scene, support, model)) {
+    particles.push_back(static_cast<fpm::Index>(a));
+  }
+  const auto n = static_cast<Eigen::Index>(particles.size());
+  result.points.position.resize(n, Dim);
+  result.points.normal.setZero(n, Dim);  // a support by components has no use for it
+  result.points.weight.resize(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const fpm::Index a = particles[static_cast<std::size_t>(k)];
+    result.points.position.row(k) = model.particles.position.row(a);
+    result.points.weight[k] = std::pow(model.particles.volume[a], (Dim - 1.0) / Dim);
+  }
+  result.op = fpm::PointOperator<Dim>::at_particles(model.particles, model.ghosts, particles,
+                                                    model.row_options);
+  return result;
+}
+
+// Young's modulus of the material that each point of a support holds: that of the particles next
+// to it, half a spacing into the body from a point on a face of cells.
+template <int Dim>
+Eigen::VectorXd moduli_at(const scene::Scene& scene, const scene::Support& support,
+                          const fpm::Field<Dim>& points) {
+  fpm::Vector<Dim> inward = fpm::Vector<Dim>::Zero();
+  if (support.side && scene.geometry.layout == scene::Layout::cell) {
+    inward[scene::axis_of(*support.side)] =
+        (scene::is_upper(*support.side) ? -0.5 : 0.5) * scene.geometry.spacing;
+  }
+  Eigen::VectorXd moduli(points.rows());
+  for (Eigen::Index k = 0; k < points.rows(); ++k) {
+    const fpm::Vector<Dim> place = points.row(k).transpose() + inward;
+    moduli[k] = scene.material[scene::material_at(scene, {place.data(), Dim})].youngs_modulus;
+  }
+  return moduli;
+}
+
+// The stiffness follows the material that is held, point by point.
 template <int Dim>
 void add_penalty_supports(const scene::Scene& scene, Model<Dim>& model) {
   for (const scene::Support& support : scene.support) {
     if (support.method != scene::SupportMethod::penalty) continue;
-    auto side = side_points(scene, model, *support.side, {}, {});
+    auto side = support.side ? side_points(scene, model, *support.side, {}, {})
+                             : particle_points(scene, model, support);
     fpm::PenaltyOptions<Dim> options;
-    options.penalty =
-        support.penalty_factor * model.youngs_modulus.front() / scene.geometry.spacing;
     options.prescribed = fpm::PenaltyOptions<Dim>::filled(false);
     for (const scene::Axis axis : support.directions) {
       options.prescribed[static_cast<std::size_t>(axis)] = true;
     }
+    const Eigen::VectorXd moduli = moduli_at<Dim>(scene, support, side.points.position);
+    const double largest = moduli.maxCoeff();
+    options.penalty = support.penalty_factor * largest / scene.geometry.spacing;
+    // One penalty per support: the weights carry the ratio of the moduli.
+    side.points.weight.array() *= moduli.array() / largest;
     const fpm::Field<Dim> target = fpm::Field<Dim>::Zero(side.points.size(), Dim);
     model.penalty_supports.push_back({std::move(side.op), std::move(side.points), options, target});
   }

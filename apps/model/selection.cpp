@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scene/derived.hpp"
+#include "scene/places.hpp"
 #include "scene/scene.hpp"
 
 namespace model {
@@ -10,10 +11,10 @@ namespace {
 
 template <int Dim>
 bool inside(const Eigen::Matrix<double, 1, Dim>& x, const scene::Point& min,
-            const scene::Point& max) {
+            const scene::Point& max, double slack) {
   for (int i = 0; i < Dim; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    if (x[i] < min[k] || x[i] > max[k]) return false;
+    if (x[i] < min[k] - slack || x[i] > max[k] + slack) return false;
   }
   return true;
 }
@@ -32,7 +33,7 @@ template <int Dim>
 bool in_side_range(const Model<Dim>& model, scene::Side side, const scene::Point& min,
                    const scene::Point& max, Eigen::Index a) {
   if (min.empty()) return true;
-  const double slack = 1e-9 * model.spacing;
+  const double slack = scene::same_place * model.spacing;
   std::size_t k = 0;
   for (int i = 0; i < Dim; ++i) {
     if (i == scene::axis_of(side)) continue;
@@ -58,9 +59,10 @@ std::vector<Eigen::Index> supported_particles(const scene::Scene& scene,
     return {nearest};
   }
   for (Eigen::Index a = 0; a < model.size(); ++a) {
-    const bool hit = support.side ? on_side(scene, model, *support.side, a)
-                                  : inside<Dim>(model.particles.position.row(a), support.region_min,
-                                                support.region_max);
+    const bool hit = support.side
+                         ? on_side(scene, model, *support.side, a)
+                         : inside<Dim>(model.particles.position.row(a), support.region_min,
+                                       support.region_max, scene::same_place * model.spacing);
     if (hit) chosen.push_back(a);
   }
   return chosen;

@@ -192,7 +192,7 @@ std::string scene_summary(const scene::Scene& scene) {
   line("particles", fmt::format("{} ({}, spacing {} m)", scene::particle_count(scene.geometry),
                                 lattice, scene.geometry.spacing));
   for (const scene::Material& material : scene.material) {
-    line("material", fmt::format("{}: {}", material.name, scene::name_of(material.model)));
+    line("material", fmt::format("{}: {}", material.name, material.model));
   }
   line("kinematics", std::string(scene::name_of(scene.approximation.kinematics)));
   line("hourglass",

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include "scene/scene.hpp"
 #include "tables/problem.hpp"
 
@@ -16,6 +18,7 @@ void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_boundaries(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_loads(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_drive(const Scene& scene, tables::Diagnosis& diagnosis);
+void check_places(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_run(const Scene& scene, tables::Diagnosis& diagnosis);
 
 /// Whether `point` has one entry per dimension; reports otherwise. An empty (absent) point passes.
@@ -35,6 +38,21 @@ bool check_range(Side side, const Point& range_min, const Point& range_max,
 /// Whether a side exists in this dimension; reports otherwise.
 bool check_side(Side side, const std::string& key, const Scene& scene,
                 tables::Diagnosis& diagnosis);
+
+/// Refuses a name that an earlier entry of `table` has.
+template <class Entry>
+void check_names(const std::vector<Entry>& entries, const char* table,
+                 tables::Diagnosis& diagnosis) {
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    for (std::size_t other = 0; other < i && !entries[i].name.empty(); ++other) {
+      if (entries[other].name != entries[i].name) continue;
+      diagnosis.error(fmt::format("{}.{}.name", table, i),
+                      fmt::format("found \"{}\" again", entries[i].name),
+                      fmt::format("names of {}s are unique", table));
+      break;
+    }
+  }
+}
 
 /// Whether the box itself is well formed, so that places can be compared with it.
 [[nodiscard]] bool box_is_good(const Scene& scene, const tables::Diagnosis& diagnosis);

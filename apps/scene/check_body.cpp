@@ -7,6 +7,7 @@
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
 #include "scene/names.hpp"
+#include "scene/places.hpp"
 #include "tables/table.hpp"
 
 namespace scene {
@@ -109,6 +110,14 @@ void check_parameters(const Scene& scene, const Material& material, const std::s
       diagnosis.error(key(objection.parameter), objection.found, objection.allowed);
     }
   }
+  if (material.model == "von_mises" && scene.geometry.dimension == 3 &&
+      diagnosis.good({"geometry.dimension"})) {
+    diagnosis.warning(
+        key("model"), "found von_mises in 3D",
+        "it is the cylinder sqrt(J2) = cohesion: compression carries 1.73 cohesion "
+        "where undrained clay has 2; model = \"mohr_coulomb\" with friction_angle = 0 "
+        "has its prism");
+  }
   if (!model.only_plane_strain.empty() && scene.geometry.dimension == 3 &&
       diagnosis.good({"geometry.dimension", key("match")})) {
     diagnosis.error(key(model.match.empty() ? "model" : "match"),
@@ -175,7 +184,9 @@ bool check_region(const Point& region_min, const Point& region_max, const std::s
                       fmt::format("it must not be below region_min, {}", region_min[i]));
       return false;
     }
-    if (region_max[i] < scene.geometry.min[i] || region_min[i] > scene.geometry.max[i]) {
+    const double slack = same_place * scene.geometry.spacing;
+    if (region_max[i] < scene.geometry.min[i] - slack ||
+        region_min[i] > scene.geometry.max[i] + slack) {
       diagnosis.error(
           lower, fmt::format("the region is outside the body along {}", axis),
           fmt::format("the body is from {} to {}", scene.geometry.min[i], scene.geometry.max[i]));
@@ -204,14 +215,8 @@ void check_geometry(const Scene& scene, tables::Diagnosis& diagnosis) {
 void check_materials(const Scene& scene, tables::Diagnosis& diagnosis) {
   for (std::size_t i = 0; i < scene.material.size(); ++i) {
     check_material(scene, i, diagnosis);
-    const auto same = [&](const Material& m) { return m.name == scene.material[i].name; };
-    const auto end = scene.material.begin() + static_cast<std::ptrdiff_t>(i);
-    if (!scene.material[i].name.empty() && std::any_of(scene.material.begin(), end, same)) {
-      diagnosis.error(fmt::format("material.{}.name", i),
-                      fmt::format("found \"{}\" again", scene.material[i].name),
-                      "names of materials are unique");
-    }
   }
+  check_names(scene.material, "material", diagnosis);
 }
 
 void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis) {

@@ -6,13 +6,11 @@
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
 #include "scene/names.hpp"
+#include "scene/places.hpp"
 
 namespace scene {
 
 namespace {
-
-// Relative tolerance of "at the same place" in units of the spacing: decimal input.
-constexpr double same_place = 1e-9;
 
 void check_axis(Axis axis, const std::string& key, const Scene& scene,
                 tables::Diagnosis& diagnosis) {
@@ -70,7 +68,11 @@ void check_support_choice(const Scene& scene, const Support& support, const std:
     return;
   }
   for (std::size_t i = 0; i < n; ++i) {
-    if (support.at[i] >= scene.geometry.min[i] && support.at[i] <= scene.geometry.max[i]) continue;
+    const double slack = same_place * scene.geometry.spacing;
+    if (support.at[i] >= scene.geometry.min[i] - slack &&
+        support.at[i] <= scene.geometry.max[i] + slack) {
+      continue;
+    }
     diagnosis.error(
         at, fmt::format("found {} along {}", support.at[i], name_of(static_cast<Axis>(i))),
         fmt::format("the body is from {} to {}", scene.geometry.min[i], scene.geometry.max[i]));
@@ -162,6 +164,7 @@ void check_boundaries(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
   for (std::size_t i = 0; i < scene.symmetry.size(); ++i) check_symmetry(scene, i, diagnosis);
   for (std::size_t i = 0; i < scene.support.size(); ++i) check_support(scene, i, diagnosis);
+  check_names(scene.support, "support", diagnosis);
   if (!diagnosis.good({"geometry.dimension", "support", "symmetry", "drive"})) return;
   for (int i = 0; i < scene.geometry.dimension; ++i) {
     if (is_held(scene, static_cast<Axis>(i))) continue;

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "constitutive/parameters.hpp"
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
 #include "scene/names.hpp"
+#include "scene/places.hpp"
 
 namespace scene {
 
@@ -13,6 +16,9 @@ namespace {
 
 // Components of a unit vector typed with six digits.
 constexpr double unit_length = 1e-5;
+
+// More are a slip of the pen.
+constexpr double most_steps = 1e9;
 
 std::size_t dimension_of(const Scene& scene) {
   return static_cast<std::size_t>(scene.geometry.dimension);
@@ -35,6 +41,93 @@ void check_gravity(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
 }
 
+/// Whether the weight above any place can be summed up.
+bool ground_is_good(const Scene& scene, const tables::Diagnosis& diagnosis) {
+  if (!box_is_good(scene, diagnosis) || !diagnosis.good({"geometry.spacing", "initial_stress"})) {
+    return false;
+  }
+  const auto n = dimension_of(scene);
+  for (std::size_t i = 1; i < scene.material.size(); ++i) {
+    const Material& material = scene.material[i];
+    if (material.region_min.size() != n || material.region_max.size() != n) return false;
+  }
+  constexpr double most_slices = 1e6;
+  const double surface = scene.initial_stress.surface.value_or(scene.geometry.max[1]);
+  return (surface - scene.geometry.min[1]) / scene.geometry.spacing < most_slices;
+}
+
+/// Whether the tractions that act from the start press on the top as much as the ground above the
+/// body that the initial stress speaks of.
+void check_surcharge(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const InitialStress& initial = scene.initial_stress;
+  if (!diagnosis.good({"traction", "initial_stress.surcharge"})) return;
+  Point top = scene.geometry.max;
+  for (std::size_t i = 0; i < top.size(); ++i) {
+    if (i != 1) top[i] = 0.5 * (scene.geometry.min[i] + scene.geometry.max[i]);
+  }
+  const double pressure = -geostatic_stress(scene, top);
+  const auto& scales = scene.drive.scales;
+  const bool grows = scene.drive.kind == DriveKind::load &&
+                     std::find(scales.begin(), scales.end(), LoadKind::traction) != scales.end();
+  const bool carried =
+      std::any_of(scene.traction.begin(), scene.traction.end(), [&](const Traction& traction) {
+        constexpr double of_pressure = 1e-6;  // typed with seven digits
+        return traction.side == Side::top && traction.value.size() > 1 && !grows &&
+               std::abs(traction.value[1] + pressure) <= of_pressure * pressure;
+      });
+  if (pressure <= 0.0 || carried) return;
+  diagnosis.warning(initial.surcharge > 0.0 ? "initial_stress.surcharge" : "initial_stress.surface",
+                    fmt::format("the initial stress carries {:.6g} Pa on the top face, but no "
+                                "traction does from the start",
+                                pressure),
+                    fmt::format("the ground heaves: add a [[traction]] on side = \"top\" with the "
+                                "normal value {:.6g}",
+                                -pressure));
+}
+
+/// Says where the initial stress is more than the ground can bear (Mohr-Coulomb in the plane).
+void check_K0(const Scene& scene, tables::Diagnosis& diagnosis) {
+  if (!diagnosis.good({"material", "initial_stress.K0"})) return;
+  const Geometry& geometry = scene.geometry;
+  for (std::size_t i = 0; i < scene.material.size(); ++i) {
+    const Material& material = scene.material[i];
+    const std::string table = fmt::format("material.{}", i);
+    if (!yields(material) ||
+        !diagnosis.good({table + ".cohesion", table + ".friction_angle", table + ".poissons_ratio",
+                         table + ".region_min", table + ".region_max", table + ".density"})) {
+      continue;
+    }
+    // The deepest place of the material, where the stress is largest.
+    Point deepest = geometry.min;
+    for (std::size_t axis = 0; axis < deepest.size(); ++axis) {
+      const double lower = material.region_min.empty()
+                               ? geometry.min[axis]
+                               : std::max(geometry.min[axis], material.region_min[axis]);
+      const double upper = material.region_max.empty()
+                               ? geometry.max[axis]
+                               : std::min(geometry.max[axis], material.region_max[axis]);
+      deepest[axis] = axis == 1 ? lower : 0.5 * (lower + upper);
+    }
+    const double vertical = -geostatic_stress(scene, deepest);
+    const double horizontal = resolve_K0(scene, material) * vertical;
+    const double phi = parameters_of(material).friction_angle * std::numbers::pi / 180.0;
+    const double Kp = std::pow(std::tan(std::numbers::pi / 4.0 + phi / 2.0), 2);
+    const double cohesion = material.cohesion.value_or(0.0);
+    const double least = vertical / Kp - 2.0 * cohesion / std::sqrt(Kp);
+    const double most = vertical * Kp + 2.0 * cohesion * std::sqrt(Kp);
+    constexpr double round_off = 1e-6;
+    if (vertical <= 0.0 ||
+        (horizontal >= least - round_off * vertical && horizontal <= most + round_off * vertical)) {
+      continue;
+    }
+    diagnosis.warning("initial_stress.K0",
+                      fmt::format("{:.4g} is more than the material \"{}\" bears at y = {:.6g}",
+                                  horizontal / vertical, material.name, deepest[1]),
+                      fmt::format("it yields in the first step; it bears {:.4g} .. {:.4g} there",
+                                  std::max(0.0, least / vertical), most / vertical));
+  }
+}
+
 void check_initial_stress(const Scene& scene, tables::Diagnosis& diagnosis) {
   const InitialStress& initial = scene.initial_stress;
   const std::string kind = "initial_stress.kind";
@@ -52,14 +145,32 @@ void check_initial_stress(const Scene& scene, tables::Diagnosis& diagnosis) {
     diagnosis.error("gravity.acceleration", "found a direction other than -y",
                     "geostatic stress needs gravity along -y");
   }
-  if (!initial.surface || !diagnosis.good({"initial_stress.surface"}) ||
+  if (!diagnosis.good({"initial_stress.surface", "gravity.acceleration", "geometry.spacing"}) ||
       !box_is_good(scene, diagnosis)) {
     return;
   }
-  if (*initial.surface < scene.geometry.max[1]) {
+  if (!initial.surface || *initial.surface >= scene.geometry.max[1]) {
+    if (!down || !ground_is_good(scene, diagnosis)) return;
+    check_surcharge(scene, diagnosis);
+    check_K0(scene, diagnosis);
+  } else {
     diagnosis.error("initial_stress.surface", fmt::format("found {}", *initial.surface),
                     fmt::format("below the top face, y = {}, the soil above would be in tension",
                                 scene.geometry.max[1]));
+  }
+}
+
+/// A load that follows the boundary is a pressure.
+void check_following(const Traction& traction, const std::string& table,
+                     tables::Diagnosis& diagnosis) {
+  if (!traction.follower || !diagnosis.good({table + ".value", table + ".follower"})) return;
+  for (std::size_t i = 0; i < traction.value.size(); ++i) {
+    if (i == static_cast<std::size_t>(axis_of(traction.side)) || traction.value[i] == 0.0) continue;
+    diagnosis.error(table + ".value",
+                    fmt::format("found {} along the side, with follower = true", traction.value[i]),
+                    "what follows the boundary is a pressure: give the part along the side as a "
+                    "dead load, a [[traction]] of its own");
+    return;
   }
 }
 
@@ -70,6 +181,7 @@ void check_tractions(const Scene& scene, tables::Diagnosis& diagnosis) {
     check_length(traction.value, dimension_of(scene), table + ".value", scene, diagnosis);
     if (!check_side(traction.side, table + ".side", scene, diagnosis)) continue;
     check_range(traction.side, traction.range_min, traction.range_max, table, scene, diagnosis);
+    check_following(traction, table, diagnosis);
     const bool follows = traction.follower && diagnosis.good({table + ".follower"});
     if (follows && scene.approximation.kinematics == KinematicsKind::small_strain) {
       diagnosis.error(table + ".follower", "found true with small_strain kinematics",
@@ -92,24 +204,14 @@ void check_direction(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (std::abs(std::sqrt(square) - 1.0) > unit_length) {
     diagnosis.error(key, fmt::format("found a vector of length {:.6g}", std::sqrt(square)),
                     "it must be a unit vector");
+    return;
   }
-}
-
-/// Whether a particle of the side lies in the driven range (cell or vertex positions).
-bool range_holds_particle(const Scene& scene) {
-  const Geometry& geometry = scene.geometry;
-  const double first = geometry.layout == Layout::cell ? 0.5 : 0.0;
-  for (std::size_t axis = 0, i = 0; axis < dimension_of(scene); ++axis) {
-    if (axis == static_cast<std::size_t>(axis_of(scene.drive.side))) continue;
-    // Index of the first particle at or after range_min, to a rounding error.
-    constexpr double round_off = 1e-9;
-    const double at = (scene.drive.range_min[i] - geometry.min[axis]) / geometry.spacing - first;
-    const double next = std::max(0.0, std::ceil(at - round_off));
-    const double position = geometry.min[axis] + (next + first) * geometry.spacing;
-    if (position > scene.drive.range_max[i] + round_off * geometry.spacing) return false;
-    ++i;
+  const auto along = std::count_if(direction.begin(), direction.end(),
+                                   [](double component) { return component != 0.0; });
+  if (scene.drive.lateral == Lateral::free && along > 1 && diagnosis.good({"drive.lateral"})) {
+    diagnosis.error("drive.lateral", "found free with an oblique direction",
+                    "particles are free across x, y or z: drive along one of them, or use fixed");
   }
-  return true;
 }
 
 void check_displacement(const Scene& scene, tables::Diagnosis& diagnosis) {
@@ -131,7 +233,7 @@ void check_displacement(const Scene& scene, tables::Diagnosis& diagnosis) {
   const bool fits =
       check_range(drive.side, drive.range_min, drive.range_max, "drive", scene, diagnosis);
   if (!fits || drive.range_min.empty() || !diagnosis.good({"geometry.spacing"})) return;
-  if (!range_holds_particle(scene)) {
+  if (lattice_layer(scene.geometry, drive.side, drive.range_min, drive.range_max).empty()) {
     diagnosis.error("drive.range_max", "no particle lies between range_min and range_max",
                     fmt::format("particles are {} apart", scene.geometry.spacing));
   }
@@ -171,6 +273,7 @@ void check_load(const Scene& scene, tables::Diagnosis& diagnosis) {
 
 void check_loads(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_tractions(scene, diagnosis);
+  check_names(scene.traction, "traction", diagnosis);
   check_gravity(scene, diagnosis);
   check_initial_stress(scene, diagnosis);
 }
@@ -181,8 +284,39 @@ void check_drive(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (scene.drive.kind == DriveKind::load) check_load(scene, diagnosis);
 }
 
+/// Unbalanced forces of the tolerance are borne by friction Kp times over.
+void check_tolerance(const Scene& scene, tables::Diagnosis& diagnosis) {
+  constexpr double steepest = 60.0;  // [deg] below, the default tolerance costs 1 % at most
+  constexpr double error_of_load = 0.01;
+  const double tolerance = resolve_solver(scene.solver).tolerance;
+  for (std::size_t i = 0; i < scene.material.size(); ++i) {
+    const std::string key = fmt::format("material.{}.friction_angle", i);
+    if (!diagnosis.good({key, "solver.tolerance", fmt::format("material.{}.model", i)})) continue;
+    const double phi = parameters_of(scene.material[i]).friction_angle;
+    const double half = phi / 2.0 * std::numbers::pi / 180.0;
+    const double Kp = std::pow(std::tan(std::numbers::pi / 4.0 + half), 2);
+    if (!yields(scene.material[i]) || phi < steepest || tolerance * Kp <= error_of_load) continue;
+    diagnosis.error(key, fmt::format("found {}, with solver.tolerance = {}", phi, tolerance),
+                    fmt::format("loads would be off by tolerance x tan^2(45 + phi/2) = {:.2g}: "
+                                "allowed is solver.tolerance <= {:.2g}, or an angle below {}",
+                                tolerance * Kp, error_of_load / Kp, steepest));
+  }
+}
+
 void check_run(const Scene& scene, tables::Diagnosis& diagnosis) {
+  check_tolerance(scene, diagnosis);
   const Programme& programme = scene.programme;
+  const double steps =
+      scene.drive.target / (programme.increment_over_spacing * scene.geometry.spacing);
+  if (programme.steps.value_or(0) == 0 && scene.drive.kind == DriveKind::displacement &&
+      steps > most_steps &&
+      diagnosis.good({"programme.increment_over_spacing", "geometry.spacing", "drive.target",
+                      "programme.steps"})) {
+    diagnosis.error(
+        "programme.increment_over_spacing",
+        fmt::format("found {}, which makes {:.3g} steps", programme.increment_over_spacing, steps),
+        fmt::format("allowed are at most {:.0f}", most_steps));
+  }
   if (programme.maximum_increment_ratio < programme.minimum_increment_ratio &&
       diagnosis.good({"programme.maximum_increment_ratio", "programme.minimum_increment_ratio"})) {
     diagnosis.error("programme.maximum_increment_ratio",
@@ -225,6 +359,7 @@ void check_scene(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_boundaries(scene, diagnosis);
   check_loads(scene, diagnosis);
   check_drive(scene, diagnosis);
+  check_places(scene, diagnosis);
   check_run(scene, diagnosis);
 }
 

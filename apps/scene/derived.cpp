@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "constitutive/parameters.hpp"
+#include "scene/places.hpp"
 #include "scene/scene.hpp"
 
 namespace scene {
@@ -109,15 +110,38 @@ double side_position(const Geometry& geometry, Side side) {
 }
 
 std::size_t material_at(const Scene& scene, std::span<const double> place) {
+  const double slack = same_place * scene.geometry.spacing;
   const auto holds = [&](const Material& material) {
     for (std::size_t i = 0; i < place.size(); ++i) {
-      if (place[i] < material.region_min[i] || place[i] > material.region_max[i]) return false;
+      if (place[i] < material.region_min[i] - slack || place[i] > material.region_max[i] + slack) {
+        return false;
+      }
     }
     return true;
   };
   std::size_t m = scene.material.size() - 1;
   while (m > 0 && !holds(scene.material[m])) --m;
   return m;
+}
+
+double geostatic_stress(const Scene& scene, std::span<const double> place) {
+  constexpr std::size_t up = 1;
+  const double gravity = -scene.gravity.acceleration[up];
+  const double surface = scene.initial_stress.surface.value_or(scene.geometry.max[up]);
+  const double depth = surface - place[up];
+  const double slices = std::max(1.0, std::ceil(std::abs(depth) / scene.geometry.spacing));
+  Point at(place.begin(), place.end());
+  double vertical = -scene.initial_stress.surcharge;
+  for (double k = 0.5; k < slices; k += 1.0) {
+    at[up] = surface - depth * (k / slices);
+    vertical -= scene.material[material_at(scene, at)].density * gravity * (depth / slices);
+  }
+  return vertical;
+}
+
+double resolve_K0(const Scene& scene, const Material& material) {
+  return scene.initial_stress.K0.value_or(material.poissons_ratio /
+                                          (1.0 - material.poissons_ratio));
 }
 
 bool is_associated(const Scene& scene) {

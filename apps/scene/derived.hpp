@@ -64,6 +64,13 @@ struct SolverSettings {
 /// Index of the last material whose region holds a place; the first one fills the whole body.
 [[nodiscard]] std::size_t material_at(const Scene& scene, std::span<const double> place);
 
+/// Vertical stress [Pa] of geostatic ground at a place: the surcharge and the weight above, in
+/// slices of at most a spacing, each of the material at its middle.
+[[nodiscard]] double geostatic_stress(const Scene& scene, std::span<const double> place);
+
+/// Horizontal over vertical geostatic stress in a material.
+[[nodiscard]] double resolve_K0(const Scene& scene, const Material& material);
+
 /// Whether every soil dilates by its friction angle.
 [[nodiscard]] bool is_associated(const Scene& scene);
 

@@ -59,7 +59,7 @@ SceneTable solver() {
            .source = "Chen, Huang & Lyamin 2020, Appendix A"})
       .key("tolerance", &Solver::tolerance,
            {.need = tables::Need::optional,
-            .range = {0.0, 1.0, true, true},
+            .range = {0.0, 0.01, true, false},
             .doc = "A step is converged when |r_free| <= tolerance max(|r_prescribed|, |f_ext|), "
                    "2-norms. 3e-4 costs about twice 1e-3 and takes the load 0.25 % lower.",
             .absent = "1e-3"})

@@ -120,6 +120,35 @@ std::string describe(const toml::node& node) {
   return text.str();
 }
 
+std::size_t line_of_endless_key(std::string_view text) {
+  constexpr int most_dots = 32;
+  std::size_t line = 1;
+  int dots = 0;
+  char quote = '\0';
+  bool comment = false;
+  for (const char c : text) {
+    if (c == '\n') {
+      ++line;
+      dots = 0;
+      quote = '\0';
+      comment = false;
+    } else if (comment) {
+      continue;
+    } else if (quote != '\0') {
+      if (c == quote) quote = '\0';
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '#') {
+      comment = true;
+    } else if (c == '.') {
+      if (++dots > most_dots) return line;
+    } else if (c == ',' || c == '=' || c == '[' || c == ']' || c == '{' || c == '}') {
+      dots = 0;  // no part of a key
+    }
+  }
+  return 0;
+}
+
 std::optional<Value> convert(const toml::node& node, const FieldInfo& field, const std::string& key,
                              Diagnosis& diagnosis) {
   const Reader reader{field, key, diagnosis};

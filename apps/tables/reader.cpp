@@ -184,6 +184,10 @@ Problem unreadable(const std::filesystem::path& file, const std::string& why) {
 std::optional<Problem> read_tables(std::string_view text, std::span<const std::string> settings,
                                    const std::vector<TableInfo>& tables, const TableSink& sink,
                                    Diagnosis& diagnosis) {
+  if (const std::size_t line = line_of_endless_key(text); line != 0) {
+    return Problem{fmt::format("{}:{}", diagnosis.source(), line), "", "a key of too many parts",
+                   "the deepest key has three, as in material.0.cohesion", ""};
+  }
   toml::table tree;
   try {
     tree = toml::parse(text, diagnosis.source());
@@ -209,6 +213,7 @@ std::variant<std::string, Problem> text_of(const std::filesystem::path& file) {
 }
 
 bool has_table(std::string_view text, std::string_view name) {
+  if (line_of_endless_key(text) != 0) return false;
   try {
     return toml::parse(text).contains(name);
   } catch (const toml::parse_error&) {

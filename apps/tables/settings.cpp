@@ -150,6 +150,7 @@ class Setter {
   /// `value = ...` as a TOML document, empty if it is none; a bare word counts as a text where the
   /// key takes texts, because shells eat quotes.
   [[nodiscard]] toml::table parse_value(const FieldInfo& field) const {
+    if (line_of_endless_key(setting_.value) != 0) return {};
     try {
       return toml::parse("value = " + setting_.value);
     } catch (const toml::parse_error&) {

@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "tables/problem.hpp"
 #include "tables/table.hpp"
@@ -18,6 +19,10 @@ namespace tables {
 
 /// A short description of a value for messages: `the text "abc"`, `-0.01`, `a table`.
 [[nodiscard]] std::string describe(const toml::node& node);
+
+/// The line of TOML text where a dotted key has more parts than any table here, and than a parser
+/// that nests a table for each can stand; 0 if there is none.
+[[nodiscard]] std::size_t line_of_endless_key(std::string_view text);
 
 /// Puts `key=value` settings into the tree; places and problems name `--set key=value`.
 void apply_settings(toml::table& tree, std::span<const std::string> settings,

@@ -88,8 +88,8 @@ TEST(SceneReader, WarnsOfABodyThatNothingHolds) {
 }
 
 TEST(SceneReader, WarnsOfAStrengthWithoutEffect) {
-  const auto reading =
-      parse_scene(support::sample_with("\"drucker_prager\"", "\"von_mises\""), "s.toml");
+  const auto reading = parse_scene(support::sample_with("\"drucker_prager\"", "\"von_mises\""),
+                                   "s.toml", std::vector<std::string>{"initial_stress.K0=1.0"});
   ASSERT_TRUE(reading.scene);
   EXPECT_THAT(texts(reading.warnings),
               ElementsAre("s.toml:13:18: material.0.friction_angle: found 20.0; it has no effect "

@@ -1,0 +1,179 @@
+// Scenes that would be silently wrong: refused, or said.
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+#include "scene/derived.hpp"
+#include "scene/places.hpp"
+#include "scene/reader.hpp"
+#include "support/sample_scene.hpp"
+
+namespace scene {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+std::vector<std::string> texts(const std::vector<tables::Problem>& problems) {
+  std::vector<std::string> all;
+  for (const tables::Problem& problem : problems) all.push_back(problem.text());
+  return all;
+}
+
+SceneReading with(const std::vector<std::string>& settings, const std::string& tail = "") {
+  return parse_scene(std::string(support::sample_scene) + tail, "s.toml", settings);
+}
+
+std::vector<std::string> errors(const std::vector<std::string>& settings,
+                                const std::string& tail = "") {
+  return texts(with(settings, tail).errors);
+}
+
+std::string support_of(const std::string& name, const std::string& choice) {
+  return "[[support]]\nname = \"" + name + "\"\n" + choice + "\ndirections = \"y\"\n";
+}
+
+TEST(Places, ALineOfDecimalsHoldsItsParticlesInBothLayouts) {
+  // The lattice of a body from 0 to 2 at a spacing of 0.1: 19 inner lines of vertices.
+  for (int line = 1; line <= 19; ++line) {
+    const double y = std::stod("0." + std::to_string(line)) * (line < 10 ? 1.0 : 10.0);
+    const Geometry vertex{
+        .min = {0.0, 0.0}, .max = {1.0, 2.0}, .spacing = 0.1, .layout = Layout::vertex};
+    const LatticeBox box = lattice_box(vertex, {0.0, y}, {1.0, y});
+    EXPECT_EQ(box.first[1], line);
+    EXPECT_EQ(box.last[1], line);
+    EXPECT_EQ(box.last[0], 10);
+  }
+  const Geometry cell{.min = {0.0, 0.0}, .max = {1.0, 2.0}, .spacing = 0.1};
+  EXPECT_FALSE(lattice_box(cell, {0.0, 0.35}, {1.0, 0.35}).empty());
+  EXPECT_TRUE(lattice_box(cell, {0.0, 0.31}, {1.0, 0.34}).empty());
+}
+
+TEST(Places, MaterialsReachToTheLastDigitOfTheirRegions) {
+  Scene scene;
+  scene.geometry = {.min = {0.0, 0.0}, .max = {1.0, 2.0}, .spacing = 0.1};
+  scene.material.resize(2);
+  scene.material[1].region_min = {0.0, 0.3};
+  scene.material[1].region_max = {1.0, 0.3};
+  const std::vector<double> place{0.5, 3 * 0.1};  // a digit above 0.3
+  EXPECT_EQ(material_at(scene, place), 1U);
+}
+
+TEST(Regions, ThatHoldNobodyAreRefused) {
+  EXPECT_THAT(errors({}, support_of("e", "region_min = [0.41, -0.49]\nregion_max = [0.44, -0.41]")),
+              ElementsAre("s.toml:36:14: support.1.region_min: no particle lies between region_min "
+                          "and region_max; particles are 0.1 apart"));
+  EXPECT_THAT(errors({}, support_of("e", "region_min = [0.41, -0.49]\nregion_max = [0.46, -0.41]")),
+              IsEmpty());
+  EXPECT_THAT(errors({},
+                     "[[material]]\nname = \"m\"\nmodel = \"elastic\"\nyoungs_modulus = 1e6\n"
+                     "poissons_ratio = 0.2\ndensity = 1.0\nregion_min = [0.41, -0.44]\n"
+                     "region_max = [0.44, -0.41]\n"),
+              ElementsAre(HasSubstr("material.1.region_min: no particle lies between")));
+}
+
+TEST(Names, AreUniqueWhereTheyAreSaidToBe) {
+  EXPECT_THAT(
+      errors({}, support_of("base", "at = [1.0, -0.5]")),
+      ElementsAre("s.toml:35:8: support.1.name: found \"base\" again; names of supports are "
+                  "unique"));
+  const std::string load = "[[traction]]\nname = \"p\"\nside = \"right\"\nvalue = [1.0, 0.0]\n";
+  EXPECT_THAT(errors({}, load + load),
+              ElementsAre(HasSubstr("traction.1.name: found \"p\" again")));
+}
+
+TEST(Drive, AndASupportMayNotBothSayHowFarAParticleMoves) {
+  EXPECT_THAT(errors({}, support_of("e", "at = [0.2, 0.0]")),
+              ElementsAre(StartsWith("s.toml:37:14: support.1.directions: found y, along which the "
+                                     "drive moves some of its particles")));
+  EXPECT_THAT(errors({}, support_of("e", "at = [0.9, 0.0]")), IsEmpty());
+  EXPECT_THAT(errors({"support.1.directions=x"}, support_of("e", "at = [0.2, 0.0]")), IsEmpty());
+}
+
+TEST(Drive, IntoAMirrorIsRefused) {
+  EXPECT_THAT(errors({"drive.side=left", "drive.direction=[1.0, 0.0]", "drive.range_min=-0.5",
+                      "drive.range_max=-0.1"}),
+              ElementsAre(StartsWith("--set drive.side=left: drive.side: found left, which is a "
+                                     "mirror")));
+}
+
+TEST(Drive, FreeAcrossAnObliqueDirectionIsRefused) {
+  EXPECT_THAT(errors({"drive.direction=[0.6, -0.8]", "drive.lateral=free"}),
+              ElementsAre(StartsWith("--set drive.lateral=free: drive.lateral: found free with an "
+                                     "oblique direction")));
+  EXPECT_THAT(errors({"drive.direction=[0.6, -0.8]"}), IsEmpty());
+}
+
+TEST(Drive, OfEndlesslyManyStepsIsRefused) {
+  EXPECT_THAT(errors({"programme.increment_over_spacing=1e-20"}),
+              ElementsAre("--set programme.increment_over_spacing=1e-20: "
+                          "programme.increment_over_spacing: found 1e-20, which makes 5e+19 steps; "
+                          "allowed are at most 1000000000"));
+}
+
+TEST(Traction, ThroughAMirrorIsRefused) {
+  EXPECT_THAT(
+      errors({}, "[[traction]]\nname = \"p\"\nside = \"left\"\nvalue = [1.0, 0.0]\n"),
+      ElementsAre(StartsWith("s.toml:36:8: traction.0.side: found left, which is a mirror")));
+}
+
+TEST(Traction, ThatFollowsHasNoPartAlongTheSide) {
+  const std::string load =
+      "[[traction]]\nname = \"p\"\nside = \"right\"\nvalue = [1.0, -3e3]\nfollower = true\n";
+  EXPECT_THAT(errors({}, load), ElementsAre(StartsWith("s.toml:37:9: traction.0.value: found -3000 "
+                                                       "along the side, with follower = true")));
+  EXPECT_THAT(errors({"traction.0.value=[1.0, 0.0]"}, load), IsEmpty());
+}
+
+TEST(InitialStress, SaysThatNoTractionCarriesItsSurcharge) {
+  const std::vector<std::string> surcharge{"initial_stress.surcharge=1e5", "initial_stress.K0=1.0"};
+  EXPECT_THAT(
+      texts(with(surcharge).warnings),
+      ElementsAre(HasSubstr("initial_stress.surcharge: the initial stress carries 100000 Pa "
+                            "on the top face, but no traction does from the start")));
+  EXPECT_THAT(texts(with(surcharge,
+                         "[[traction]]\nname = \"q\"\nside = \"top\"\nrange_min = 0.5\n"
+                         "range_max = 2.0\nvalue = [0.0, -1e5]\n")
+                        .warnings),
+              IsEmpty());
+}
+
+// Rankine: without cohesion K0 lies between tan^2(45 - phi/2) and its inverse, 0.4903 and 2.0396
+// for 20 degrees.
+TEST(InitialStress, SaysWhereTheGroundCannotBearIt) {
+  const auto warned = [](const char* K0) {
+    return texts(with({"material.0.cohesion=0", std::string("initial_stress.K0=") + K0}).warnings);
+  };
+  EXPECT_THAT(warned("0.491"), IsEmpty());
+  EXPECT_THAT(warned("2.039"), IsEmpty());
+  EXPECT_THAT(warned("0.489"), ElementsAre(HasSubstr("it bears 0.4903 .. 2.04 there")));
+  EXPECT_THAT(warned("2.041"), ElementsAre(HasSubstr("initial_stress.K0: 2.041 is more than")));
+}
+
+TEST(Tolerance, IsTightEnoughForTheFriction) {
+  EXPECT_THAT(errors({"solver.tolerance=0.5"}), ElementsAre(HasSubstr("0 < value <= 0.01")));
+  // tan^2(45 + 75/2) = 57.7
+  EXPECT_THAT(errors({"material.0.friction_angle=75"}),
+              ElementsAre(HasSubstr("allowed is solver.tolerance <= 0.00017")));
+  EXPECT_THAT(errors({"material.0.friction_angle=75", "solver.tolerance=1e-4"}), IsEmpty());
+  EXPECT_THAT(errors({"material.0.friction_angle=59"}), IsEmpty());
+}
+
+TEST(Keys, OfEndlessDepthAreRefused) {
+  std::string key = "a";
+  for (int i = 0; i < 50000; ++i) key += ".a";
+  for (const std::string& text : {key + " = 1\n", "[" + key + "]\n", "b = {" + key + " = 1}\n"}) {
+    EXPECT_THAT(texts(parse_scene("\n" + text, "s.toml").errors),
+                ElementsAre("s.toml:2: a key of too many parts; the deepest key has three, as in "
+                            "material.0.cohesion"));
+  }
+  EXPECT_EQ(errors({"title={" + key + " = 1}"}).size(), 1U);
+  EXPECT_THAT(errors({"title=\"" + std::string(100, '.') + "\""}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace scene
