@@ -29,6 +29,7 @@ struct Origins {
   std::shared_ptr<const Hdf5File> file;
   std::map<std::string, std::string> datasets;  // by name
   std::vector<CurveRow> rows;
+  std::vector<std::string> measures;  // of the rows
 };
 
 Quantity dataset_of(const Hdf5File& file, const std::string& path) {
@@ -47,7 +48,15 @@ Quantity dataset_of(const Hdf5File& file, const std::string& path) {
   return quantity;
 }
 
-Quantity column_of(const std::vector<CurveRow>& rows, const std::string& name) {
+Quantity column_of(const Origins& origins, const std::string& name) {
+  const std::vector<CurveRow>& rows = origins.rows;
+  const auto measure = std::ranges::find(origins.measures, name);
+  if (measure != origins.measures.end()) {
+    const auto at = static_cast<std::size_t>(measure - origins.measures.begin());
+    std::vector<double> values;
+    for (const CurveRow& row : rows) values.push_back(row.measures[at]);
+    return {"", {rows.size()}, std::move(values)};
+  }
   Quantity quantity{"", {rows.size()}, {}};
   for (const CurveRow& row : rows) {
     CurveRow::for_each_column(row, [&](std::string_view column, const auto& value, auto&&...) {
@@ -83,7 +92,7 @@ Quantity loaded(const Origins& origins, const std::string& name) {
     return dataset_of(*origins.file, found->second);
   }
   if (name.starts_with(curve_group)) {
-    return column_of(origins.rows, name.substr(curve_group.size()));
+    return column_of(origins, name.substr(curve_group.size()));
   }
   throw std::logic_error(name + " is no field of the source");
 }
@@ -92,7 +101,7 @@ Source source_of(std::string what, Origins origins) {
   Source source{std::move(what), {}, {}, {}, {}};
   for (const auto& entry : origins.datasets) source.names.push_back(entry.first);
   if (!origins.rows.empty()) {
-    for (const std::string& column : record::curve_columns(plane)) {
+    for (const std::string& column : record::column_names({plane, origins.measures})) {
       if (is_compared(column)) source.names.push_back(curve_group + column);
     }
   }
@@ -110,6 +119,7 @@ Source source_of(std::string what, Origins origins) {
 Source curve_source(const std::filesystem::path& path) {
   Origins origins;
   origins.rows = record::read_curve(path);
+  origins.measures = record::read_curve_columns(path).measures;
   if (origins.rows.empty()) throw FileError(path, "has no row");
   const auto last = origins.rows.back().step;
   return source_of(fmt::format("curve to step {}", last), std::move(origins));
@@ -121,6 +131,7 @@ Source checkpoint_source(const std::filesystem::path& path) {
   origins.file = std::make_shared<const Hdf5File>(record::open_checkpoint(path, notes));
   add_datasets(origins, "/state", "");
   origins.rows = std::move(notes.history);
+  origins.measures = std::move(notes.measures);
   const auto step = origins.rows.back().step;
   return source_of(fmt::format("checkpoint of step {}", step), std::move(origins));
 }

@@ -40,20 +40,25 @@ std::int64_t number_at(const files::Hdf5File& file, const std::string& path) {
   return number;
 }
 
-std::vector<CurveRow> history_of(const files::Hdf5File& file) {
+/// Reads the curve, and what it measures.
+void read_history(const files::Hdf5File& file, CheckpointNotes& notes) {
   const std::string text = file.read_text(curve_path);
-  std::vector<CurveRow> rows;
   try {
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t end = text.find('\n', at);
       const std::string_view line = std::string_view(text).substr(at, end - at);
-      if (at > 0) rows.push_back(parse_curve_line(line));  // the first line is the header
+      if (at > 0) {
+        notes.history.push_back(parse_curve_line(line, notes.measures.size()));
+      } else if (const auto columns = parse_curve_header(line)) {
+        notes.measures = columns->measures;
+      } else {
+        throw std::invalid_argument("does not begin with the header of a curve");
+      }
       at = end == std::string::npos ? text.size() : end + 1;
     }
   } catch (const std::invalid_argument& failure) {
     throw files::FileError(file.file(), curve_path + ": " + failure.what());
   }
-  return rows;
 }
 
 files::FileError unknown_schema(const std::filesystem::path& file, std::int64_t schema,
@@ -130,7 +135,7 @@ CheckpointNotes notes_of(const files::Hdf5File& file) {
   });
   notes.lineage = lineage_of(file, notes.schema);
   notes.dimension = static_cast<int>(number_at(file, dimension_path));
-  notes.history = history_of(file);
+  read_history(file, notes);
   const std::int64_t step = number_at(file, step_path);
   if (notes.history.empty() || notes.history.back().step != step) {
     throw files::FileError(file.file(),
@@ -149,7 +154,7 @@ void write_notes(files::Hdf5File& file, const CheckpointNotes& notes,
     put_text(file, std::string("/meta/") + name, text, digest);
   });
   put_text(file, lineage_path, lineage_text(notes.lineage), digest);
-  put_text(file, curve_path, curve_text(notes.dimension, notes.history), digest);
+  put_text(file, curve_path, curve_text({notes.dimension, notes.measures}, notes.history), digest);
 
   const CurveRow& last = notes.history.back();
   file.write_attribute("/", "step", last.step);

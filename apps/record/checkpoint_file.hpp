@@ -28,7 +28,8 @@ struct CheckpointNotes {
   std::string reason;             // why it was written
   std::vector<Ancestor> lineage;  // the checkpoints the run went on from, oldest first
   int dimension = 2;
-  std::vector<CurveRow> history;  // the curve up to and including the checkpoint's step
+  std::vector<std::string> measures;  // columns of the curve beside those that every run has
+  std::vector<CurveRow> history;      // the curve up to and including the checkpoint's step
   // Of the file rather than in it; known once it is opened.
   std::int64_t schema = checkpoint_schema;
   std::int64_t digest = 0;

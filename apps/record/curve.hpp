@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace record {
@@ -28,10 +30,11 @@ struct CurveRow {
   double max_plastic_strain = 0.0;    // equivalent, accumulated
   double hourglass_work_ratio = 0.0;  // work of the control over that of the loads, so far
   double wall = 0.0;                  // [s] since the run began; the one column that may differ
+  std::vector<double> measures;       // what the scene measures besides, before `wall` in the file
   bool operator==(const CurveRow&) const = default;
 
-  /// Visits every column in the order of the file, visit(name, value) with the unit in the name, or
-  /// visit(name, value, name_3d) where the unit is another one in 3D.
+  /// Visits every column but the measures in the order of the file, visit(name, value) with the
+  /// unit in the name, or visit(name, value, name_3d) where the unit is another one in 3D.
   template <class Self, class Visitor>
   static void for_each_column(Self& row, Visitor&& visit) {
     visit("step", row.step);
@@ -56,17 +59,37 @@ struct CurveRow {
   }
 };
 
+/// Which columns a curve has.
+struct CurveColumns {
+  int dimension = 2;
+  std::vector<std::string> measures;  // each with its unit
+
+  // NOLINTNEXTLINE(google-explicit-constructor): most curves measure nothing besides
+  CurveColumns(int dim, std::vector<std::string> of_measures = {})
+      : dimension(dim), measures(std::move(of_measures)) {}
+  bool operator==(const CurveColumns&) const = default;
+};
+
 /// Names of all columns in the order of the file.
-[[nodiscard]] std::vector<std::string> curve_columns(int dimension);
+[[nodiscard]] std::vector<std::string> column_names(const CurveColumns& columns);
 
 /// Header line without its end.
-[[nodiscard]] std::string curve_header(int dimension);
+[[nodiscard]] std::string curve_header(const CurveColumns& columns);
+/// The columns of a header; nothing if it is none of a curve.
+[[nodiscard]] std::optional<CurveColumns> parse_curve_header(std::string_view line);
 /// One row without its end; every value reads back to the same double.
 [[nodiscard]] std::string curve_line(const CurveRow& row);
 /// The row of a line.
+/// @param measures  how many there are
 /// @throws std::invalid_argument naming the column that is no number.
-[[nodiscard]] CurveRow parse_curve_line(std::string_view line);
+[[nodiscard]] CurveRow parse_curve_line(std::string_view line, std::size_t measures = 0);
 /// A curve file's content.
-[[nodiscard]] std::string curve_text(int dimension, const std::vector<CurveRow>& rows);
+[[nodiscard]] std::string curve_text(const CurveColumns& columns,
+                                     const std::vector<CurveRow>& rows);
+
+/// Gives rows that measured `before` the measures `after`: those of the same name keep their
+/// values, new ones are NaN.
+void change_measures(std::vector<CurveRow>& rows, const std::vector<std::string>& before,
+                     const std::vector<std::string>& after);
 
 }  // namespace record

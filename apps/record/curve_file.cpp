@@ -19,12 +19,21 @@ bool next_line(std::string_view& rest, std::string_view& line) {
   return true;
 }
 
-CurveRow row_in(const std::filesystem::path& file, std::string_view line, std::size_t number) {
+CurveRow row_in(const std::filesystem::path& file, std::string_view line, std::size_t number,
+                const CurveColumns& columns) {
   try {
-    return parse_curve_line(line);
+    return parse_curve_line(line, columns.measures.size());
   } catch (const std::invalid_argument& failure) {
     throw files::FileError(file, fmt::format("line {}: {}", number, failure.what()));
   }
+}
+
+/// Splits off the header.
+CurveColumns columns_in(const std::filesystem::path& file, std::string_view& rest) {
+  std::string_view line;
+  const auto columns = next_line(rest, line) ? parse_curve_header(line) : std::nullopt;
+  if (!columns) throw files::FileError(file, "does not begin with the header of a curve");
+  return *columns;
 }
 
 }  // namespace
@@ -32,32 +41,37 @@ CurveRow row_in(const std::filesystem::path& file, std::string_view line, std::s
 std::vector<CurveRow> read_curve(const std::filesystem::path& file) {
   const std::string text = files::read_text(file);
   std::string_view rest = text, line;
-  if (!next_line(rest, line) || (line != curve_header(2) && line != curve_header(3))) {
-    throw files::FileError(file, "does not begin with the header of a curve");
-  }
+  const CurveColumns columns = columns_in(file, rest);
   std::vector<CurveRow> rows;
-  while (next_line(rest, line)) rows.push_back(row_in(file, line, rows.size() + 2));
+  while (next_line(rest, line)) rows.push_back(row_in(file, line, rows.size() + 2, columns));
   if (!rest.empty()) throw files::FileError(file, "ends in the middle of a line");
   return rows;
 }
 
-CurveFile CurveFile::create(const std::filesystem::path& file, int dimension,
+CurveColumns read_curve_columns(const std::filesystem::path& file) {
+  const std::string text = files::read_text(file);
+  std::string_view rest = text;
+  return columns_in(file, rest);
+}
+
+CurveFile CurveFile::create(const std::filesystem::path& file, const CurveColumns& columns,
                             const files::SystemCalls& system) {
-  files::write_text_durably(file, curve_header(dimension) + "\n", system);
+  files::write_text_durably(file, curve_header(columns) + "\n", system);
   return {file, system};
 }
 
 CurveFile CurveFile::resume(const std::filesystem::path& file, const std::filesystem::path& source,
-                            int dimension, std::int64_t step, const files::SystemCalls& system) {
+                            const CurveColumns& columns, std::int64_t step,
+                            const files::SystemCalls& system) {
   const std::string text = files::read_text(source);
   std::string_view rest = text, line;
-  if (!next_line(rest, line) || line != curve_header(dimension)) {
+  if (!next_line(rest, line) || line != curve_header(columns)) {
     throw files::FileError(source, "does not begin with the header of this curve");
   }
   std::size_t kept = text.size() - rest.size();
   std::int64_t reached = -1;  // a curve may begin with step 0
   for (std::size_t number = 2; reached < step && next_line(rest, line); ++number) {
-    const CurveRow row = row_in(source, line, number);
+    const CurveRow row = row_in(source, line, number, columns);
     if (row.step > step) break;
     if (row.step <= reached) {
       throw files::FileError(

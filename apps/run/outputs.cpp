@@ -26,11 +26,14 @@ void cut_back(const record::RunFolder& folder, const RunStart<Dim>& start) {
 
 template <int Dim>
 record::CurveFile curve_for(const record::RunFolder& folder, const RunStart<Dim>& start) {
-  if (start.history.empty()) return record::CurveFile::create(folder.curve(), Dim, folder.system());
-  files::write_text_durably(folder.curve(), record::curve_text(Dim, start.history),
+  const record::CurveColumns columns(Dim, start.measures);
+  if (start.history.empty()) {
+    return record::CurveFile::create(folder.curve(), columns, folder.system());
+  }
+  files::write_text_durably(folder.curve(), record::curve_text(columns, start.history),
                             folder.system());
-  return record::CurveFile::resume(folder.curve(), folder.curve(), Dim, start.history.back().step,
-                                   folder.system());
+  return record::CurveFile::resume(folder.curve(), folder.curve(), columns,
+                                   start.history.back().step, folder.system());
 }
 
 template <int Dim>

@@ -14,10 +14,12 @@ namespace run {
 
 template <int Dim>
 Recorder<Dim>::Recorder(const RunRequest& request, const record::RunFolder& folder,
-                        const model::Model<Dim>& model, const RunStart<Dim>& start,
-                        model::State<Dim>& state, Outputs outputs, std::ostream& out)
+                        const model::Model<Dim>& model, const model::Measures<Dim>& measures,
+                        const RunStart<Dim>& start, model::State<Dim>& state, Outputs outputs,
+                        std::ostream& out)
     : scene_(request.scene),
       model_(model),
+      measures_(measures),
       state_(state),
       folder_(folder),
       outputs_(std::move(outputs)),
@@ -26,6 +28,7 @@ Recorder<Dim>::Recorder(const RunRequest& request, const record::RunFolder& fold
       notes_(model::notes_for(request.scene)) {
   notes_.versions = program::with_versions("fpm-run");
   notes_.lineage = start.lineage;
+  notes_.measures = measures_.columns();
   last_checkpoint_ = start.checkpoint;
   if (outputs_.holds_start) checkpointed_step_ = state_.programme.step;
   if (!history_.empty()) earlier_ = checkpointed_at_ = history_.back().wall;
@@ -37,8 +40,7 @@ void Recorder<Dim>::begin() {
     say(fmt::format("results of an earlier run are now in {}", outputs_.previous->string()));
   }
   if (!history_.empty()) return;
-  history_.emplace_back();
-  outputs_.curve.append(history_.back());
+  append({});
   if (outputs_.frames.due(0)) write_frame();
   write_checkpoint("start of the run");
 }
@@ -56,15 +58,21 @@ void Recorder<Dim>::begin_branch() {
 }
 
 template <int Dim>
+void Recorder<Dim>::append(record::CurveRow row) {
+  row.measures = measures_.of(state_);
+  outputs_.curve.append(row);
+  history_.push_back(std::move(row));
+}
+
+template <int Dim>
 void Recorder<Dim>::take(record::CurveRow row) {
   row.wall = elapsed();
-  history_.push_back(row);
-  outputs_.curve.append(row);
+  append(std::move(row));
   progress_.update(status());
   constexpr std::size_t no_limit = 500;
   outputs_.log.info(progress_line(status(), no_limit));
   // The frame first: a run that goes on from the checkpoint does not write it again.
-  if (outputs_.frames.due(row.step)) write_frame();
+  if (outputs_.frames.due(history_.back().step)) write_frame();
   const std::string why = why_checkpoint_is_due();
   if (!why.empty()) write_checkpoint(why);
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "model/measures.hpp"
 #include "model/model.hpp"
 #include "program/progress.hpp"
 #include "record/checkpoint_file.hpp"
@@ -24,8 +25,9 @@ class Recorder {
   /// @param state  of the run, always at a converged step when a member is called
   /// @param outputs  the folder as `prepare` left it for this start
   Recorder(const RunRequest& request, const record::RunFolder& folder,
-           const model::Model<Dim>& model, const RunStart<Dim>& start, model::State<Dim>& state,
-           Outputs outputs, std::ostream& out);
+           const model::Model<Dim>& model, const model::Measures<Dim>& measures,
+           const RunStart<Dim>& start, model::State<Dim>& state, Outputs outputs,
+           std::ostream& out);
 
   /// Begins the record; that of a fresh run with its row, its frame and its checkpoint of step 0.
   void begin();
@@ -35,7 +37,7 @@ class Recorder {
   void begin_branch();
 
   /// Records a converged step; checkpoints and frames as often as the scene says.
-  /// @param row  but for the wall time
+  /// @param row  but for the wall time and what is measured besides
   void take(record::CurveRow row);
 
   /// Ends the record: the last frame, unless the run is merely interrupted, and a checkpoint of the
@@ -57,6 +59,7 @@ class Recorder {
   [[nodiscard]] double elapsed() const;
 
  private:
+  void append(record::CurveRow row);
   void write_frame();
   void write_checkpoint(const std::string& reason);
   [[nodiscard]] std::string why_checkpoint_is_due() const;
@@ -64,6 +67,7 @@ class Recorder {
 
   const scene::Scene& scene_;
   const model::Model<Dim>& model_;
+  const model::Measures<Dim>& measures_;
   model::State<Dim>& state_;
   const record::RunFolder& folder_;
   Outputs outputs_;

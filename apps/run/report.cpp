@@ -32,9 +32,9 @@ std::string check_report(const scene::Scene& scene, std::size_t particles, std::
   return out;
 }
 
-std::string end_report(const scene::Scene& scene, const std::vector<record::CurveRow>& history,
-                       double elapsed, const record::RunFolder& folder,
-                       const std::filesystem::path& checkpoint) {
+std::string end_report(const scene::Scene& scene, const std::vector<std::string>& measures,
+                       const std::vector<record::CurveRow>& history, double elapsed,
+                       const record::RunFolder& folder, const std::filesystem::path& checkpoint) {
   std::string out;
   const auto line = [&out](std::string_view name, const std::string& value) {
     fmt::format_to(std::back_inserter(out), "  {:<12} {}\n", name, value);
@@ -53,6 +53,9 @@ std::string end_report(const scene::Scene& scene, const std::vector<record::Curv
                                                      scene.geometry.dimension == 2 ? "N/m" : "N"));
   } else {
     line("load", load);
+  }
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    line(i == 0 ? "measured" : "", fmt::format("{} = {:.6g}", measures[i], last.measures[i]));
   }
   const double steps = static_cast<double>(std::max<std::int64_t>(last.step, 1));
   line("steps",

@@ -17,8 +17,9 @@ std::string check_report(const scene::Scene& scene, std::size_t particles, std::
                          std::size_t bytes, std::size_t state_bytes);
 
 /// What a run came to, and where its files are.
-std::string end_report(const scene::Scene& scene, const std::vector<record::CurveRow>& history,
-                       double elapsed, const record::RunFolder& folder,
-                       const std::filesystem::path& checkpoint);
+/// @param measures  columns of the curve that the scene asks for
+std::string end_report(const scene::Scene& scene, const std::vector<std::string>& measures,
+                       const std::vector<record::CurveRow>& history, double elapsed,
+                       const record::RunFolder& folder, const std::filesystem::path& checkpoint);
 
 }  // namespace run

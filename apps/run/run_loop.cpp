@@ -11,6 +11,7 @@
 
 #include "bounds/limit_check.hpp"
 #include "model/build.hpp"
+#include "model/measures.hpp"
 #include "model/state_file.hpp"
 #include "program/stop_signals.hpp"
 #include "program/version.hpp"
@@ -81,7 +82,8 @@ class Run {
         err_(err),
         system_(system),
         stop_(request.max_wall_s),
-        model_(model::build_model<Dim>(scene_)) {}
+        model_(model::build_model<Dim>(scene_)),
+        measures_(scene_, model_) {}
 
   program::ExitCode operator()() {
     // Held before its checkpoints are read: nobody else adds one meanwhile. A folder that is not
@@ -90,7 +92,7 @@ class Run {
     std::exception_ptr no_folder;  // which a finished run does not need
     const bool exists = std::filesystem::is_directory(request_.directory);
     if (exists && !request_.check_only) no_folder = take(folder);
-    RunStart<Dim> start = find_start(request_, model_);
+    RunStart<Dim> start = find_start(request_, model_, measures_.columns());
     for (const std::string& refusal : start.refusals) err_ << "error: " << refusal << '\n';
     if (!start.refusals.empty()) return program::ExitCode::input_refused;
     stepping::LoadStepper<Dim> stepper(scene_, model_, start.state);
@@ -99,7 +101,7 @@ class Run {
     if (no_folder) std::rethrow_exception(no_folder);
 
     if (!folder) folder.emplace(request_.directory, system_);
-    Recorder<Dim> recorder(request_, *folder, model_, start, start.state,
+    Recorder<Dim> recorder(request_, *folder, model_, measures_, start, start.state,
                            prepare(*folder, scene_, start), out_);
     recorder.begin();
     try {
@@ -243,8 +245,8 @@ class Run {
 
   void report(Recorder<Dim>& recorder, const record::RunFolder& folder,
               bounds::LimitCheck& limit) const {
-    recorder.say(end_report(scene_, recorder.history(), recorder.elapsed(), folder,
-                            recorder.last_checkpoint()));
+    recorder.say(end_report(scene_, measures_.columns(), recorder.history(), recorder.elapsed(),
+                            folder, recorder.last_checkpoint()));
     if (limit.pending()) recorder.say("waiting for fpm-limit; it may be interrupted and resumed");
     wait_for(limit, [&](const std::string& line) { recorder.say(line); });
     const std::string verdict = limit.verdict(recorder.history());
@@ -258,6 +260,7 @@ class Run {
   const files::SystemCalls& system_;
   StopReasons stop_;
   model::Model<Dim> model_;
+  model::Measures<Dim> measures_;
 };
 
 }  // namespace

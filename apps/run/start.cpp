@@ -70,6 +70,7 @@ void resume(const std::filesystem::path& checkpoint, const scene::Scene& scene,
   start.state = model::read_state(file, model, notes.schema);
   start.lineage = lineage_from(checkpoint, notes, start.changes);
   start.history = std::move(notes.history);
+  record::change_measures(start.history, notes.measures, start.measures);
   start.re_search_changed = former.re_search != scene.re_search;
   if (!model::adapt_programme(former, scene, start.state.programme)) {
     start.refusals.push_back(
@@ -81,8 +82,10 @@ void resume(const std::filesystem::path& checkpoint, const scene::Scene& scene,
 }  // namespace
 
 template <int Dim>
-RunStart<Dim> find_start(const RunRequest& request, const model::Model<Dim>& model) {
+RunStart<Dim> find_start(const RunRequest& request, const model::Model<Dim>& model,
+                         const std::vector<std::string>& measures) {
   RunStart<Dim> start;
+  start.measures = measures;
   if (!request.resume) {
     start.state = initial_state(model, request.scene);
     return start;
@@ -98,7 +101,9 @@ RunStart<Dim> find_start(const RunRequest& request, const model::Model<Dim>& mod
   return start;
 }
 
-template RunStart<2> find_start<2>(const RunRequest&, const model::Model<2>&);
-template RunStart<3> find_start<3>(const RunRequest&, const model::Model<3>&);
+template RunStart<2> find_start<2>(const RunRequest&, const model::Model<2>&,
+                                   const std::vector<std::string>&);
+template RunStart<3> find_start<3>(const RunRequest&, const model::Model<3>&,
+                                   const std::vector<std::string>&);
 
 }  // namespace run

@@ -17,6 +17,7 @@ namespace run {
 template <int Dim>
 struct RunStart {
   model::State<Dim> state;
+  std::vector<std::string> measures;        // columns of the curve that the scene asks for
   std::vector<record::CurveRow> history;    // the curve so far; empty: a fresh run
   std::filesystem::path checkpoint;         // where the state is from; empty: a fresh run
   std::vector<record::Ancestor> lineage;    // of the state, its checkpoint last
@@ -28,9 +29,11 @@ struct RunStart {
 
 /// The start of a run: the scene's initial state, or the state of the checkpoint that the request
 /// names or, if it names none, of the newest usable one in the output folder.
+/// @param measures  columns of the curve that the scene asks for
 /// @throws FileError if that checkpoint, or any if none is named, is unusable; it names the next
 /// older usable one. There is no silent start from zero.
 template <int Dim>
-RunStart<Dim> find_start(const RunRequest& request, const model::Model<Dim>& model);
+RunStart<Dim> find_start(const RunRequest& request, const model::Model<Dim>& model,
+                         const std::vector<std::string>& measures);
 
 }  // namespace run

@@ -13,8 +13,8 @@ namespace scene {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> free_tables{"programme.", "solver.", "re_search.",
-                                                      "output.", "limit."};
+constexpr std::array<std::string_view, 6> free_tables{"measure.",   "programme.", "solver.",
+                                                      "re_search.", "output.",    "limit."};
 constexpr std::array<std::string_view, 2> free_keys{"title", "drive.target"};
 
 std::string text_at(const SceneTable& table, const tables::Field<Scene>& field, const Scene& scene,

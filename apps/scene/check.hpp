@@ -19,6 +19,7 @@ void check_boundaries(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_loads(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_drive(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_places(const Scene& scene, tables::Diagnosis& diagnosis);
+void check_measures(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_run(const Scene& scene, tables::Diagnosis& diagnosis);
 
 /// Whether `point` has one entry per dimension; reports otherwise. An empty (absent) point passes.

@@ -360,6 +360,7 @@ void check_scene(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_loads(scene, diagnosis);
   check_drive(scene, diagnosis);
   check_places(scene, diagnosis);
+  check_measures(scene, diagnosis);
   check_run(scene, diagnosis);
 }
 

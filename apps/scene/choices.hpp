@@ -18,6 +18,14 @@ enum class InitialStressKind { none, geostatic };
 enum class DriveKind { none, displacement, load };
 enum class Lateral { fixed, free };
 enum class LoadKind { traction, gravity };
+enum class MeasureKind {
+  displacement,
+  stress,
+  plastic_strain,
+  reaction,
+  resultant,
+  max_displacement
+};
 enum class SolverPreset { standard, appendix_a };
 enum class SolverMethod { hybrid, newton_krylov, multisecant };
 enum class JacobianKind { analytic, finite_difference };

@@ -1,8 +1,10 @@
 #include "scene/derived.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "constitutive/parameters.hpp"
 #include "scene/places.hpp"
@@ -107,6 +109,23 @@ std::int64_t nominal_steps(const Scene& scene) {
 double side_position(const Geometry& geometry, Side side) {
   const auto axis = static_cast<std::size_t>(axis_of(side));
   return is_upper(side) ? geometry.max[axis] : geometry.min[axis];
+}
+
+std::vector<Measure> resolve_measures(const Scene& scene) {
+  if (!scene.measure.empty() || scene.drive.kind == DriveKind::displacement) return scene.measure;
+  std::vector<Measure> all{{.name = "body", .kind = MeasureKind::max_displacement}};
+  for (std::size_t i = 0; i < scene.support.size(); ++i) {
+    const Support& support = scene.support[i];
+    std::string name = support.name;
+    // The name of a column: neither commas nor spaces, and no other one's.
+    for (char& c : name) {
+      if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+    }
+    const auto taken = [&](const Measure& other) { return other.name == name; };
+    if (std::ranges::any_of(all, taken)) name += "_" + std::to_string(i);
+    all.push_back({.name = name, .kind = MeasureKind::reaction, .support = support.name});
+  }
+  return all;
 }
 
 std::size_t material_at(const Scene& scene, std::span<const double> place) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "scene/choices.hpp"
 
@@ -16,6 +17,7 @@ namespace scene {
 
 struct Geometry;
 struct Material;
+struct Measure;
 struct Scene;
 struct Solver;
 
@@ -60,6 +62,10 @@ struct SolverSettings {
 /// Nominal number of steps of the programme: the scene's, else for a displacement
 /// ceil(target / (increment_over_spacing spacing)); 1 without a drive.
 [[nodiscard]] std::int64_t nominal_steps(const Scene& scene);
+
+/// What the curve shows beside the drive: the scene's measures, or, if it has none and drives no
+/// displacement, the reaction of each support and the largest displacement.
+[[nodiscard]] std::vector<Measure> resolve_measures(const Scene& scene);
 
 /// Index of the last material whose region holds a place; the first one fills the whole body.
 [[nodiscard]] std::size_t material_at(const Scene& scene, std::span<const double> place);

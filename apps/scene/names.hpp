@@ -26,6 +26,8 @@ inline constexpr std::array<std::string_view, 2> initial_stress{"none", "geostat
 inline constexpr std::array<std::string_view, 3> drive{"none", "displacement", "load"};
 inline constexpr std::array<std::string_view, 2> lateral{"fixed", "free"};
 inline constexpr std::array<std::string_view, 2> load{"traction", "gravity"};
+inline constexpr std::array<std::string_view, 6> measure{
+    "displacement", "stress", "plastic_strain", "reaction", "resultant", "max_displacement"};
 inline constexpr std::array<std::string_view, 2> preset{"default", "appendix_a"};
 inline constexpr std::array<std::string_view, 3> solver{"hybrid", "newton_krylov", "multisecant"};
 inline constexpr std::array<std::string_view, 2> jacobian{"analytic", "finite_difference"};
@@ -69,6 +71,9 @@ constexpr std::span<const std::string_view> names_of(Lateral) {
 }
 constexpr std::span<const std::string_view> names_of(LoadKind) {
   return names::load;
+}
+constexpr std::span<const std::string_view> names_of(MeasureKind) {
+  return names::measure;
 }
 constexpr std::span<const std::string_view> names_of(SolverPreset) {
   return names::preset;

@@ -124,6 +124,16 @@ struct Drive {
   bool operator==(const Drive&) const = default;
 };
 
+/// Columns of the curve beside those of the drive.
+struct Measure {
+  std::string name;  // with which its columns begin
+  MeasureKind kind = MeasureKind::displacement;
+  Point at;                            // [m] of displacement, stress and plastic_strain
+  std::optional<std::string> support;  // of a reaction
+  std::optional<Side> side;            // of a resultant
+  bool operator==(const Measure&) const = default;
+};
+
 /// How the drive is cut into steps.
 struct Programme {
   std::optional<std::int64_t> steps;  // absent: from increment_over_spacing
@@ -193,6 +203,7 @@ struct Scene {
   Gravity gravity;
   InitialStress initial_stress;
   Drive drive;
+  std::vector<Measure> measure;
   Programme programme;
   Solver solver;
   ReSearch re_search;

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 namespace record {
 namespace {
 
@@ -36,6 +38,39 @@ TEST(Curve, ReadsEveryColumnBackToTheSameValue) {
     }
   });
   EXPECT_EQ(parse_curve_line(curve_line(full)), full);
+}
+
+TEST(Curve, HasItsMeasuresBeforeTheWallTimeAndReadsThemBack) {
+  const CurveColumns columns(3, {"top_uy_m", "base_Ry_N"});
+  const std::string header = curve_header(columns);
+  EXPECT_THAT(header, ::testing::EndsWith(",hourglass_work_ratio,top_uy_m,base_Ry_N,wall_s"));
+  EXPECT_EQ(parse_curve_header(header), columns);
+  CurveRow measured = row(3);
+  measured.measures = {-1.0 / 3.0, 1e300};
+  const std::string line = curve_line(measured);
+  EXPECT_THAT(line, ::testing::EndsWith(",-0.3333333333333333,1e+300,0.1"));
+  EXPECT_EQ(parse_curve_line(line, 2), measured);
+  EXPECT_THROW((void)parse_curve_line(line, 1), std::invalid_argument);
+  EXPECT_THROW((void)parse_curve_line(line), std::invalid_argument);
+}
+
+TEST(Curve, IsKnownByItsHeader) {
+  EXPECT_EQ(parse_curve_header(curve_header(2)), CurveColumns(2));
+  EXPECT_EQ(parse_curve_header(curve_header(3)), CurveColumns(3));
+  const std::string header = curve_header(2);
+  for (const std::string& foreign :
+       {std::string(), std::string("step"), header + ",more", header.substr(5), "x" + header}) {
+    EXPECT_EQ(parse_curve_header(foreign), std::nullopt) << foreign;
+  }
+}
+
+TEST(Curve, KeepsMeasuresOfTheSameNameAndDoesNotInventThoseOfAnother) {
+  std::vector<CurveRow> rows{row(1)};
+  rows.front().measures = {1.0, 2.0};
+  change_measures(rows, {"a", "b"}, {"c", "b"});
+  ASSERT_EQ(rows.front().measures.size(), 2U);
+  EXPECT_TRUE(std::isnan(rows.front().measures[0]));
+  EXPECT_EQ(rows.front().measures[1], 2.0);
 }
 
 TEST(Curve, RefusesBrokenLines) {

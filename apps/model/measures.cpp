@@ -1,0 +1,201 @@
+#include "model/measures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "model/selection.hpp"
+#include "scene/derived.hpp"
+#include "scene/scene.hpp"
+
+namespace model {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+constexpr std::array<std::string_view, 6> stresses{"xx", "yy", "zz", "xy", "yz", "zx"};
+
+// Length, or area in 3D, of the part of a side that a load is on.
+double size_of(const scene::Scene& scene, const scene::Traction& traction) {
+  double size = 1.0;
+  std::size_t k = 0;
+  for (int axis = 0; axis < scene.geometry.dimension; ++axis) {
+    if (axis == scene::axis_of(traction.side)) continue;
+    const auto i = static_cast<std::size_t>(axis);
+    const bool whole = traction.range_min.empty();
+    const double from = whole ? scene.geometry.min[i] : traction.range_min[k];
+    const double to = whole ? scene.geometry.max[i] : traction.range_max[k];
+    size *= to - from;
+    ++k;
+  }
+  return size;
+}
+
+}  // namespace
+
+template <int Dim>
+Measures<Dim>::Measures(const scene::Scene& scene, const Model<Dim>& model)
+    : model_(model),
+      loads_grow_(scene.drive.kind == scene::DriveKind::load &&
+                  std::ranges::find(scene.drive.scales, scene::LoadKind::traction) !=
+                      scene.drive.scales.end()) {
+  for (const scene::Measure& asked : scene::resolve_measures(scene)) {
+    Measure& measure = measures_.emplace_back();
+    measure.kind = asked.kind;
+    if (!asked.at.empty()) locate(asked, measure);
+    if (asked.support) find_support(scene, *asked.support, measure);
+    if (asked.side) find_side(scene, *asked.side, measure);
+    name_columns(asked);
+  }
+}
+
+template <int Dim>
+void Measures<Dim>::locate(const scene::Measure& asked, Measure& measure) const {
+  const Eigen::Map<const Eigen::Matrix<double, 1, Dim>> at(asked.at.data());
+  (model_.particles.position.rowwise() - at).rowwise().squaredNorm().minCoeff(&measure.particle);
+  if (asked.kind != scene::MeasureKind::displacement) return;
+  const fpm::Field<Dim> point = at;
+  measure.point =
+      fpm::PointOperator<Dim>(model_.particles, model_.ghosts, point, model_.row_options);
+}
+
+template <int Dim>
+void Measures<Dim>::find_support(const scene::Scene& scene, const std::string& name,
+                                 Measure& measure) const {
+  std::size_t penalties = 0;
+  for (std::size_t i = 0; i < scene.support.size(); ++i) {
+    const bool penalty = scene.support[i].method == scene::SupportMethod::penalty;
+    if (scene.support[i].name == name) {
+      if (penalty) {
+        measure.penalties.push_back(penalties);
+        return;
+      }
+      for (const Eigen::Index a : supported_particles(scene, scene.support[i], model_)) {
+        for (const scene::Axis axis : scene.support[i].directions) {
+          measure.unknowns.push_back(static_cast<int>(axis) * model_.size() + a);
+        }
+      }
+      return;
+    }
+    penalties += penalty ? 1 : 0;
+  }
+}
+
+template <int Dim>
+void Measures<Dim>::find_side(const scene::Scene& scene, scene::Side side, Measure& measure) const {
+  const Eigen::Index n = model_.size();
+  for (Eigen::Index a = 0; a < n; ++a) {
+    if (!on_side(scene, model_, side, a)) continue;
+    for (int i = 0; i < Dim; ++i) measure.unknowns.push_back(i * n + a);
+  }
+  std::size_t penalties = 0;
+  for (const scene::Support& support : scene.support) {
+    if (support.method != scene::SupportMethod::penalty) continue;
+    if (support.side == side) measure.penalties.push_back(penalties);
+    ++penalties;
+  }
+  std::size_t following = 0;
+  for (const scene::Traction& traction : scene.traction) {
+    if (traction.side == side) {
+      Load load{
+          Eigen::Map<const fpm::Vector<Dim>>(traction.value.data()) * size_of(scene, traction), {}};
+      if (traction.follower) load.following = following;
+      measure.loads.push_back(load);
+    }
+    following += traction.follower ? 1 : 0;
+  }
+}
+
+template <int Dim>
+void Measures<Dim>::name_columns(const scene::Measure& asked) {
+  const std::string_view force = Dim == 2 ? "N_per_m" : "N";
+  const auto each = [&](std::string_view letter, std::string_view unit, const auto& components,
+                        std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      columns_.push_back(fmt::format("{}_{}{}_{}", asked.name, letter, components[i], unit));
+    }
+  };
+  switch (asked.kind) {
+    case scene::MeasureKind::displacement:
+      return each("u", "m", axes, Dim);
+    case scene::MeasureKind::stress:
+      return each("s", "Pa", stresses, State<Dim>::stress_rows);
+    case scene::MeasureKind::plastic_strain:
+      columns_.push_back(asked.name + "_plastic_strain");
+      return;
+    case scene::MeasureKind::reaction:
+      return each("R", force, axes, Dim);
+    case scene::MeasureKind::resultant:
+      return each("F", force, axes, Dim);
+    case scene::MeasureKind::max_displacement:
+      columns_.push_back(asked.name + "_max_displacement_m");
+      return;
+  }
+}
+
+// The force on the body, of whatever holds it there and of the loads.
+template <int Dim>
+fpm::Vector<Dim> Measures<Dim>::force(const Measure& measure, const State<Dim>& state) const {
+  fpm::Vector<Dim> sum = fpm::Vector<Dim>::Zero();
+  for (const Eigen::Index k : measure.unknowns) {
+    sum[k / model_.size()] += state.reaction.data()[k];
+  }
+  fpm::Field<Dim> nodal = fpm::Field<Dim>::Zero(model_.size(), Dim);
+  for (const std::size_t penalty : measure.penalties) {
+    const PenaltySupport<Dim>& support = model_.penalty_supports[penalty];
+    sum += fpm::add_penalty_force<Dim>(support.op, support.points, support.options, support.target,
+                                       state.displacement, nodal);
+  }
+  const double grown = loads_grow_ ? state.programme.load : 1.0;
+  for (const Load& load : measure.loads) {
+    if (!load.following) {
+      sum += grown * load.force;
+      continue;
+    }
+    const FollowingPressure<Dim>& pressure = model_.following_pressures[*load.following];
+    nodal.setZero();
+    // A point that is inside out ends the run before its state is measured.
+    (void)fpm::add_following_pressure<Dim>(pressure.op, pressure.points, grown * pressure.pressure,
+                                           state.displacement, nodal);
+    sum += nodal.colwise().sum().transpose();
+  }
+  return sum;
+}
+
+template <int Dim>
+std::vector<double> Measures<Dim>::of(const State<Dim>& state) const {
+  std::vector<double> values;
+  values.reserve(columns_.size());
+  const auto add = [&](const auto& vector) {
+    for (Eigen::Index i = 0; i < vector.size(); ++i) values.push_back(vector[i]);
+  };
+  for (const Measure& measure : measures_) {
+    switch (measure.kind) {
+      case scene::MeasureKind::displacement:
+        add(measure.point.value(0, state.displacement));
+        break;
+      case scene::MeasureKind::stress:
+        add(state.stress.col(measure.particle));
+        break;
+      case scene::MeasureKind::plastic_strain:
+        values.push_back(state.plastic_strain[measure.particle]);
+        break;
+      case scene::MeasureKind::reaction:
+      case scene::MeasureKind::resultant:
+        add(force(measure, state));
+        break;
+      case scene::MeasureKind::max_displacement:
+        values.push_back(std::sqrt(state.displacement.rowwise().squaredNorm().maxCoeff()));
+        break;
+    }
+  }
+  return values;
+}
+
+template class Measures<2>;
+template class Measures<3>;
+
+}  // namespace model

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+#include "model/state.hpp"
+#include "scene/choices.hpp"
+
+namespace scene {
+struct Measure;
+struct Scene;
+}  // namespace scene
+
+namespace model {
+
+/// What a run's curve shows beside its drive, as the scene's [[measure]] asks for, or
+/// scene::resolve_measures. Between steps; it changes nothing.
+template <int Dim>
+class Measures {
+ public:
+  /// @param model  must outlive it
+  /// @throws std::runtime_error if a point is too far from all particles.
+  Measures(const scene::Scene& scene, const Model<Dim>& model);
+
+  /// Names of the columns, each with its unit.
+  [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
+  /// Their values, in the same order.
+  [[nodiscard]] std::vector<double> of(const State<Dim>& state) const;
+
+ private:
+  /// A traction on a side.
+  struct Load {
+    fpm::Vector<Dim> force;                // [N/m or N] of a dead load, whole
+    std::optional<std::size_t> following;  // the model's, of one that follows the boundary
+  };
+  struct Measure {
+    scene::MeasureKind kind;
+    fpm::PointOperator<Dim> point;       // of a displacement
+    Eigen::Index particle = 0;           // of a stress or plastic strain
+    std::vector<Eigen::Index> unknowns;  // of a reaction or resultant
+    std::vector<std::size_t> penalties;  // the model's, of a reaction or resultant
+    std::vector<Load> loads;             // of a resultant
+  };
+
+  void locate(const scene::Measure& asked, Measure& measure) const;
+  void find_support(const scene::Scene& scene, const std::string& name, Measure& measure) const;
+  void find_side(const scene::Scene& scene, scene::Side side, Measure& measure) const;
+  void name_columns(const scene::Measure& asked);
+  fpm::Vector<Dim> force(const Measure& measure, const State<Dim>& state) const;
+
+  const Model<Dim>& model_;
+  bool loads_grow_ = false;  // the tractions, with the load parameter
+  std::vector<Measure> measures_;
+  std::vector<std::string> columns_;
+};
+
+}  // namespace model

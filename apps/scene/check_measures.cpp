@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "scene/check.hpp"
+#include "scene/derived.hpp"
+#include "scene/names.hpp"
+#include "scene/scene.hpp"
+
+namespace scene {
+
+namespace {
+
+bool needs_point(MeasureKind kind) {
+  return kind == MeasureKind::displacement || kind == MeasureKind::stress ||
+         kind == MeasureKind::plastic_strain;
+}
+
+void check_name(const Scene& scene, std::size_t index, tables::Diagnosis& diagnosis) {
+  const std::string& name = scene.measure[index].name;
+  const std::string key = fmt::format("measure.{}.name", index);
+  if (!diagnosis.good({key})) return;
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  if (name.empty() || !std::ranges::all_of(name, plain)) {
+    diagnosis.error(key, fmt::format("found \"{}\"", name), "allowed are letters, digits and _");
+  }
+  for (std::size_t other = 0; other < index; ++other) {
+    if (scene.measure[other].name != name) continue;
+    diagnosis.error(key, fmt::format("found \"{}\" again", name),
+                    fmt::format("it is the name of measure.{}", other));
+    return;
+  }
+}
+
+// The one key that says what is measured, or where, and no other.
+void check_key(bool given, bool needed, const std::string& key, MeasureKind kind,
+               tables::Diagnosis& diagnosis) {
+  if (given == needed || !diagnosis.good({key})) return;
+  diagnosis.error(key, given ? "found" : "absent",
+                  fmt::format("a measure of kind {} {}", name_of(kind),
+                              needed ? "needs it" : "does not have it"));
+}
+
+void check_point(const Scene& scene, const Point& at, const std::string& key,
+                 tables::Diagnosis& diagnosis) {
+  const auto n = static_cast<std::size_t>(scene.geometry.dimension);
+  if (at.empty() || !check_length(at, n, key, scene, diagnosis) || !box_is_good(scene, diagnosis)) {
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (at[i] >= scene.geometry.min[i] && at[i] <= scene.geometry.max[i]) continue;
+    diagnosis.error(
+        key, fmt::format("found {} along {}", at[i], name_of(static_cast<Axis>(i))),
+        fmt::format("the body is from {} to {}", scene.geometry.min[i], scene.geometry.max[i]));
+  }
+}
+
+void check_support_name(const Scene& scene, const std::string& name, const std::string& key,
+                        tables::Diagnosis& diagnosis) {
+  std::vector<std::string> names;
+  for (const Support& support : scene.support) names.push_back(support.name);
+  if (std::ranges::find(names, name) != names.end() || !diagnosis.good({key})) return;
+  diagnosis.error(key, fmt::format("found \"{}\"", name),
+                  names.empty() ? "the scene has no support"
+                                : fmt::format("the supports are {}", fmt::join(names, ", ")));
+}
+
+void check_measure(const Scene& scene, std::size_t index, tables::Diagnosis& diagnosis) {
+  const Measure& measure = scene.measure[index];
+  const std::string table = fmt::format("measure.{}", index);
+  check_name(scene, index, diagnosis);
+  if (!diagnosis.good({table + ".kind"})) return;
+  const MeasureKind kind = measure.kind;
+  check_key(!measure.at.empty(), needs_point(kind), table + ".at", kind, diagnosis);
+  check_key(measure.support.has_value(), kind == MeasureKind::reaction, table + ".support", kind,
+            diagnosis);
+  check_key(measure.side.has_value(), kind == MeasureKind::resultant, table + ".side", kind,
+            diagnosis);
+  check_point(scene, measure.at, table + ".at", diagnosis);
+  if (measure.support) {
+    check_support_name(scene, *measure.support, table + ".support", diagnosis);
+  }
+  if (measure.side) check_side(*measure.side, table + ".side", scene, diagnosis);
+  const bool plastic = std::ranges::any_of(
+      scene.material, [](const Material& material) { return yields(material); });
+  if (kind == MeasureKind::plastic_strain && !plastic && !scene.material.empty()) {
+    diagnosis.error(table + ".kind", "found plastic_strain", "every material is elastic");
+  }
+}
+
+}  // namespace
+
+void check_measures(const Scene& scene, tables::Diagnosis& diagnosis) {
+  for (std::size_t i = 0; i < scene.measure.size(); ++i) check_measure(scene, i, diagnosis);
+}
+
+}  // namespace scene
