@@ -4,6 +4,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "equilibrium/equilibrium.hpp"
 #include "equilibrium/preconditioner.hpp"
@@ -17,12 +19,13 @@ namespace {
 // A step that ends this close to the end of the programme ends at it.
 constexpr double end_slack = 1e-9;
 
-jfnk::Options solver_options(const scene::Scene& scene) {
+jfnk::Options solver_options(const scene::Scene& scene, double rounding) {
   const scene::SolverSettings settings = scene::resolve_solver(scene.solver);
   jfnk::Options options = scene.solver.preset == scene::SolverPreset::appendix_a
                               ? jfnk::appendix_a(settings.tolerance, settings.tolerance, 1000)
                               : jfnk::plasticity();
   options.tolerances.relative = settings.tolerance;
+  options.tolerances.absolute = rounding;
   switch (settings.method) {
     case scene::SolverMethod::hybrid:
       options.method = jfnk::Method::hybrid;
@@ -40,6 +43,21 @@ jfnk::Options solver_options(const scene::Scene& scene) {
   options.jacobian.length_scale = scene.geometry.spacing;
   options.max_evaluations = scene.solver.max_evaluations_per_step;
   return options;
+}
+
+// What rounding alone leaves of a residual, whatever the loads: places are known to epsilon of
+// their size, strains to that over a spacing, and each particle's forces are the stress of such a
+// strain on its faces. A body without loads, or whose loads cancel, is in equilibrium within this.
+template <int Dim>
+double rounding_of_forces(const scene::Scene& scene, const model::Model<Dim>& model) {
+  constexpr double neighbours = 10.0;  // whose rounding adds up in a particle
+  const double size =
+      std::max(model.box_min.cwiseAbs().maxCoeff(), model.box_max.cwiseAbs().maxCoeff()) +
+      scene.drive.target;
+  const double strain = std::numeric_limits<double>::epsilon() * size / model.spacing;
+  const double stiffest = *std::ranges::max_element(model.youngs_modulus);
+  return neighbours * stiffest * strain * std::pow(model.spacing, Dim - 1) *
+         std::sqrt(static_cast<double>(model.size()));
 }
 
 double coarse_spacing(const scene::Scene& scene) {
@@ -68,7 +86,7 @@ LoadStepper<Dim>::LoadStepper(const scene::Scene& scene, const model::Model<Dim>
           model, initial_operator(model), coarse_spacing(scene))),
       use_preconditioner_(scene::resolve_solver(scene.solver).preconditioner !=
                           scene::PreconditionerKind::none),
-      solver_(solver_options(scene)),
+      solver_(solver_options(scene, rounding_of_forces(scene, model))),
       nominal_increment_(1.0 / static_cast<double>(scene::nominal_steps(scene))),
       patience_(scene.programme.patience, nominal_increment_, state.programme.load),
       increment_(model.unknowns()) {

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "model/build.hpp"
 #include "scene/reader.hpp"
+#include "scene/scene.hpp"
 #include "stepping/stepper.hpp"
 
 namespace stepping {
