@@ -21,6 +21,7 @@ struct BracketOptions {
   double max_seconds = 120.0;  // of processor time, for all attempts together
   int max_iterations = 300;    // of the solver, per attempt
   Engine engine = Engine::interior_point;
+  bool fall_back = true;  // ask the other engine, and other forms, where the first one fails
 };
 
 /// One attempt at one bound.
@@ -33,6 +34,7 @@ struct Attempt {
   int iterations = 0;
   double seconds = 0.0;             // of processor time, certificate included
   std::optional<double> certified;  // the bound, if the certificate holds
+  double proposed = 0.0;            // what the solver claims; not a number if nothing
 };
 
 /// A certified bound, the mesh it was found on and the attempt that found it.

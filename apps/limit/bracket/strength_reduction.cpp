@@ -1,38 +1,161 @@
 #include "limit/bracket/strength_reduction.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <ctime>
+#include <limits>
 #include <stdexcept>
+
+#include "limit/bracket/factor_search.hpp"
+#include "limit/bracket/processor_time.hpp"
+#include "limit/bracket/side.hpp"
 
 namespace limit::bracket {
 
 namespace {
 
-double processor_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+// Where the search begins, near enough for slopes: friction against the mean inclination of what is
+// free, and Taylor's stability number, between 4 and 6 for most faces. One, if there is no face.
+double estimate(const problem::Problem& problem, double one) {
+  double low = std::numeric_limits<double>::infinity(), high = -low, rise = 0.0, run = 0.0;
+  const auto& nodes = problem.mesh.nodes;
+  for (const mesh::BoundaryEdge& edge : problem.mesh.boundary) {
+    const problem::Boundary& side = problem.boundaries[static_cast<std::size_t>(edge.boundary)];
+    if (side.normal != problem::Known::traction) continue;
+    const mesh::Point &a = nodes[static_cast<std::size_t>(edge.first)],
+                      &b = nodes[static_cast<std::size_t>(edge.second)];
+    low = std::min({low, a.y(), b.y()});
+    high = std::max({high, a.y(), b.y()});
+    constexpr double level = 0.05;
+    if (std::abs(b.y() - a.y()) <= level * std::abs(b.x() - a.x())) continue;
+    rise += std::abs(b.y() - a.y());
+    run += std::abs(b.x() - a.x());
+  }
+  double area = 0.0, cohesion = 0.0, friction = 0.0, weight = 0.0;
+  for (const mesh::Triangle& triangle : problem.mesh.triangles) {
+    const problem::Soil& soil = problem.soils[static_cast<std::size_t>(triangle.region)];
+    const double here = mesh::twice_area(problem.mesh, triangle);
+    area += here;
+    cohesion += here * soil.cohesion;
+    friction += here * std::tan(soil.friction_angle);
+    weight += here * one * soil.live_unit_weight;
+  }
+  constexpr double stability = 5.0;
+  const double factor =
+      friction / area * run / rise + stability * cohesion / (weight * (high - low));
+  return std::isfinite(factor) && factor > 0.0 ? std::clamp(factor, 1e-3, 1e3) : 1.0;
 }
 
-/// A secant of ln(multiplier) over ln(factor).
-class Secant {
+/// One bound of the factor.
+class Flank {
  public:
-  void add(double factor, double multiplier) {
-    const double x = std::log(factor), y = std::log(multiplier);
-    if (known_ && std::abs(x - x_) > 1e-9) {
-      // Less strength bears less: at least in proportion, and not without end.
-      slope_ = std::clamp((y - y_) / (x - x_), -20.0, -1.0);
-    }
-    x_ = x;
-    y_ = y;
-    known_ = true;
+  Flank(const problem::Problem& problem, bool is_lower, double one)
+      : is_lower_(is_lower),
+        soils_(problem.soils),
+        one_(one),
+        most_(problem.most_multiplier.value()),
+        side_(problem, is_lower),
+        search_(estimate(problem, one)) {}
+
+  /// The best one certified so far.
+  [[nodiscard]] const std::optional<double>& factor() const { return factor_; }
+  [[nodiscard]] int triangles() const { return side_.triangles(); }
+  [[nodiscard]] bool can_refine() const { return side_.can_refine() && failures_ < most_failures; }
+  /// Gain of the last mesh per second; infinite as long as it is not known.
+  [[nodiscard]] double promise() const { return promise_; }
+  void start_from(double factor) { search_ = FactorSearch(factor); }
+
+  /// With the best fields so far.
+  void give(Bracket& bracket) const {
+    if (best_.lower) bracket.lower = best_.lower;
+    if (best_.upper) bracket.upper = best_.upper;
   }
-  [[nodiscard]] bool is_known() const { return known_; }
-  /// Where the multiplier should be one.
-  [[nodiscard]] double root() const { return std::exp(x_ - y_ / slope_); }
+
+  /// Finds the factor at which this mesh's bound of the multiplier is one, to a share `near`.
+  template <class Solve>
+  void settle(double near, const Solve& solve) {
+    const std::optional<double> before = factor_;
+    const double began = processor_seconds();
+    constexpr int most_steps = 16;
+    // To the side on which the certificate decides, by less than what is asked for.
+    const double aside = std::exp((is_lower_ ? -0.25 : 0.25) * near);
+    for (int step = 0; step < most_steps && failures_ < most_failures; ++step) {
+      const double target = search_.root() * aside * nudge();
+      const bool is_near = factor_ && std::abs(std::log(target / *factor_)) < near;
+      if (is_near && step > 0) break;
+      if (factor_ && 2.0 * search_.width() < near && is_near) break;
+      if (!solve(*this, target)) break;
+    }
+    const double seconds = std::max(1e-3, processor_seconds() - began);
+    if (before && factor_) promise_ = std::abs(std::log(*factor_ / *before)) / seconds;
+  }
+
+  void refine() {
+    side_.refine();
+    search_.begin_anew();
+  }
+
+  /// Bounds the multiplier of the loads with the strength divided by the factor.
+  void solve_at(double factor, const BracketOptions& options,
+                const std::function<void(const Attempt&)>& watch, std::vector<Attempt>& attempts) {
+    std::vector<problem::Soil> soils = soils_;
+    for (problem::Soil& soil : soils) soil = weakened(soil, factor);
+    side_.set_soils(soils);
+    Bracket found;
+    BracketOptions once = options;
+    // Another factor close by costs less than another solver, and mostly helps.
+    once.fall_back = failures_ > 1;
+    side_.attempt(found, once, watch);
+    attempts.insert(attempts.end(), found.attempts.begin(), found.attempts.end());
+    learn(factor, found);
+    keep(factor, found);
+  }
 
  private:
-  bool known_ = false;
-  double x_ = 0.0, y_ = 0.0, slope_ = -1.0;
+  static constexpr int most_failures = 4;  // in a row
+
+  // Away from where a solver has just failed.
+  [[nodiscard]] double nudge() const {
+    constexpr double step = 0.004;
+    return 1.0 + (is_lower_ ? -step : step) * failures_;
+  }
+
+  void learn(double factor, const Bracket& found) {
+    const Attempt& last = found.attempts.back();
+    const bool is_solved = last.status == solver::SolverStatus::solved ||
+                           last.status == solver::SolverStatus::acceptable;
+    // What a solver certified before it failed is a bound, but may be far from the multiplier.
+    if (!is_solved || !std::isfinite(last.proposed)) {
+      ++failures_;
+      return;
+    }
+    failures_ = 0;
+    constexpr double rounding = 1e-3;
+    const double multiplier = last.certified.value_or(last.proposed);
+    const bool has_no_end = multiplier >= (1.0 - rounding) * most_;
+    search_.saw(factor, std::min(multiplier, most_) / one_, has_no_end);
+  }
+
+  // As every stress field may be scaled down, a multiplier beyond one decides for one.
+  void keep(double factor, const Bracket& found) {
+    const bool carries = is_lower_ && found.lower && found.lower_bound() >= one_;
+    const bool fails = !is_lower_ && found.upper && found.upper_bound() <= one_;
+    if (!carries && !fails) return;
+    if (factor_ && (is_lower_ ? factor <= *factor_ : factor >= *factor_)) return;
+    factor_ = factor;
+    best_ = found;
+  }
+
+  bool is_lower_;
+  std::vector<problem::Soil> soils_;
+  double one_;   // the multiplier of the loads as they are, in its unit
+  double most_;  // where it is not followed any further, likewise
+  Side side_;
+  FactorSearch search_;
+  std::optional<double> factor_;
+  Bracket best_;
+  int failures_ = 0;
+  double promise_ = std::numeric_limits<double>::infinity();
 };
 
 class Reduction {
@@ -42,21 +165,27 @@ class Reduction {
       : options_(options),
         watch_(watch),
         began_(processor_seconds()),
-        lower_(problem::in_units(problem.lower, problem.units)),
-        upper_(problem::in_units(problem.upper, problem.units)),
-        one_(1.0 / problem.units.multiplier()) {
-    for (const problem::Soil& soil : lower_.soils) {
-      if (soil.unit_weight != 0.0) {
-        throw std::invalid_argument("strength reduction: not all loads are live");
-      }
-    }
-  }
+        below_(problem::in_units(problem.lower, problem.units), true,
+               1.0 / problem.units.multiplier()),
+        above_(problem::in_units(problem.upper, problem.units), false,
+               1.0 / problem.units.multiplier()) {}
 
   Solution solution() {
-    approach();
-    refine();
-    close(true);
-    close(false);
+    // A first mesh is far off: not to more than is of use.
+    constexpr double first = 0.5, later = 0.2;
+    settle(above_, first);
+    if (above_.factor()) below_.start_from(*above_.factor());
+    settle(below_, first);
+    while (gap() > options_.gap && remaining() > 0.0) {
+      Flank* next = next_to_refine();
+      if (next == nullptr) break;
+      next->refine();
+      settle(*next, later);
+    }
+    result_.lower = below_.factor();
+    result_.upper = above_.factor();
+    below_.give(result_.bracket);
+    above_.give(result_.bracket);
     result_.bracket.reached = result_.gap() <= options_.gap;
     return std::move(result_);
   }
@@ -65,91 +194,34 @@ class Reduction {
   [[nodiscard]] double remaining() const {
     return options_.max_seconds - (processor_seconds() - began_);
   }
-
-  // Both bounds of the loads' multiplier with the strength divided by a factor.
-  Bracket bounds_at(double factor, const BracketOptions& options) {
-    problem::Problem lower = lower_, upper = upper_;
-    for (problem::Problem* problem : {&lower, &upper}) {
-      for (problem::Soil& soil : problem->soils) soil = weakened(soil, factor);
-    }
-    Bracket found = bracket(std::move(lower), std::move(upper), options, watch_);
-    for (const Attempt& attempt : found.attempts) result_.bracket.attempts.push_back(attempt);
-    if (found.lower) {
-      const double multiplier = found.lower_bound() / one_;
-      if (multiplier > 0.0) below_.add(factor, multiplier);
-      if (multiplier >= 1.0 && (!result_.lower || factor > *result_.lower)) {
-        result_.lower = factor;
-        result_.bracket.lower = found.lower;
-      }
-    }
-    if (found.upper) {
-      const double multiplier = found.upper_bound() / one_;
-      if (multiplier > 0.0) above_.add(factor, multiplier);
-      if (multiplier <= 1.0 && (!result_.upper || factor < *result_.upper)) {
-        result_.upper = factor;
-        result_.bracket.upper = found.upper;
-      }
-    }
-    return found;
+  [[nodiscard]] double gap() const {
+    if (!below_.factor() || !above_.factor()) return std::numeric_limits<double>::infinity();
+    return 2.0 * (*above_.factor() - *below_.factor()) / (*above_.factor() + *below_.factor());
   }
 
-  [[nodiscard]] BracketOptions once() const {
-    BracketOptions options = options_;
-    options.max_triangles = 1;  // no refinement, and so no end before it is solved
-    return options;
-  }
-
-  [[nodiscard]] double between() const {
-    if (below_.is_known() && above_.is_known()) return std::sqrt(below_.root() * above_.root());
-    return below_.is_known() ? below_.root() : above_.is_known() ? above_.root() : 1.0;
-  }
-
-  // On the meshes to begin with, to a factor near which it pays to refine.
-  void approach() {
-    double factor = 1.0;
-    constexpr int most_steps = 6;
-    for (int step = 0; step < most_steps; ++step) {
-      (void)bounds_at(factor, once());
-      const double next = between();
-      constexpr double near = 0.02;
-      const bool is_near = std::abs(next / factor - 1.0) < near;
-      factor = next;
-      if (is_near) break;
+  Flank* next_to_refine() {
+    Flank* next = nullptr;
+    for (Flank* flank : {&below_, &above_}) {
+      if (!flank->can_refine() || flank->triangles() >= options_.max_triangles) continue;
+      if (next == nullptr || flank->promise() > next->promise()) next = flank;
     }
-    factor_ = factor;
+    return next;
   }
 
-  void refine() {
-    constexpr double of_gap = 0.8, of_time = 0.6;
-    BracketOptions options = options_;
-    options.gap = of_gap * options_.gap;
-    options.max_seconds = std::max(1.0, of_time * remaining());
-    const Bracket found = bounds_at(factor_, options);
-    if (found.lower) lower_.mesh = found.lower->mesh;
-    if (found.upper) upper_.mesh = found.upper->mesh;
-  }
-
-  // From the safe side to the factor at which one bound of the multiplier is one.
-  void close(bool is_lower) {
-    const Secant& secant = is_lower ? below_ : above_;
-    if (!secant.is_known()) return;
-    const double aside = options_.gap / 40.0;
-    constexpr int most_steps = 4;
-    for (int step = 0; step < most_steps; ++step) {
-      const double target = secant.root() * (is_lower ? 1.0 - aside : 1.0 + aside);
-      const std::optional<double>& have = is_lower ? result_.lower : result_.upper;
-      if (have && std::abs(target / *have - 1.0) < 2.0 * aside) return;
-      (void)bounds_at(target, once());
-    }
+  void settle(Flank& flank, double share_of_gap) {
+    flank.settle(share_of_gap * options_.gap, [&](Flank& of, double factor) {
+      if (remaining() <= 0.0) return false;
+      BracketOptions rest = options_;
+      rest.max_seconds = remaining();
+      of.solve_at(factor, rest, watch_, result_.bracket.attempts);
+      return true;
+    });
   }
 
   const BracketOptions& options_;
   const std::function<void(const Attempt&)>& watch_;
   double began_;
-  problem::Problem lower_, upper_;
-  double one_;  // the multiplier of the loads as they are, in its unit
-  double factor_ = 1.0;
-  Secant below_, above_;
+  Flank below_, above_;
   Solution result_;
 };
 
@@ -164,6 +236,11 @@ problem::Soil weakened(const problem::Soil& soil, double factor) {
 
 Solution reduce_strength(const problem::Case& problem, const BracketOptions& options,
                          const std::function<void(const Attempt&)>& watch) {
+  for (const problem::Soil& soil : problem.lower.soils) {
+    if (soil.unit_weight != 0.0 || !problem.lower.most_multiplier) {
+      throw std::invalid_argument("strength reduction: not all loads are live, or without end");
+    }
+  }
   return Reduction(problem, options, watch).solution();
 }
 

@@ -159,6 +159,8 @@ void make_live(problem::Problem& problem) {
   }
   problem.footing.live_load = problem.footing.dead_load;
   problem.footing.dead_load = {};
+  // Whether it is more or less than one is all that is asked.
+  problem.most_multiplier = 4.0;
 }
 
 // The problem without its mesh.
@@ -239,14 +241,18 @@ double length_of(const GroundScene& scene, const GroundOutline& outline,
   return half_height > 0.0 ? half_height : outline.size / 4.0;
 }
 
+// Live loads count as far as the multiplier is known to be about one.
 problem::Units units_of(const problem::Problem& problem, double length) {
+  const double live = problem.most_multiplier ? 1.0 : 0.0;
   double surcharge = 0.0, stress = 0.0;
   for (const problem::Boundary& boundary : problem.boundaries) {
-    surcharge = std::max(surcharge, -boundary.normal_stress);
+    surcharge =
+        std::max(surcharge, -(boundary.normal_stress + live * boundary.live_normal_stress));
   }
   for (const problem::Soil& soil : problem.soils) {
+    const double unit_weight = soil.unit_weight + live * soil.live_unit_weight;
     stress += (soil.cohesion * std::cos(soil.friction_angle) +
-               (surcharge + soil.unit_weight * length) * std::sin(soil.friction_angle)) /
+               (surcharge + unit_weight * length) * std::sin(soil.friction_angle)) /
               static_cast<double>(problem.soils.size());
   }
   problem::Units units{length, stress, 1.0 / live_stress(problem, length)};

@@ -25,6 +25,7 @@ Problem in_units(const Problem& problem, const Units& units) {
     footing.dead_load[i] /= force * arm;
     footing.live_load[i] *= live / (units.length * arm);
   }
+  if (scaled.most_multiplier) *scaled.most_multiplier /= units.multiplier();
   return scaled;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,9 @@ struct Problem {
   std::vector<Soil> soils;           // by Triangle::region
   std::vector<Boundary> boundaries;  // by BoundaryEdge::boundary
   Footing footing;
+  /// Where the multiplier is not followed any further, in its unit: where more weight makes more
+  /// strength than it takes, nothing limits it. Absent: wherever it ends.
+  std::optional<double> most_multiplier;
 };
 
 /// What is made of order one before anything is solved.

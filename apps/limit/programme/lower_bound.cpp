@@ -52,6 +52,10 @@ class Builder {
       }
     }
     for (const mesh::Edge& edge : edges_) add_contacts(edge);
+    if (problem.most_multiplier) {
+      cones_.push_back(half_line_cone(*problem.most_multiplier));
+      starts_.push_back(inner_point(cones_.back(), 0.0));
+    }
   }
 
   ConeProgram program() {
@@ -59,6 +63,7 @@ class Builder {
     equilibrium_of_sides();
     equilibrium_of_footing();
     stresses_of_contacts();
+    end_of_multiplier();
     const Eigen::Index variables = multiplier() + 1;
     ConeProgram program;
     program.cones = cones_;
@@ -109,6 +114,14 @@ class Builder {
       add(contact.stress, traction(contact.normal, contact.normal));
       add(contact.variable, -1.0);
     }
+  }
+
+  // What is left to the most, in a cone of its own, the last one.
+  void end_of_multiplier() {
+    if (!problem_.most_multiplier) return;
+    begin_equation(*problem_.most_multiplier);
+    add(multiplier(), 1.0);
+    add(multiplier() - 3, -1.0);
   }
 
   void begin_equation(double right_side) { right_side_.push_back(right_side); }

@@ -89,20 +89,31 @@ class Builder {
   ConeProgram program() {
     for (std::size_t t = 0; t < problem_.mesh.triangles.size(); ++t) add_triangle(t);
     for (const mesh::Edge& edge : edges_) add_side(edge);
-    const int equations = rows_.count + static_cast<int>(contacts_.size());
+    const int equations = rows_.count + static_cast<int>(contacts_.size()) +
+                          (problem_.most_multiplier ? 1 : 0);
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       const int row = rows_.count + static_cast<int>(c);
       add(row, contacts_[c].traction, 1.0);
       add(row, contacts_[c].variable, -1.0);
     }
+    if (problem_.most_multiplier) {
+      cones_.push_back(half_line_cone(*problem_.most_multiplier));
+      starts_.push_back(inner_point(cones_.back(), 0.0));
+    }
     const auto multiplier = static_cast<int>(3 * cones_.size());
     const Loads loads(problem_, edges_);
     for (int row = 0; row < rows_.count; ++row) add(row, multiplier, -loads.live[row]);
+    if (problem_.most_multiplier) {
+      // What is left to the most, in the last cone.
+      add(equations - 1, multiplier, 1.0);
+      add(equations - 1, multiplier - 3, -1.0);
+    }
     ConeProgram program;
     program.equations.resize(equations, multiplier + 1);
     program.equations.setFromTriplets(entries_.begin(), entries_.end());
     program.right_side = Eigen::VectorXd::Zero(equations);
     program.right_side.head(rows_.count) = loads.dead;
+    if (problem_.most_multiplier) program.right_side[equations - 1] = *problem_.most_multiplier;
     program.objective = Eigen::VectorXd::Unit(multiplier + 1, multiplier);
     program.start = Eigen::VectorXd::Zero(multiplier + 1);
     for (std::size_t k = 0; k < cones_.size(); ++k) {
@@ -254,7 +265,9 @@ problem::VelocityField velocity_field(const problem::Problem& problem,
   }
   const Eigen::VectorXd live = Loads(problem, mesh::edges_of(problem.mesh)).live;
   const double power = live.dot(multipliers.head(live.size()));
-  const double scale = power != 0.0 ? 1.0 / power : 1.0;
+  // The multipliers are the velocities turned round. Without power of the live loads, as where the
+  // multiplier has no end, the size is left as it is.
+  const double scale = power < 0.0 ? 1.0 / power : -1.0;
   field.footing *= scale;
   for (std::size_t t = 0; t < triangles; ++t) {
     field.triangles.emplace_back(

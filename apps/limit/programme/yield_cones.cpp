@@ -7,20 +7,25 @@
 namespace limit::programme {
 
 Overburden::Overburden(const problem::Problem& problem) {
+  constexpr double of_most = 0.25;
+  if (problem.most_multiplier) multiplier_ = of_most * *problem.most_multiplier;
   top_ = bottom_ = problem.mesh.nodes.front().y();
   for (const mesh::Point& node : problem.mesh.nodes) {
     top_ = std::max(top_, node.y());
     bottom_ = std::min(bottom_, node.y());
   }
   for (const problem::Boundary& boundary : problem.boundaries) {
-    load_ = std::max(load_, -boundary.normal_stress);
+    const double live = multiplier_.value_or(0.0) * boundary.live_normal_stress;
+    load_ = std::max(load_, -(boundary.normal_stress + live));
   }
 }
 
 double Overburden::at(const problem::Soil& soil, const mesh::Point& place) const {
   const double depth = top_ - place.y();
   double stress = load_ + soil.unit_weight * depth;
-  if (soil.live_unit_weight > 0.0) {
+  if (multiplier_) {
+    stress += *multiplier_ * soil.live_unit_weight * depth;
+  } else if (soil.live_unit_weight > 0.0) {
     const double at_failure =
         4.0 * soil.cohesion * std::tan(std::numbers::pi / 4 + soil.friction_angle / 2);
     stress += at_failure * depth / (top_ - bottom_);
@@ -35,6 +40,10 @@ YieldCone yield_cone(const problem::Soil& soil, double overburden, double reserv
   // A place without strength must not have a scale of zero.
   constexpr double least = 1e-6;
   return {strength, slope, std::max(strength + slope * overburden, least)};
+}
+
+YieldCone half_line_cone(double scale) {
+  return {0.0, 1.0, scale};
 }
 
 YieldCone contact_cone(double scale, double reserve) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "limit/problem/problem.hpp"
 #include "limit/programme/cone_program.hpp"
 
@@ -8,7 +10,7 @@ namespace limit::programme {
 /// A rough guess of the compressive vertical stress, for scales and starts: the weight up to the
 /// highest node, and the largest compressive stress prescribed on the outline. A live weight is
 /// taken to grow until a vertical cut as high as the body would fail, gamma H = 4 c tan(45 +
-/// phi/2).
+/// phi/2), or, if the multiplier ends somewhere, to the fourth part of that.
 class Overburden {
  public:
   explicit Overburden(const problem::Problem& problem);
@@ -17,6 +19,7 @@ class Overburden {
  private:
   double top_ = 0.0, bottom_ = 0.0;
   double load_ = 0.0;
+  std::optional<double> multiplier_;  // of live loads
 };
 
 /// The soil's cone, scaled by its strength under the compressive stress `overburden`; it lies
@@ -28,6 +31,10 @@ class Overburden {
 /// the fraction `reserve` of the scale, a stress typical of the place. Nothing else may name its d
 /// and t: what remains of it is one-dimensional.
 [[nodiscard]] YieldCone contact_cone(double scale, double reserve);
+
+/// The cone whose variable p is not positive; the others stay out of it, too.
+/// @param scale  typical of the variable, > 0
+[[nodiscard]] YieldCone half_line_cone(double scale);
 
 /// (p, d, t) of an isotropic stress strictly inside the cone.
 [[nodiscard]] Eigen::Vector3d inner_point(const YieldCone& cone, double overburden);

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "limit/bracket/bracket.hpp"
+
+namespace limit::bracket {
+
+/// One side of the bracket: its mesh, and what refining it has brought.
+class Side {
+ public:
+  /// For an upper bound without the corners of rigid ground that no velocity may leave.
+  Side(problem::Problem problem, bool is_lower);
+
+  [[nodiscard]] int triangles() const { return static_cast<int>(problem_.mesh.triangles.size()); }
+  /// Relative gain per second of the last attempt; infinite as long as it is not known.
+  [[nodiscard]] double promise() const { return promise_; }
+  [[nodiscard]] bool can_refine() const { return !indicators_.empty(); }
+  /// The same ground with other strengths, on the mesh as it is.
+  void set_soils(const std::vector<problem::Soil>& soils);
+
+  /// Bisects where the last attempt says that most of the flow is.
+  void refine();
+
+  /// Asks the solvers in turn until one has a good answer; what they certify is kept in the bracket
+  /// if it is better than what is there, and each attempt is noted.
+  void attempt(Bracket& bracket, const BracketOptions& options,
+               const std::function<void(const Attempt&)>& watch);
+
+ private:
+  [[nodiscard]] bool is_good(const Attempt& attempt, const std::optional<double>& before) const;
+  [[nodiscard]] std::optional<double> best(const Bracket& bracket) const;
+  void certify(Bracket& bracket, Attempt& attempt, const solver::ConeSolution& solution);
+
+  problem::Problem problem_;
+  bool is_lower_;
+  std::vector<double> indicators_;
+  double promise_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace limit::bracket

@@ -1,0 +1,75 @@
+#include "limit/bracket/factor_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace {
+
+using limit::bracket::FactorSearch;
+
+constexpr double most = 4.0;  // as multipliers are followed
+
+// Values it takes to come within a part in 400 of the root.
+int steps_to(double root, double first, const std::function<double(double)>& multiplier) {
+  FactorSearch search(first);
+  for (int step = 1; step < 40; ++step) {
+    const double factor = search.root();
+    if (std::abs(std::log(factor / root)) < 0.0025) return step;
+    const double value = multiplier(factor);
+    search.saw(factor, std::min(value, most), value >= most);
+  }
+  return 40;
+}
+
+// Clay: the multiplier is in proportion to the strength, and one value tells all but the slope.
+TEST(FactorSearch, FindsTheFactorOfAClayFromFarAway) {
+  for (const double root : {0.01, 0.7, 30.0}) {
+    EXPECT_LE(steps_to(root, 1.0, [&](double factor) { return root / factor; }), 9) << root;
+  }
+}
+
+// An infinite slope of depth D: M = c / (gamma D cos(b)^2 (F tan(b) - tan(phi))), without end up to
+// tan(phi) / tan(b); the less cohesion, the steeper. Halving alone from a factor of three on would
+// take 9 steps more than the way to it.
+TEST(FactorSearch, FindsTheFactorWhereTheMultiplierHasNoEndBeforeIt) {
+  for (const double friction : {0.5, 1.0, 6.0}) {  // tan(phi) / tan(b)
+    for (const double cohesion : {1e-4, 1e-2, 1.0}) {
+      const auto multiplier = [&](double factor) {
+        const double lacking = factor - friction;
+        return lacking > 0.0 ? cohesion / lacking : 1e9;
+      };
+      EXPECT_LE(steps_to(friction + cohesion, 1.0, multiplier), 18) << friction << ' ' << cohesion;
+    }
+  }
+}
+
+TEST(FactorSearch, GoesOnFromTheRootOfTheMeshBefore) {
+  FactorSearch search(1.0);
+  search.saw(1.0, 2.0, false);
+  search.saw(2.0, 0.9, false);
+  const double before = search.root();
+  search.begin_anew();
+  EXPECT_EQ(search.root(), before);
+  EXPECT_TRUE(std::isinf(search.width()));
+  search.saw(before, 1.1, false);  // the finer mesh bears more
+  EXPECT_GT(search.root(), before);
+  // What is no multiplier at all says nothing.
+  const double root = search.root();
+  search.saw(before, NAN, false);
+  search.saw(before, -1.0, false);
+  EXPECT_EQ(search.root(), root);
+}
+
+// A solver's digits may contradict each other near the root: the last word counts.
+TEST(FactorSearch, IsNotLostWhereValuesContradictEachOther) {
+  FactorSearch search(1.0);
+  search.saw(1.0, 1.001, false);
+  search.saw(0.99, 0.999, false);
+  EXPECT_LT(search.root(), 0.99);
+  EXPECT_GT(search.root(), 0.9);
+}
+
+}  // namespace

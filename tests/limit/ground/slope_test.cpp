@@ -1,0 +1,68 @@
+// Slopes of which friction alone holds more than the weight takes.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "limit/ground/ground_cases.hpp"
+
+namespace {
+
+using namespace limit;
+
+// A logarithmic spiral through the toe: with the strength divided by this, c / (gamma H) = 0.025
+// fails.
+constexpr double spiral = 1.3540;
+
+bracket::BracketOptions options() {
+  bracket::BracketOptions options;
+  options.gap = 0.04;
+  return options;
+}
+
+TEST(Slope, ThatNoMultipleOfItsWeightBringsDownHasItsFactorInTheBracket) {
+  // Without end up to tan(50) / tan(26.57) = 2.38.
+  const double friction = 2.0 * std::tan(50.0 * std::numbers::pi / 180.0);
+  const auto problem = shipped("slope_gentle", {"material.soil.friction_angle=50"});
+  ASSERT_TRUE(problem);
+  const bracket::Solution found = bracket::solution_of(problem->associated, options(), {});
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_TRUE(found.bracket.reached);
+  EXPECT_LT(*found.lower, *found.upper);
+  // Cohesion adds to what friction carries alone.
+  EXPECT_GT(*found.upper, friction);
+  // Each bound is proved by its own field.
+  const double one = 1.0 / problem->associated.units.multiplier();
+  EXPECT_GE(found.bracket.lower_bound(), one);
+  EXPECT_LE(found.bracket.upper_bound(), one);
+}
+
+TEST(Slope, ThatIsGentleHasTheSpiralsFactorAboveItsLowerBound) {
+  const auto problem = shipped("slope_gentle");
+  ASSERT_TRUE(problem);
+  const bracket::Solution found = bracket::solution_of(problem->associated, options(), {});
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_TRUE(found.bracket.reached);
+  EXPECT_LT(*found.lower, spiral);
+  // The collapse is between the lower bound and the spiral, and the upper bound above the collapse.
+  EXPECT_GT(*found.upper, *found.lower);
+  EXPECT_GT(*found.lower, spiral * (1.0 - 2.0 * options().gap));
+}
+
+TEST(Slope, KeepsToItsBudgetAndSaysWhatWasCertified) {
+  const auto problem = shipped("slope_gentle");
+  ASSERT_TRUE(problem);
+  bracket::BracketOptions narrow;
+  narrow.gap = 1e-6;
+  narrow.max_triangles = 1;
+  const bracket::Solution found = bracket::solution_of(problem->associated, narrow, {});
+  EXPECT_FALSE(found.bracket.reached);
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_LT(*found.lower, *found.upper);
+  // No time at all: nothing is begun, and nothing is said.
+  narrow.max_seconds = 1e-9;
+  const bracket::Solution nothing = bracket::solution_of(problem->associated, narrow, {});
+  EXPECT_FALSE(nothing.lower || nothing.upper);
+  EXPECT_LE(nothing.bracket.attempts.size(), 1U);
+}
+
+}  // namespace
