@@ -7,8 +7,12 @@ namespace jfnk::detail {
 void BroydenMemory::resize(Eigen::Index n, int capacity) {
   s_.resize(static_cast<std::size_t>(capacity));
   w_.resize(static_cast<std::size_t>(capacity));
-  for (Vector& v : s_) v.resize(n);
-  for (Vector& v : w_) v.resize(n);
+  n_ = n;
+  for (std::vector<Vector>* vectors : {&s_, &w_}) {
+    for (Vector& v : *vectors) {
+      if (v.size() != n) v.resize(0);
+    }
+  }
   clear();
 }
 

@@ -15,7 +15,8 @@ namespace jfnk::detail {
 /// `SecantMemory` need as many pairs as there are directions in which the Jacobian has changed.
 class BroydenMemory {
  public:
-  /// Allocates for n unknowns and `capacity` pairs, and forgets all pairs.
+  /// For n unknowns and up to `capacity` pairs; forgets all pairs. Vectors are allocated when a
+  /// pair first needs them, and kept.
   void resize(Eigen::Index n, int capacity);
   /// Forgets all pairs.
   void clear() { size_ = 0; }
@@ -42,12 +43,15 @@ class BroydenMemory {
     walk(size_);
     if (size_ < 0 || size_ > static_cast<int>(s_.size())) size_ = 0;  // damaged
     for (int i = 0; i < size_; ++i) {
+      s_[static_cast<std::size_t>(i)].resize(n_);
+      w_[static_cast<std::size_t>(i)].resize(n_);
       walk(s_[static_cast<std::size_t>(i)]);
       walk(w_[static_cast<std::size_t>(i)]);
     }
   }
 
  private:
+  Eigen::Index n_ = 0;
   int size_ = 0;
   std::vector<Vector> s_;
   std::vector<Vector> w_;

@@ -44,9 +44,15 @@ void Gmres::resize(Eigen::Index n, const GmresOptions& options, bool preconditio
   const auto columns = static_cast<std::size_t>(
       std::min<Eigen::Index>({dimension, options.restart, options.max_iterations}));
   if (basis_.size() != columns + 1) basis_.resize(columns + 1);
-  for (Vector& v : basis_) v.resize(n);
+  // Grown as columns are built: most solves need few.
+  for (Vector& v : basis_) {
+    if (v.size() != n) v.resize(0);
+  }
+  basis_.front().resize(n);
   preconditioned_.resize(options.flexible && preconditioned ? columns : 0);
-  for (Vector& z : preconditioned_) z.resize(n);
+  for (Vector& z : preconditioned_) {
+    if (z.size() != n) z.resize(0);
+  }
   work_.resize(n);
   next_.resize(n);
   direction_.resize(preconditioned ? n : 0);
@@ -135,9 +141,11 @@ Gmres::Cycle Gmres::run_cycle(const OperatorRef& A, const PreconditionerRef& P,
   for (int k = 0; k < columns; ++k) {
     const auto column = static_cast<std::size_t>(k);
     Vector& w = basis_[column + 1];
+    w.resize(work_.size());
     const Vector* input = &basis_[column];
     if (!P.is_identity()) {
       Vector& z = options.flexible ? preconditioned_[column] : direction_;
+      z.resize(work_.size());
       P.apply(basis_[column], z);
       ++preconditioner_applications_;
       input = &z;

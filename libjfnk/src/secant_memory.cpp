@@ -20,8 +20,13 @@ void SecantMemory::resize(Eigen::Index n, int capacity) {
   const auto columns = static_cast<std::size_t>(capacity_);
   du_.resize(columns);
   q_.resize(columns);
-  for (Vector& v : du_) v.resize(n);
-  for (Vector& v : q_) v.resize(n);
+  n_ = n;
+  // Grown as pairs come: most solves hold few.
+  for (std::vector<Vector>* vectors : {&du_, &q_}) {
+    for (Vector& v : *vectors) {
+      if (v.size() != n) v.resize(0);
+    }
+  }
   r_.resize(capacity_, capacity_);
   work_.resize(n);
   column_.resize(capacity_);

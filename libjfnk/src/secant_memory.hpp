@@ -13,8 +13,8 @@ namespace jfnk::detail {
 /// the ones before it, whatever the scale of the residual was at the time.
 class SecantMemory {
  public:
-  /// Allocates for n unknowns and `capacity` pairs, at most as many as all unknowns, and forgets
-  /// all pairs.
+  /// For n unknowns and up to `capacity` pairs, at most as many as all unknowns; forgets all pairs.
+  /// Vectors are allocated when a pair first needs them, and kept.
   void resize(Eigen::Index n, int capacity);
   /// Forgets all pairs.
   void clear();
@@ -23,7 +23,8 @@ class SecantMemory {
 
   /// Adds a pair, dropping the oldest ones for room and until max |R_ii| / min |R_ii| is at most
   /// `max_condition`. A pair with dr = 0 or a NaN is ignored.
-  /// Cost: 2 n size() flops twice, and 6 n size() for each pair dropped. No allocation.
+  /// Cost: 2 n size() flops twice, and 6 n size() for each pair dropped. Allocates if so many pairs
+  /// were never held.
   void add(const Vector& du, const Vector& dr, double max_condition,
            const InnerProductRef& product);
 
@@ -49,6 +50,8 @@ class SecantMemory {
     if (size_ < 0 || size_ > capacity_) size_ = 0;
     if (first_ < 0 || first_ >= capacity_) first_ = 0;
     for (int i = 0; i < size_; ++i) {
+      du(i).resize(n_);
+      q_[static_cast<std::size_t>(i)].resize(n_);
       walk(du(i));
       walk(q_[static_cast<std::size_t>(i)]);
       for (int j = 0; j <= i; ++j) walk(r_(j, i));
@@ -67,6 +70,7 @@ class SecantMemory {
   void rotate_columns();
   Vector& du(int i) { return du_[static_cast<std::size_t>((first_ + i) % capacity_)]; }
 
+  Eigen::Index n_ = 0;
   int capacity_ = 0;
   int size_ = 0;
   int first_ = 0;           // ring position of the oldest du

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <atomic>
 #include <cmath>
@@ -74,7 +75,7 @@ TEST(Allocation, CounterSeesEigenAndNew) {
   EXPECT_GT(allocations, between);
 }
 
-TEST(Allocation, NoneBetweenTheFirstAndTheLastEvaluation) {
+TEST(Allocation, NoneBetweenTheFirstAndTheLastEvaluationOfASolverUsedBefore) {
   for (const Method method : {Method::newton_krylov, Method::multisecant, Method::hybrid}) {
     for (const bool flexible : {false, true}) {
       Options options;
@@ -87,7 +88,11 @@ TEST(Allocation, NoneBetweenTheFirstAndTheLastEvaluation) {
       options.learning.enabled = false;  // factors are allocated when they are learnt
       Watching F{40};
       Vector u = Vector::Zero(40);
-      const auto report = jfnk::solve(F, u, options, Halving{});
+      Solver solver(options);
+      (void)solver.solve(F, u, Halving{});
+      u.setZero();
+      F.started = false;
+      const auto& report = solver.solve(F, u, Halving{});
       EXPECT_GT(report.counts.total(), 20);
       EXPECT_EQ(F.last - F.first, 0u) << jfnk::to_string(report.status);
     }
@@ -106,6 +111,31 @@ TEST(Allocation, SecondSolveOfASolverNeedsOnlyItsReason) {
   const std::size_t before = allocations;
   ASSERT_TRUE(solver.solve(F, u, Halving{}).converged());
   EXPECT_EQ(F.last - before, 0u);
+}
+
+/// Bytes in use, those of large blocks included.
+std::size_t live() {
+  const auto info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+TEST(Allocation, AShortSolveHoldsFewVectorsOfManyAllowed) {
+  constexpr int n = 200000;
+  // Seventeen vectors of n that are always there, and two for each of some seven pairs.
+  constexpr double most_bytes_per_unknown = 250.0;
+  const auto F = [](const Vector& u, Vector& r) {
+    for (int i = 0; i < n; ++i) r[i] = u[i] - 1.0 + 0.1 * (i > 0 ? u[i - 1] * u[i - 1] : 0.0);
+  };
+  const std::size_t before = live();
+  Options options;
+  options.tolerances.relative = 1e-4;
+  Solver solver(options);
+  ASSERT_TRUE(solver.start(F, Vector::Zero(n)));
+  while (solver.step(F)) {
+  }
+  EXPECT_TRUE(solver.report().converged()) << solver.report().reason;
+  EXPECT_GE(solver.report().multisecant_iterations, 3);
+  EXPECT_LE(static_cast<double>(live() - before) / n, most_bytes_per_unknown);
 }
 
 }  // namespace

@@ -66,17 +66,17 @@ class OperatorRef {
   Evaluation (*apply_)(void*, const Vector&, Vector&);
 };
 
-/// Right-preconditioned restarted GMRES with a workspace that is allocated once.
+/// Right-preconditioned restarted GMRES with a workspace that grows as columns are built.
 ///
 /// Arnoldi by modified Gram-Schmidt, repeated where cancellation asks for it; least squares by
 /// Givens rotations. The residual after a restart comes from the Arnoldi relation, so A is applied
 /// `iterations` times and never more (once more if the first guess is not zero).
 class Gmres {
  public:
-  /// Allocates for n unknowns; does nothing if the sizes are those of the last call.
+  /// For n unknowns; what the last call left is kept if the sizes are the same.
   void resize(Eigen::Index n, const GmresOptions& options, bool preconditioned);
 
-  /// Reduces ||b - A x|| from the given x. No allocation if `resize` was called before.
+  /// Reduces ||b - A x|| from the given x. Allocates a vector for each column never reached before.
   /// @param b  right-hand side, n; must be finite
   /// @param[in,out] x  first guess and result, n
   /// @throws std::invalid_argument if sizes disagree or `options` are not valid

@@ -124,8 +124,9 @@ struct Snapshot {
 /// Solves F(u) = 0, keeping its memory from one solve to the next.
 ///
 /// Nothing else is kept: a second solve gives bit for bit what a new Solver would. Distinct solvers
-/// may run in distinct threads. No allocation between the first and the last evaluation but for the
-/// factors of a Jacobian that is learnt (see Learning).
+/// may run in distinct threads. Memory grows with the pairs and Krylov vectors in use; a solve that
+/// needs no more than one before allocates nothing but the factors of a Jacobian learnt (see
+/// Learning).
 class Solver {
  public:
   /// @throws std::invalid_argument with every message of `validate` if options are not usable
