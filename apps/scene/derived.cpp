@@ -7,7 +7,6 @@
 #include <string>
 
 #include "constitutive/parameters.hpp"
-#include "scene/places.hpp"
 #include "scene/scene.hpp"
 
 namespace scene {
@@ -122,7 +121,7 @@ std::vector<Measure> resolve_measures(const Scene& scene) {
       if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
     }
     const auto taken = [&](const Measure& other) { return other.name == name; };
-    if (std::ranges::any_of(all, taken)) name += "_" + std::to_string(i);
+    if (std::ranges::any_of(all, taken)) name.append(1, '_').append(std::to_string(i));
     all.push_back({.name = name, .kind = MeasureKind::reaction, .support = support.name});
   }
   return all;

@@ -21,6 +21,9 @@ struct Measure;
 struct Scene;
 struct Solver;
 
+/// Decimal input leaves places this far from where they are meant to be [of the spacing].
+inline constexpr double same_place = 1e-9;
+
 /// The model of a material, by its family and match.
 [[nodiscard]] const constitutive::ModelInfo& model_of(const Material& material);
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/derived.hpp"
-
 namespace scene {
 
 namespace {

@@ -4,12 +4,10 @@
 #include <cstdint>
 
 #include "scene/choices.hpp"
+#include "scene/derived.hpp"
 #include "scene/scene.hpp"
 
 namespace scene {
-
-/// Decimal input leaves places this far from where they are meant to be [of the spacing].
-inline constexpr double same_place = 1e-9;
 
 /// Particles of the lattice by their indices along x, y, z: a box, first and last included. A shift
 /// by jitter is not in it, but where it matters a box is wide enough for any.

@@ -126,11 +126,11 @@ struct Drive {
 
 /// Columns of the curve beside those of the drive.
 struct Measure {
-  std::string name;  // with which its columns begin
+  std::string name{};  // with which its columns begin
   MeasureKind kind = MeasureKind::displacement;
-  Point at;                            // [m] of displacement, stress and plastic_strain
-  std::optional<std::string> support;  // of a reaction
-  std::optional<Side> side;            // of a resultant
+  Point at{};                            // [m] of displacement, stress and plastic_strain
+  std::optional<std::string> support{};  // of a reaction
+  std::optional<Side> side{};            // of a resultant
   bool operator==(const Measure&) const = default;
 };
 
