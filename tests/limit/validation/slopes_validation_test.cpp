@@ -84,7 +84,7 @@ Slope random_slope(std::mt19937& random) {
   return slope;
 }
 
-TEST(Validation, AHundredSlopesAtRandom) {
+TEST(Slopes, AHundredSlopesAtRandom) {
   std::mt19937 random(20);
   constexpr int many = 100;
   int solved = 0, certified = 0;
