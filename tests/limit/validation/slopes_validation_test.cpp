@@ -1,5 +1,5 @@
 // A hundred slopes as one meets them, at random, with the default gap and budget; prints the table
-// of share/doc/limit-analysis.md.
+// of what each comes to.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
