@@ -195,6 +195,7 @@ std::string text_report(const problem::Case& problem, const Answer& answer,
   heading.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(heading.front())));
   text += '\n' + heading + ":\n";
   say_bounds(text, answer.found, unit);
+  for (const std::string& note : problem.notes) fmt::format_to(out, "  {}\n", note);
   if (answer.found.lower && answer.found.upper && !bracket.reached) {
     fmt::format_to(out,
                    "  wider than the gap asked for, {:g} %: allow more by --max-triangles ({}) or "
@@ -207,8 +208,10 @@ std::string text_report(const problem::Case& problem, const Answer& answer,
   }
   if (answer.run) text += bounds::text_of(*answer.run);
   text += '\n';
-  say_certificates(text, problem, bracket);
-  say_solver(text, bracket);
+  if (!bracket.attempts.empty()) {
+    say_certificates(text, problem, bracket);
+    say_solver(text, bracket);
+  }
   text += "Assumptions:\n";
   for (const std::string& assumption : problem.assumptions) {
     fmt::format_to(out, "  {}\n", assumption);
@@ -234,6 +237,7 @@ std::string json_report(const problem::Case& problem, const Answer& answer,
   json["case"] = problem.title;
   for (const auto& [what, value] : problem.data) json["data"][what] = value;
   json["assumptions"] = problem.assumptions;
+  if (!problem.notes.empty()) json["notes"] = problem.notes;
   for (const problem::HandFormula& formula : problem.hand) {
     json["hand_formulas_Pa"][formula.name] = formula.pressure;
   }

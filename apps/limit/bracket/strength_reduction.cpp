@@ -168,22 +168,13 @@ class Reduction {
         below_(problem::in_units(problem.lower, problem.units), true,
                1.0 / problem.units.multiplier()),
         above_(problem::in_units(problem.upper, problem.units), false,
-               1.0 / problem.units.multiplier()) {}
+               1.0 / problem.units.multiplier()),
+        case_(problem) {}
 
   Solution solution() {
-    // A first mesh is far off: not to more than is of use.
-    constexpr double first = 0.5, later = 0.2;
-    settle(above_, first);
-    if (above_.factor()) below_.start_from(*above_.factor());
-    settle(below_, first);
-    while (gap() > options_.gap && remaining() > 0.0) {
-      Flank* next = next_to_refine();
-      if (next == nullptr) break;
-      next->refine();
-      settle(*next, later);
-    }
-    result_.lower = below_.factor();
-    result_.upper = above_.factor();
+    if (!(case_.known_lower && case_.known_upper)) search();
+    result_.lower = larger(below_.factor(), case_.known_lower);
+    result_.upper = smaller(above_.factor(), case_.known_upper);
     below_.give(result_.bracket);
     above_.give(result_.bracket);
     result_.bracket.reached = result_.gap() <= options_.gap;
@@ -191,6 +182,29 @@ class Reduction {
   }
 
  private:
+  static std::optional<double> larger(const std::optional<double>& a,
+                                      const std::optional<double>& b) {
+    return a && b ? std::max(*a, *b) : a ? a : b;
+  }
+  static std::optional<double> smaller(const std::optional<double>& a,
+                                       const std::optional<double>& b) {
+    return a && b ? std::min(*a, *b) : a ? a : b;
+  }
+
+  void search() {
+    // A first mesh is far off: not to more than is of use.
+    constexpr double first = 0.5, later = 0.2;
+    settle(above_, first);
+    if (above_.factor()) below_.start_from(*above_.factor());
+    if (case_.has_lower) settle(below_, first);
+    while (case_.has_lower && gap() > options_.gap && remaining() > 0.0) {
+      Flank* next = next_to_refine();
+      if (next == nullptr) break;
+      next->refine();
+      settle(*next, later);
+    }
+  }
+
   [[nodiscard]] double remaining() const {
     return options_.max_seconds - (processor_seconds() - began_);
   }
@@ -222,6 +236,7 @@ class Reduction {
   const std::function<void(const Attempt&)>& watch_;
   double began_;
   Flank below_, above_;
+  const problem::Case& case_;
   Solution result_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "limit/ground/ground_mesh.hpp"
 #include "limit/ground/ground_outline.hpp"
+#include "limit/ground/ground_skins.hpp"
 
 namespace limit::ground {
 
@@ -246,8 +247,7 @@ problem::Units units_of(const problem::Problem& problem, double length) {
   const double live = problem.most_multiplier ? 1.0 : 0.0;
   double surcharge = 0.0, stress = 0.0;
   for (const problem::Boundary& boundary : problem.boundaries) {
-    surcharge =
-        std::max(surcharge, -(boundary.normal_stress + live * boundary.live_normal_stress));
+    surcharge = std::max(surcharge, -(boundary.normal_stress + live * boundary.live_normal_stress));
   }
   for (const problem::Soil& soil : problem.soils) {
     const double unit_weight = soil.unit_weight + live * soil.live_unit_weight;
@@ -349,6 +349,13 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
   const double length = length_of(scene, outline, base);
   result.units = units_of(result.lower, length);
   result.upper = result.lower;
+  if (result.seeks_strength) {
+    say_skins(scene, outline, result.lower, result);
+    constexpr double trace = 0.01;
+    if (!result.has_lower && !result.known_lower) {
+      strengthen(result.upper, trace * live_stress(result.upper, length), result.notes);
+    }
+  }
   try {
     result.lower.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, true));
     result.upper.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, false));

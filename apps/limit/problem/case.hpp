@@ -19,6 +19,10 @@ struct Case {
   bool seeks_strength = false;  // the factor that divides the strength, with the live loads at 1
   std::vector<std::pair<std::string, std::string>> data;  // what, value with unit
   std::vector<std::string> assumptions;
+  std::vector<std::string> notes;  // on the bounds, beside them
+  // Bounds that are known in closed form, in the case's unit.
+  std::optional<double> known_lower, known_upper;
+  bool has_lower = true;  // whether a stress field can be certified at all
   std::vector<HandFormula> hand;
   Units units;
   Problem lower, upper;  // in SI units, on the meshes to begin with

@@ -65,4 +65,34 @@ TEST(Slope, KeepsToItsBudgetAndSaysWhatWasCertified) {
   EXPECT_LE(nothing.bracket.attempts.size(), 1U);
 }
 
+// tan(phi) / tan(beta), exact for a face without cohesion: nothing needs to be solved.
+TEST(Slope, OfDrySandIsThatOfASkinOfIt) {
+  const auto problem =
+      shipped("slope_gentle", {"material.soil.cohesion=0", "material.soil.friction_angle=40"});
+  ASSERT_TRUE(problem);
+  const bracket::Solution found = bracket::solution_of(problem->associated, options(), {});
+  ASSERT_TRUE(found.lower && found.upper);
+  const double exact = 2.0 * std::tan(40.0 * std::numbers::pi / 180.0);
+  constexpr double rounding = 1e-12;
+  EXPECT_NEAR(*found.lower, exact, rounding);
+  EXPECT_NEAR(*found.upper, exact, rounding);
+  EXPECT_TRUE(found.bracket.reached);
+}
+
+// A cohesive cap over sand: the face of the sand decides, and says why nothing is certified below.
+TEST(Slope, OfASandyFaceNamesMaterialAndSideAndHasAnUpperBound) {
+  const auto problem =
+      shipped("slope_gentle", {"material.soil.cohesion=0", "material.soil.friction_angle=40",
+                               "side.right.kind=loaded", "side.right.pressure=100"});
+  ASSERT_TRUE(problem);
+  const bracket::Solution found = bracket::solution_of(problem->associated, options(), {});
+  EXPECT_FALSE(found.lower);
+  ASSERT_TRUE(found.upper);
+  constexpr double rounding = 1e-12;
+  EXPECT_LE(*found.upper, 2.0 * std::tan(40.0 * std::numbers::pi / 180.0) * (1.0 + rounding));
+  EXPECT_THAT(problem->associated.notes,
+              ::testing::Contains(::testing::AllOf(::testing::HasSubstr("\"soil\""),
+                                                   ::testing::HasSubstr("\"surface\""))));
+}
+
 }  // namespace

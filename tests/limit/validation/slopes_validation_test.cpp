@@ -1,5 +1,5 @@
 // A hundred slopes as one meets them, at random, with the default gap and budget; prints the table
-// of share/doc/limit-analysis.md.
+// of what each comes to.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -84,7 +84,7 @@ Slope random_slope(std::mt19937& random) {
   return slope;
 }
 
-TEST(Validation, AHundredSlopesAtRandom) {
+TEST(Slopes, AHundredSlopesAtRandom) {
   std::mt19937 random(20);
   constexpr int many = 100;
   int solved = 0, certified = 0;

@@ -1,0 +1,92 @@
+#include "limit/ground/ground_skins.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace limit::ground {
+
+namespace {
+
+// Of a straight piece of the outline from the horizontal, 0 .. 90 degrees.
+double inclination_of(const GroundOutline& outline, const GroundSegment& segment) {
+  const mesh::Point way = outline.at(segment.second) - outline.at(segment.first);
+  return std::atan2(std::abs(way.y()), std::abs(way.x()));
+}
+
+bool presses(const GroundSide& side) {
+  return side.kind == SideKind::loaded && (side.pressure != 0.0 || side.shear != 0.0);
+}
+
+}  // namespace
+
+void say_skins(const GroundScene& scene, const GroundOutline& outline,
+               const problem::Problem& soils, problem::Case& result) {
+  double steepest = 0.0, gentlest = INFINITY;
+  std::vector<std::string> said;
+  for (const GroundSegment& segment : outline.segments) {
+    if (segment.right >= 0) continue;
+    const GroundSide& side = scene.sides[static_cast<std::size_t>(segment.side)];
+    if ((side.kind != SideKind::free && side.kind != SideKind::loaded) || presses(side)) continue;
+    const std::size_t m = scene.regions[static_cast<std::size_t>(segment.left)].material;
+    const problem::Soil& soil = soils.soils[m];
+    const double face = inclination_of(outline, segment);
+    constexpr double level = 1e-6;
+    if (face > level) {
+      steepest = std::max(steepest, face);
+      gentlest = std::min(gentlest, face);
+    }
+    // The ground is to the left: what runs towards +x hangs over.
+    if (outline.at(segment.second).x() > outline.at(segment.first).x()) gentlest = 0.0;
+    if (soil.cohesion > 0.0) continue;
+    result.has_lower = false;
+    const std::string note = fmt::format(
+        "material \"{}\" has no cohesion and so no strength at side \"{}\", where nothing presses "
+        "on it: no stress there is strictly within yield, and no stress field can be certified",
+        scene.materials[m].name, side.name);
+    if (std::find(said.begin(), said.end(), note) == said.end()) said.push_back(note);
+    if (face <= level) continue;
+    const double slides = std::tan(soil.friction_angle) / std::tan(face);
+    result.known_upper = std::min(result.known_upper.value_or(INFINITY), slides);
+  }
+  if (result.has_lower) return;
+  if (result.known_upper) {
+    result.notes.push_back(fmt::format(
+        "a skin of a face without cohesion slides parallel to it at tan(friction angle) / "
+        "tan(inclination) = {:.7g}",
+        *result.known_upper));
+  }
+  const bool is_dry_sand =
+      gentlest == steepest && steepest > 0.0 &&
+      std::none_of(
+          scene.sides.begin(), scene.sides.end(),
+          [](const GroundSide& side) { return presses(side) || side.kind == SideKind::footing; }) &&
+      std::all_of(soils.soils.begin(), soils.soils.end(), [&](const problem::Soil& soil) {
+        return soil.cohesion == 0.0 && soil.friction_angle == soils.soils[0].friction_angle;
+      });
+  if (is_dry_sand) {
+    result.known_lower = result.known_upper;
+    result.notes.emplace_back(
+        "which is exact for a face of one inclination in soil without cohesion throughout");
+    return;
+  }
+  result.notes.insert(result.notes.end(), said.begin(), said.end());
+}
+
+void strengthen(problem::Problem& problem, double least, std::vector<std::string>& notes) {
+  bool is_any = false;
+  for (problem::Soil& soil : problem.soils) {
+    is_any = is_any || soil.cohesion == 0.0;
+    if (soil.cohesion == 0.0) soil.cohesion = least;
+  }
+  if (is_any) {
+    notes.push_back(
+        fmt::format("mechanisms are those of soil with a cohesion of {:.3g} where there is none: "
+                    "an upper bound "
+                    "of the given soil, too",
+                    least));
+  }
+}
+
+}  // namespace limit::ground
