@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,11 +52,19 @@ PointField tensor_field(std::string name, std::string unit, std::size_t particle
   return field;
 }
 
-/// Writes the group /VTKHDF (UnstructuredGrid 1.0, one vertex cell per particle) beside whatever
-/// else the file holds; VTK 9.1 and ParaView 5.11 open a file named *.hdf by it.
-/// @param points  [m] x0 y0 z0 x1 ..., 3 per particle
-/// @throws std::invalid_argument if a field's size does not fit; FileError.
+/// The cells of a grid: all of one kind, and each with its points to itself, one after the other.
+struct VtkCells {
+  std::uint8_t type = 1;   // as VTK numbers them: 1 vertex, 5 triangle, 22 quadratic triangle
+  std::size_t points = 1;  // of a cell
+};
+
+/// Writes the group /VTKHDF (UnstructuredGrid 1.0) beside whatever else the file holds; VTK 9.1 and
+/// ParaView 5.11 open a file named *.hdf by it. A particle is a vertex.
+/// @param points  [m] x0 y0 z0 x1 ..., 3 per point
+/// @param fields  of the points, `of_cells` of the cells
+/// @throws std::invalid_argument if a size does not fit; FileError.
 void write_vtkhdf(Hdf5File& file, std::span<const double> points,
-                  std::span<const PointField> fields);
+                  std::span<const PointField> fields, const VtkCells& cells = {},
+                  std::span<const PointField> of_cells = {});
 
 }  // namespace files

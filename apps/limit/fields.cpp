@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
+#include <utility>
 
 #include "files/durable_file.hpp"
-#include "files/hdf5_file.hpp"
+#include "files/vtkhdf.hpp"
 
 namespace limit {
 
@@ -23,54 +23,15 @@ mesh::Point corner_of_triangle(const mesh::Mesh& mesh, const mesh::Triangle& tri
   return mesh.nodes[static_cast<std::size_t>(triangle.nodes[corner % 3])];
 }
 
-/// An unstructured grid whose cells, all of one kind, have their points to themselves.
-class Grid {
- public:
-  Grid(const std::filesystem::path& temporary, std::uint8_t cell_type, std::size_t points_per_cell,
-       const std::vector<double>& points)
-      : file_(files::Hdf5File::create(temporary)), points_(points.size() / 3) {
-    const std::size_t cells = points_ / points_per_cell;
-    file_.make_group("/VTKHDF");
-    // ParaView wants Type as a fixed-length text.
-    file_.write_attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
-    file_.write_attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
-    const auto count = [&](const char* name, std::size_t value) {
-      const std::vector<std::int64_t> one{static_cast<std::int64_t>(value)};
-      file_.write<std::int64_t>(std::string("/VTKHDF/") + name, one, {1});
-    };
-    count("NumberOfPoints", points_);
-    count("NumberOfCells", cells);
-    count("NumberOfConnectivityIds", points_);
-    std::vector<std::int64_t> numbers(points_);
-    std::iota(numbers.begin(), numbers.end(), std::int64_t{0});
-    file_.write<std::int64_t>("/VTKHDF/Connectivity", numbers, {points_});
-    std::vector<std::int64_t> offsets(cells + 1);
-    for (std::size_t i = 0; i <= cells; ++i) {
-      offsets[i] = static_cast<std::int64_t>(i * points_per_cell);
-    }
-    file_.write<std::int64_t>("/VTKHDF/Offsets", offsets, {cells + 1});
-    file_.write<std::uint8_t>("/VTKHDF/Types", std::vector<std::uint8_t>(cells, cell_type),
-                              {cells});
-    file_.write<double>("/VTKHDF/Points", points, {points_, 3}, "m");
-    file_.make_group("/VTKHDF/PointData");
-    file_.make_group("/VTKHDF/CellData");
-  }
-
-  void add(const std::string& name, const std::vector<double>& values, std::size_t components,
-           const std::string& unit) {
-    const std::size_t tuples = values.size() / components;
-    const std::string group = tuples == points_ ? "/VTKHDF/PointData/" : "/VTKHDF/CellData/";
-    const files::Shape shape =
-        components == 1 ? files::Shape{tuples} : files::Shape{tuples, components};
-    file_.write<double>(group + name, values, shape, unit);
-  }
-
-  void close() { file_.close(); }
-
- private:
-  files::Hdf5File file_;
-  std::size_t points_;
-};
+void write_grid(const std::filesystem::path& file, const std::vector<double>& points,
+                const std::vector<files::PointField>& fields, const files::VtkCells& cells,
+                const std::vector<files::PointField>& of_cells) {
+  files::write_durably(file, [&](const std::filesystem::path& temporary) {
+    files::Hdf5File grid = files::Hdf5File::create(temporary);
+    files::write_vtkhdf(grid, points, fields, cells, of_cells);
+    grid.close();
+  });
+}
 
 // As text between XML's tags.
 std::string escaped(const std::string& text) {
@@ -119,15 +80,11 @@ void write_fields(const std::filesystem::path& file, const problem::Case& proble
       ratio.push_back(strength > 0.0 ? radius / strength : 1.0);
     }
   }
-  constexpr std::uint8_t triangle_cell = 5;
-  files::write_durably(file, [&](const std::filesystem::path& temporary) {
-    Grid grid(temporary, triangle_cell, 3, points);
-    grid.add("stress", stress, 6, "Pa");
-    grid.add("principal_stresses", principal, 3, "Pa");
-    grid.add("principal_direction", direction, 3, "");
-    grid.add("yield_ratio", ratio, 1, "");
-    grid.close();
-  });
+  const std::vector<files::PointField> fields{{"stress", "Pa", 6, std::move(stress)},
+                                              {"principal_stresses", "Pa", 3, std::move(principal)},
+                                              {"principal_direction", "", 3, std::move(direction)},
+                                              {"yield_ratio", "", 1, std::move(ratio)}};
+  write_grid(file, points, fields, {.type = 5, .points = 3}, {});
 }
 
 void write_fields(const std::filesystem::path& file, const problem::Case& problem,
@@ -148,13 +105,9 @@ void write_fields(const std::filesystem::path& file, const problem::Case& proble
     const double area = mesh::twice_area(mesh, triangle) / 2 * problem.units.length;
     dissipation.push_back(bound.certificate.of_triangle[t] * problem.units.multiplier() / area);
   }
-  constexpr std::uint8_t quadratic_triangle_cell = 22;
-  files::write_durably(file, [&](const std::filesystem::path& temporary) {
-    Grid grid(temporary, quadratic_triangle_cell, 6, points);
-    grid.add("velocity", velocity, 3, "");
-    grid.add("dissipation", dissipation, 1, problem.unit.empty() ? "1/m" : problem.unit + "/m");
-    grid.close();
-  });
+  const std::string per_length = problem.unit.empty() ? "1/m" : problem.unit + "/m";
+  write_grid(file, points, {{"velocity", "", 3, std::move(velocity)}}, {.type = 22, .points = 6},
+             {{"dissipation", per_length, 1, std::move(dissipation)}});
 }
 
 void write_mechanism(const std::filesystem::path& file, const problem::Case& problem,

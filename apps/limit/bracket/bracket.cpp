@@ -1,37 +1,11 @@
 #include "limit/bracket/bracket.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "limit/bracket/processor_time.hpp"
 #include "limit/bracket/side.hpp"
 
 namespace limit::bracket {
-
-namespace {
-
-// Much more than what rounding does to sums of some thousand terms, much less than a bracket.
-constexpr double rounding = 1e-10;
-
-}  // namespace
-
-double Bracket::lower_bound() const {
-  const double bound = lower.value().certificate.multiplier;
-  return bound - rounding * std::abs(bound);
-}
-
-double Bracket::upper_bound() const {
-  const double bound = upper.value().certificate.multiplier;
-  return bound + rounding * std::abs(bound);
-}
-
-double Bracket::gap() const {
-  if (!lower || !upper) return std::numeric_limits<double>::infinity();
-  const double mean = (lower_bound() + upper_bound()) / 2.0;
-  return mean > 0.0 ? (upper_bound() - lower_bound()) / mean
-                    : std::numeric_limits<double>::infinity();
-}
 
 Bracket bracket(problem::Problem lower, problem::Problem upper, const BracketOptions& options,
                 const std::function<void(const Attempt&)>& watch) {

@@ -5,7 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "limit/bracket/bracket.hpp"
+#include "limit/bracket/attempt.hpp"
+#include "limit/problem/problem.hpp"
 
 namespace limit::bracket {
 
