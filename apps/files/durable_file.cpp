@@ -83,9 +83,10 @@ void rename_durably(const std::filesystem::path& from, const std::filesystem::pa
 
 std::string read_text(const std::filesystem::path& file) {
   std::error_code failure;
-  if (std::filesystem::is_directory(file, failure)) throw FileError(file, "is a folder");
+  if (std::filesystem::is_directory(file, failure))
+    throw FileError(file, "cannot be read: it is a folder");
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw system_error(file, "cannot be opened", errno);
+  if (!stream) throw system_error(file, "cannot be read", errno);
   std::ostringstream text;
   text << stream.rdbuf();
   if (stream.bad() || text.bad()) throw system_error(file, "cannot be read", errno);

@@ -229,7 +229,7 @@ std::optional<Input> input_of(const po::variables_map& values, std::ostream& err
     if (values.count(name) == 0 || values[name].defaulted()) continue;
     throw UsageError(fmt::format("--{} and a SCENE exclude each other", name));
   }
-  const auto text = tables::text_of(scenes.front());
+  const auto text = scene::text_of(scenes.front());
   if (const auto* problem = std::get_if<tables::Problem>(&text)) {
     say({*problem}, "error", err);
     return std::nullopt;

@@ -1,7 +1,11 @@
 #include "scene/reader.hpp"
 
+#include <algorithm>
+
+#include "files/durable_file.hpp"
 #include "scene/check.hpp"
 #include "scene/tables.hpp"
+#include "tables/nearest_name.hpp"
 #include "tables/reader.hpp"
 
 namespace scene {
@@ -29,8 +33,35 @@ SceneReading parse_scene(std::string_view text, const std::string& source,
   return reading;
 }
 
+namespace {
+
+tables::Problem unreadable(const std::filesystem::path& file, const std::string& why) {
+  tables::Problem problem{file.string(), "", why, "allowed is a TOML file", ""};
+  std::vector<std::string> siblings;
+  std::error_code ignored;
+  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".toml") siblings.push_back(entry.path().filename().string());
+  }
+  std::sort(siblings.begin(), siblings.end());
+  const std::vector<std::string_view> names(siblings.begin(), siblings.end());
+  const std::string nearest = tables::nearest_name(file.filename().string(), names);
+  if (!nearest.empty()) problem.nearest = (file.parent_path() / nearest).string();
+  return problem;
+}
+
+}  // namespace
+
+std::variant<std::string, tables::Problem> text_of(const std::filesystem::path& file) {
+  try {
+    return files::read_text(file);
+  } catch (const files::FileError& failure) {
+    return unreadable(file, failure.reason());
+  }
+}
+
 SceneReading read_scene(const std::filesystem::path& file, std::span<const std::string> settings) {
-  const auto text = tables::text_of(file);
+  const auto text = text_of(file);
   if (const auto* problem = std::get_if<tables::Problem>(&text)) {
     SceneReading reading;
     reading.errors.push_back(*problem);

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -18,6 +19,9 @@ struct SceneReading {
   std::vector<tables::Problem> errors;
   std::vector<tables::Problem> warnings;
 };
+
+/// The text of a scene file, or why it cannot be read, with a file of a similar name.
+[[nodiscard]] std::variant<std::string, tables::Problem> text_of(const std::filesystem::path& file);
 
 /// Reads a scene file and applies settings (`geometry.spacing=0.02`, `material.0.cohesion=1e3`,
 /// `material.soil.cohesion=1e3`) to it, in order. Never throws for what the user wrote; a file that

@@ -3,10 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include "tables/nearest_name.hpp"
 #include "tables/tree.hpp"
@@ -164,21 +160,6 @@ class Walker {
   Diagnosis& diagnosis_;
 };
 
-Problem unreadable(const std::filesystem::path& file, const std::string& why) {
-  Problem problem{file.string(), "", "cannot be read: " + why, "allowed is a TOML file", ""};
-  std::vector<std::string> siblings;
-  std::error_code ignored;
-  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() == ".toml") siblings.push_back(entry.path().filename().string());
-  }
-  std::sort(siblings.begin(), siblings.end());
-  const std::vector<std::string_view> names(siblings.begin(), siblings.end());
-  const std::string nearest = nearest_name(file.filename().string(), names);
-  if (!nearest.empty()) problem.nearest = (file.parent_path() / nearest).string();
-  return problem;
-}
-
 }  // namespace
 
 std::optional<Problem> read_tables(std::string_view text, std::span<const std::string> settings,
@@ -199,17 +180,6 @@ std::optional<Problem> read_tables(std::string_view text, std::span<const std::s
   apply_settings(tree, settings, tables, diagnosis);
   Walker(tree, tables, sink, diagnosis).walk();
   return std::nullopt;
-}
-
-std::variant<std::string, Problem> text_of(const std::filesystem::path& file) {
-  std::error_code failure;
-  if (std::filesystem::is_directory(file, failure)) return unreadable(file, "it is a folder");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return unreadable(file, std::strerror(errno));
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (stream.bad()) return unreadable(file, std::strerror(errno));
-  return text.str();
 }
 
 bool has_table(std::string_view text, std::string_view name) {

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "tables/field.hpp"
@@ -47,9 +45,6 @@ template <class Root>
   const std::vector<TableInfo> described = descriptions_of(tables);
   return read_tables(text, settings, described, sink, diagnosis);
 }
-
-/// The text of a file, or why it cannot be read, with a file of a similar name.
-[[nodiscard]] std::variant<std::string, Problem> text_of(const std::filesystem::path& file);
 
 /// Whether TOML text has something of this name at its top level; false if it is no TOML.
 [[nodiscard]] bool has_table(std::string_view text, std::string_view name);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "equilibrium/equilibrium.hpp"
+#include "model/build.hpp"
 #include "scene/reader.hpp"
 #include "verification/bodies.hpp"
 

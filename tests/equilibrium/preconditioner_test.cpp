@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "equilibrium/equilibrium.hpp"
+#include "model/build.hpp"
 #include "scene/reader.hpp"
 #include "verification/bodies.hpp"
 

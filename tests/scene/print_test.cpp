@@ -44,9 +44,8 @@ std::vector<std::string> entries_of(const std::string& text, const SceneTable& t
   const std::string heading = "\n" + table.title() + "\n";
   if (table.name.empty()) return {"\n" + text.substr(0, text.find("\n["))};
   for (std::size_t at = text.find(heading); at != std::string::npos; at = text.find(heading, at)) {
-    at += heading.size();
-    entries.push_back("\n" + text.substr(at, text.find("\n[", at) - at));
-    --at;
+    at += heading.size() - 1;  // the newline, which belongs to both
+    entries.push_back(text.substr(at, text.find("\n[", at + 1) - at));
   }
   return entries;
 }

@@ -35,7 +35,7 @@ std::string body(const std::string& layout, double jitter, const Planes& planes)
 template <int Dim>
 void expect_divergence_theorem(const std::string& layout, double jitter, const Planes& planes) {
   SCOPED_TRACE(layout + " with " + std::to_string(planes.axes.size()) + " planes");
-  const scene::Scene scene = scene_of(body<Dim>(layout, jitter, planes));
+  const TestScene scene = scene_of(body<Dim>(layout, jitter, planes));
   const auto model = model::build_model<Dim>(scene);
   const fpm::Field<Dim> area = model::boundary_area_vectors(scene, model);
   ASSERT_EQ(area.rows(), model.size());
@@ -73,7 +73,7 @@ TEST(BoundaryAreaVectors, ObeyTheDivergenceTheorem) {
 // On a vertex lattice the particles lie on the faces: each has the face within half a spacing, and
 // those inside none.
 TEST(BoundaryAreaVectors, OfAVertexLatticeAreTheTributaryAreas) {
-  const scene::Scene scene = scene_of(body<2>("vertex", 0.0, {}));
+  const TestScene scene = scene_of(body<2>("vertex", 0.0, {}));
   const auto model = model::build_model<2>(scene);
   const fpm::Field<2> area = model::boundary_area_vectors(scene, model);
   const double slack = 1e-9 * model.spacing;

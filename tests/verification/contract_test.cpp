@@ -84,7 +84,7 @@ constexpr long rounding = 32 * 16;
 template <int Dim>
 void expect_bytes_held(const BodyOptions& body) {
   using fpm::MomentOperator, fpm::PairViscosity;
-  const scene::Scene scene = scene_of(body_scene(body));
+  const TestScene scene = scene_of(body_scene(body));
   const auto model = model::build_model<Dim>(scene);
   auto state = model::initial_state(model, scene);
   const Eigen::VectorXd modulus = Eigen::VectorXd::Ones(model.size());

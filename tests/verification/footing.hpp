@@ -25,7 +25,7 @@ struct Footing {
   double raw = 0.0;         // [Pa] mean pressure at the end
   double corrected = 0.0;   // [Pa] less what the hourglass control took
   std::int64_t re_searches = 0;
-  int cuts = 0;
+  std::int64_t cuts = 0;
 };
 
 /// Runs the footing's scene to its end, or to the step that does not converge.

@@ -13,7 +13,7 @@
 
 #include "limit/bracket/solve.hpp"
 #include "limit/ground/ground_case.hpp"
-#include "tables/reader.hpp"
+#include "scene/reader.hpp"
 
 namespace limit {
 
@@ -68,7 +68,7 @@ inline std::optional<problem::Cases> shipped(const char* name,
                                              const std::vector<std::string>& settings = {}) {
   const auto file =
       std::filesystem::path(FPM_SHARE_DIR) / "scenes" / "limit" / (std::string(name) + ".toml");
-  const auto text = tables::text_of(file);
+  const auto text = scene::text_of(file);
   tables::Diagnosis diagnosis(file.string());
   std::optional<tables::Problem> unreadable;
   const auto scene =

@@ -14,7 +14,7 @@ Footing reported(const Settings& settings) {
   report("pressure_kPa_at_the_end", 1e-3 * footing.raw);
   report("corrected_pressure_kPa_at_the_end", 1e-3 * footing.corrected);
   report("re_searches", static_cast<double>(footing.re_searches));
-  report("cuts", footing.cuts);
+  report("cuts", static_cast<double>(footing.cuts));
   return footing;
 }
 
