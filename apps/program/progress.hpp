@@ -16,10 +16,10 @@ struct ProgressStatus {
   std::int64_t newton_iterations = 0;   // of the last step
   std::int64_t evaluations = 0;         // of the last step: residuals and Jacobian actions
   double residual_ratio = 0.0;
-  std::int64_t cuts = 0;             // of the whole run
-  double yielding_share = 0.0;       // of the particles, 0 .. 1
+  std::int64_t cuts = 0;              // of the whole run
+  double yielding_share = 0.0;        // of the particles, 0 .. 1
   std::int64_t re_searched_rows = 0;  // of the whole run
-  double elapsed = 0.0;              // [s]
+  double elapsed = 0.0;               // [s]
 };
 
 /// Seconds as people say them: `8 s`, `3 min 05 s`, `2 h 10 min`.

@@ -1,20 +1,12 @@
 #include "allocation_count.hpp"
 
-#include <malloc.h>
-
 #include <atomic>
-#include <cerrno>
 #include <cstddef>
 
 static std::atomic<long> count{0};
-static std::atomic<long> held{0};
 
 long allocation_count() {
   return count.load();
-}
-
-long allocated_bytes() {
-  return held.load();
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -36,34 +28,22 @@ void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
-void __libc_free(void*);
-
-static void* counted(void* p) {
-  ++count;
-  held += static_cast<long>(malloc_usable_size(p));
-  return p;
-}
 
 void* malloc(std::size_t size) {
-  return counted(__libc_malloc(size));
+  ++count;
+  return __libc_malloc(size);
 }
 void* calloc(std::size_t number, std::size_t size) {
-  return counted(__libc_calloc(number, size));
+  ++count;
+  return __libc_calloc(number, size);
 }
 void* realloc(void* p, std::size_t size) {
-  held -= static_cast<long>(malloc_usable_size(p));
-  return counted(__libc_realloc(p, size));
+  ++count;
+  return __libc_realloc(p, size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  return counted(__libc_memalign(alignment, size));
-}
-int posix_memalign(void** p, std::size_t alignment, std::size_t size) {
-  *p = counted(__libc_memalign(alignment, size));
-  return *p == nullptr ? ENOMEM : 0;
-}
-void free(void* p) {
-  held -= static_cast<long>(malloc_usable_size(p));
-  __libc_free(p);
+  ++count;
+  return __libc_memalign(alignment, size);
 }
 }
 

@@ -114,23 +114,23 @@ TEST(FailureReport, SaysOfAnElasticBodyOfSmallStrainsNothingOfYieldNorVolume) {
 
 // Each advice comes before those below it.
 TEST(FailureReport, AdvisesReSearchWhereNeighbourhoodsAreStrained) {
-  SmallFooting run({"research.trigger=0.1"});
+  SmallFooting run({"re_search.trigger=0.1"});
   run.state.plastic_strain[3] = 0.11;
   const auto result = given_up(jfnk::Status::evaluation_limit);
   EXPECT_THAT(report_of(run, result),
-              HasSubstr("advice: neighbourhoods are strained beyond research.trigger: resume with "
-                        "--set research.enabled=true"));
+              HasSubstr("advice: neighbourhoods are strained beyond re_search.trigger: resume with "
+                        "--set re_search.enabled=true"));
   run.state.plastic_strain_at_search[3] = 0.05;
-  EXPECT_THAT(report_of(run, result), Not(HasSubstr("research")));
+  EXPECT_THAT(report_of(run, result), Not(HasSubstr("re_search")));
 }
 
 TEST(FailureReport, AdvisesAnEarlierReSearchWhereItIsOnAndAParticleFolds) {
-  const SmallFooting run({"research.enabled=true", "research.trigger=0.1"});
+  const SmallFooting run({"re_search.enabled=true", "re_search.trigger=0.1"});
   auto result = given_up(jfnk::Status::evaluation_limit);
-  EXPECT_THAT(report_of(run, result), Not(HasSubstr("research")));
+  EXPECT_THAT(report_of(run, result), Not(HasSubstr("re_search")));
   result.folded_particle = 0;
   EXPECT_THAT(report_of(run, result),
-              HasSubstr("advice: search anew earlier: resume with --set research.trigger=0.05."));
+              HasSubstr("advice: search anew earlier: resume with --set re_search.trigger=0.05."));
 }
 
 TEST(FailureReport, AdvisesFourTimesTheEvaluationsWhereTheyEnd) {

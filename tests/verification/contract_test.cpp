@@ -1,11 +1,10 @@
-// What the libraries promise, kept by their wiring: no allocation inside an evaluation, memory as
-// it is said to be, results that do not depend on the number of threads, and a re-search that
-// changes neighbours alone.
+// What the libraries promise, kept by those who wire them: no allocation inside an evaluation,
+// results that do not depend on the number of threads, and a re-search that changes neighbours
+// alone.
 
 #include <omp.h>
 
 #include "bodies.hpp"
-#include "fpm/viscosity.hpp"
 #include "libfpm/allocation_count.hpp"
 #include "run.hpp"
 
@@ -65,72 +64,6 @@ TEST(Equilibrium, DoesNotAllocateInAnEvaluationWithBoundaryTerms) {
       "follower=true\n[drive]\nkind=\"load\"\nscales=[\"traction\"]\n[programme]\nsteps=1\n";
   expect_no_allocation<2>(body);
 }
-
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-
-// What `make` leaves on the heap as long as its result lives, the object itself left out.
-template <class Make>
-long held_by(Make&& make) {
-  const long before = allocated_bytes();
-  const auto made = make();
-  return allocated_bytes() - before - static_cast<long>(sizeof(*made));
-}
-
-// An allocation may be used to the end of its 16 bytes, and there are fewer than 32 arrays. The
-// operator and the viscosity are vectors with room to grow and copies of the images, so what they
-// say is less than what they hold: they are measured by themselves.
-constexpr long rounding = 32 * 16;
-
-template <int Dim>
-void expect_bytes_held(const BodyOptions& body) {
-  using fpm::MomentOperator, fpm::PairViscosity;
-  const TestScene scene = scene_of(body_scene(body));
-  const auto model = model::build_model<Dim>(scene);
-  auto state = model::initial_state(model, scene);
-  const Eigen::VectorXd modulus = Eigen::VectorXd::Ones(model.size());
-  const Eigen::VectorXd lengths = fpm::smoothing_lengths(state.rows);
-  const Eigen::VectorXd u = Eigen::VectorXd::Zero(model.unknowns());
-  Eigen::VectorXd r(u.size());
-  long said = 0;
-  const auto evaluated = [&] {
-    auto equilibrium = std::make_unique<equilibrium::Equilibrium<Dim>>(model, state);
-    equilibrium->begin_step(0.0);
-    EXPECT_EQ((*equilibrium)(u, r), jfnk::Evaluation::ok);
-    EXPECT_TRUE(equilibrium->linearise(u));
-    said = static_cast<long>(equilibrium->bytes());
-    return equilibrium;
-  };
-  (void)evaluated();  // the first time starts the threads
-  const long held = held_by(evaluated);
-
-  const MomentOperator<Dim> op(state.rows, model.ghosts, model.channels);
-  long slack = held_by([&] {
-    return std::make_unique<MomentOperator<Dim>>(state.rows, model.ghosts, model.channels);
-  });
-  slack -= static_cast<long>(op.bytes());
-  if (model.control == scene::HourglassControl::viscosity) {
-    slack += held_by([&] { return std::make_unique<PairViscosity<Dim>>(op, modulus, lengths); });
-    slack -= static_cast<long>(PairViscosity<Dim>(op, modulus, lengths).bytes());
-  }
-  EXPECT_GE(slack, 0);
-  EXPECT_GE(held, said + slack);
-  EXPECT_LE(held, said + slack + rounding);
-}
-
-TEST(Equilibrium, BytesAreWhatItHolds) {
-  for (const std::string control : {"none", "viscosity", "incremental", "mixed"}) {
-    SCOPED_TRACE(control);
-    BodyOptions body;
-    body.control = control;
-    expect_bytes_held<2>(body);
-  }
-  BodyOptions solid;
-  solid.dimension = 3;
-  solid.control = "incremental";
-  expect_bytes_held<3>(solid);
-}
-
-#endif
 
 const Settings coarse_footing = {"geometry.spacing=0.02"};
 

@@ -82,8 +82,7 @@ class Reader {
   void take_soil(std::size_t m, double gravity) {
     const scene::Material& material = scene_.material[m];
     const std::string table = fmt::format("material.{}.", m);
-    require(scene::yields(material), table + "model",
-            "an elastic material never yields");
+    require(scene::yields(material), table + "model", "an elastic material never yields");
     require(material.match == "plane_strain", table + "match",
             "only strengths matched in plane strain are those of Mohr-Coulomb");
     found_.soils.push_back({material.cohesion.value_or(0.0),

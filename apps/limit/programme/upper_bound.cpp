@@ -89,8 +89,8 @@ class Builder {
   ConeProgram program() {
     for (std::size_t t = 0; t < problem_.mesh.triangles.size(); ++t) add_triangle(t);
     for (const mesh::Edge& edge : edges_) add_side(edge);
-    const int equations = rows_.count + static_cast<int>(contacts_.size()) +
-                          (problem_.most_multiplier ? 1 : 0);
+    const int equations =
+        rows_.count + static_cast<int>(contacts_.size()) + (problem_.most_multiplier ? 1 : 0);
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       const int row = rows_.count + static_cast<int>(c);
       add(row, contacts_[c].traction, 1.0);
