@@ -142,7 +142,7 @@ void set_geostatic_stress(const scene::Scene& scene, const Model<Dim>& model, St
     const fpm::Vector<Dim> x = model.particles.position.row(a).transpose();
     const double vertical = scene::geostatic_stress(scene, {x.data(), Dim});
     state.stress.col(a).setZero();
-    state.stress.col(a).template head<3>().setConstant(scene::resolve_K0(scene, material) *
+    state.stress.col(a).template head<3>().setConstant(scene::resolve_k0(scene, material) *
                                                        vertical);
     state.stress(up, a) = vertical;
   }

@@ -109,7 +109,7 @@ void check_K0(const Scene& scene, tables::Diagnosis& diagnosis) {
       deepest[axis] = axis == 1 ? lower : 0.5 * (lower + upper);
     }
     const double vertical = -geostatic_stress(scene, deepest);
-    const double horizontal = resolve_K0(scene, material) * vertical;
+    const double horizontal = resolve_k0(scene, material) * vertical;
     const double phi = parameters_of(material).friction_angle * std::numbers::pi / 180.0;
     const double Kp = std::pow(std::tan(std::numbers::pi / 4.0 + phi / 2.0), 2);
     const double cohesion = material.cohesion.value_or(0.0);

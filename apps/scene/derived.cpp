@@ -157,7 +157,7 @@ double geostatic_stress(const Scene& scene, std::span<const double> place) {
   return vertical;
 }
 
-double resolve_K0(const Scene& scene, const Material& material) {
+double resolve_k0(const Scene& scene, const Material& material) {
   return scene.initial_stress.K0.value_or(material.poissons_ratio /
                                           (1.0 - material.poissons_ratio));
 }

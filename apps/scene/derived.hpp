@@ -78,7 +78,7 @@ struct SolverSettings {
 [[nodiscard]] double geostatic_stress(const Scene& scene, std::span<const double> place);
 
 /// Horizontal over vertical geostatic stress in a material.
-[[nodiscard]] double resolve_K0(const Scene& scene, const Material& material);
+[[nodiscard]] double resolve_k0(const Scene& scene, const Material& material);
 
 /// Whether every soil dilates by its friction angle.
 [[nodiscard]] bool is_associated(const Scene& scene);
