@@ -86,7 +86,7 @@ void check_surcharge(const Scene& scene, tables::Diagnosis& diagnosis) {
 }
 
 /// Says where the initial stress is more than the ground can bear (Mohr-Coulomb in the plane).
-void check_K0(const Scene& scene, tables::Diagnosis& diagnosis) {
+void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (!diagnosis.good({"material", "initial_stress.K0"})) return;
   const Geometry& geometry = scene.geometry;
   for (std::size_t i = 0; i < scene.material.size(); ++i) {
@@ -152,7 +152,7 @@ void check_initial_stress(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (!initial.surface || *initial.surface >= scene.geometry.max[1]) {
     if (!down || !ground_is_good(scene, diagnosis)) return;
     check_surcharge(scene, diagnosis);
-    check_K0(scene, diagnosis);
+    check_k0(scene, diagnosis);
   } else {
     diagnosis.error("initial_stress.surface", fmt::format("found {}", *initial.surface),
                     fmt::format("below the top face, y = {}, the soil above would be in tension",
