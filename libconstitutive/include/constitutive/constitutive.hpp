@@ -9,6 +9,7 @@
 #include "constitutive/mixed.hpp"
 #include "constitutive/mohr_coulomb.hpp"
 #include "constitutive/objective.hpp"
+#include "constitutive/parameters.hpp"
 #include "constitutive/state.hpp"
 #include "constitutive/tensor.hpp"
 #include "constitutive/version.hpp"
