@@ -15,6 +15,8 @@ struct ArraySizes {
   Eigen::Index pairs = 0;             // with pair control
   Eigen::Index subpoints = 0;         // with sub-points
   Eigen::Index viscosity = 0;         // with the paper's viscosity
+  Eigen::Index moving_images = 0;     // with a side driven by ghosts
+  Eigen::Index held = 0;              // with a side held by ghosts
   Eigen::Index viscosity_finite = 0;  // the same in finite strain
   Eigen::Index tangent_entries = 0;   // of all particles (TangentLayout)
   Eigen::Index rotation_entries = 0;  // likewise
@@ -33,6 +35,7 @@ struct StepArrays {
   Eigen::VectorXd external;  // [N/m or N] dead loads
   fpm::Field<Dim> start_position;
   Eigen::VectorXd position;          // the same, extended to the images
+  fpm::Field<Dim> image_motion;      // what the planes' motion of the step adds to the images
   Columns<6> second_gradient;        // H_a(n), with sub-points
   Columns<Dim> memory_first;         // sum kappa e(n)
   Columns<Dim * Dim> memory_second;  // sum kappa e(n) x X
@@ -45,6 +48,7 @@ struct StepArrays {
     visit("external", self.external, n.particles * Dim, 1);
     visit("start_position", self.start_position, n.particles, Dim);
     visit("position", self.position, n.extended * Dim, 1);
+    visit("image_motion", self.image_motion, n.moving_images, Dim);
     visit("second_gradient", self.second_gradient, 6, n.subpoints);
     visit("memory_first", self.memory_first, Dim, n.pairs);
     visit("memory_second", self.memory_second, Dim * Dim, n.pairs);
@@ -62,6 +66,7 @@ struct EvaluationArrays {
   Eigen::VectorXd force;                     // extended to the images
   Eigen::VectorXd own_force;                 // of the pairs of a row on itself
   Eigen::VectorXd unmasked;                  // full residual, reactions included
+  fpm::Field<Dim> plane_reaction;            // what the images carry onto held planes, by particle
   Eigen::VectorXd base_increment;            // of the latest linearise, where a term needs it
   fpm::Field<Dim> displacement;              // total, where a boundary term needs it
   fpm::Field<Dim * Dim> inverse_transposed;  // F^-T of each row, with the paper's viscosity
@@ -75,6 +80,7 @@ struct EvaluationArrays {
     visit("force", self.force, n.extended * Dim, 1);
     visit("own_force", self.own_force, n.particles * Dim, 1);
     visit("unmasked", self.unmasked, n.particles * Dim, 1);
+    visit("plane_reaction", self.plane_reaction, n.held, Dim);
     visit("base_increment", self.base_increment, n.particles * Dim, 1);
     visit("displacement", self.displacement, n.particles, Dim);
     visit("inverse_transposed", self.inverse_transposed, n.viscosity_finite, Dim * Dim);

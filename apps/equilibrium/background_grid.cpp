@@ -75,7 +75,19 @@ void BackgroundGrid<Dim>::interpolation_of(const Eigen::Matrix<double, 1, Dim>& 
   }
 }
 
-// Mirrors hold the normal displacement of the nodes on them, penalty supports that of their points;
+template <int Dim>
+bool BackgroundGrid<Dim>::is_on(const fpm::GhostPlane<Dim>& plane, fpm::Index node) const {
+  for (int i = 0; i < Dim; ++i) {
+    const double x = origin_[i] + cell_[i] * (node % (cells_[i] + 1));
+    node /= cells_[i] + 1;
+    const bool on = i == plane.axis ? std::abs(x - plane.position) < 0.5 * cell_[i]
+                                    : x >= plane.range_min[i] && x <= plane.range_max[i];
+    if (!on) return false;
+  }
+  return true;
+}
+
+// Planes of images hold the nodes on them, penalty supports those of their points;
 // a stiffness far above the body's would cost the single-precision factor its digits.
 template <int Dim>
 void BackgroundGrid<Dim>::add_grid_supports(const model::Model<Dim>& model,
@@ -83,12 +95,14 @@ void BackgroundGrid<Dim>::add_grid_supports(const model::Model<Dim>& model,
   constexpr int corners = 1 << Dim;
   const double most = penalty_factor * model.youngs_modulus.front() *
                       std::pow(model.particles.volume.maxCoeff(), 1.0 - 2.0 / Dim);
-  for (const auto& [axis, upper] : model.mirror_faces) {
+  for (const fpm::GhostPlane<Dim>& plane : model.ghosts.planes()) {
     for (fpm::Index node = 0; node < nodes_; ++node) {
-      fpm::Index rest = node;
-      for (int i = 0; i < axis; ++i) rest /= cells_[i] + 1;
-      if (rest % (cells_[axis] + 1) != (upper ? cells_[axis] : 0)) continue;
-      entries.emplace_back(node * Dim + axis, node * Dim + axis, most);
+      if (!is_on(plane, node)) continue;
+      for (int i = 0; i < Dim; ++i) {
+        if (plane.held[static_cast<std::size_t>(i)]) {
+          entries.emplace_back(node * Dim + i, node * Dim + i, most);
+        }
+      }
     }
   }
   Eigen::Matrix<fpm::Index, corners, 1> nodes;

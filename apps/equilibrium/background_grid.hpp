@@ -28,6 +28,7 @@ class BackgroundGrid {
   std::size_t bytes() const;
 
  private:
+  bool is_on(const fpm::GhostPlane<Dim>& plane, fpm::Index node) const;
   using FloatMatrix = Eigen::SparseMatrix<float>;
   std::vector<Eigen::Triplet<double>> grid_stiffness(const model::Model<Dim>& model);
   void add_grid_supports(const model::Model<Dim>& model,

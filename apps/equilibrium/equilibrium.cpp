@@ -1,5 +1,6 @@
 #include "equilibrium/equilibrium.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -25,6 +26,12 @@ LawLoops<Dim> choose_loops(const model::StateLayout& layout) {
 }
 
 template <int Dim>
+bool holds_planes(const model::Model<Dim>& model) {
+  return std::ranges::any_of(model.ghosts.planes(),
+                             [](const fpm::GhostPlane<Dim>& plane) { return !plane.symmetry; });
+}
+
+template <int Dim>
 ArraySizes array_sizes(const model::Model<Dim>& model, const fpm::MomentOperator<Dim>& op) {
   const Eigen::Index n = model.size();
   const auto count = [n](bool needed) { return needed ? n : 0; };
@@ -36,6 +43,8 @@ ArraySizes array_sizes(const model::Model<Dim>& model, const fpm::MomentOperator
   sizes.pairs = count(model.channels.pair);
   sizes.subpoints = count(model.channels.second);
   sizes.viscosity = count(viscosity);
+  sizes.moving_images = model.plane_drive.empty() ? 0 : model.ghosts.size();
+  sizes.held = count(holds_planes(model));
   sizes.viscosity_finite = count(viscosity && model.layout.finite);
   sizes.tangent_entries = model.layout.subpoints
                               ? StressTangents<generalised_size<Dim, true>>::total(n)
@@ -83,6 +92,12 @@ void Equilibrium<Dim>::begin_step(double load) {
   step_.external = model_.constant_load + load * model_.scaled_load;
   step_.start_position = model_.particles.position + state_.displacement;
   operator_.extend_positions(step_.start_position.data(), step_.position.data());
+  if (!model_.plane_drive.empty()) {
+    const double start = state_.programme.load;
+    const fpm::Field<Dim> motion = model_.ghosts.of_motion(model_.plane_drive);
+    add_to_images(start * motion, step_.position);
+    step_.image_motion = (load - start) * motion;
+  }
   if (!model_.channels.pair && !model_.channels.second) return;
 
   const int m = operator_.channel_count();
@@ -104,6 +119,20 @@ void Equilibrium<Dim>::begin_step(double load) {
       }
     }
   }
+}
+
+template <int Dim>
+void Equilibrium<Dim>::add_to_images(const fpm::Field<Dim>& motion,
+                                     Eigen::VectorXd& extended) const {
+  for (int i = 0; i < Dim && motion.rows() > 0; ++i) {
+    extended.segment(i * operator_.stride() + model_.size(), motion.rows()) += motion.col(i);
+  }
+}
+
+template <int Dim>
+void Equilibrium<Dim>::extend_increment(const Eigen::VectorXd& increment) {
+  operator_.extend(increment.data(), evaluation_.extended.data());
+  add_to_images(step_.image_motion, evaluation_.extended);
 }
 
 template <int Dim>
@@ -152,15 +181,15 @@ void Equilibrium<Dim>::assemble(const double* field, double* force) {
 template <int Dim>
 jfnk::Evaluation Equilibrium<Dim>::operator()(const Eigen::VectorXd& increment,
                                               Eigen::VectorXd& residual) {
-  operator_.extend(increment.data(), evaluation_.extended.data());
+  extend_increment(increment);
   const LoopOutcome outcome = loops_.respond(loop_data());
   failure_.particle = outcome.failed;
   if (!outcome.ok()) return jfnk::Evaluation::out_of_domain;
   assemble(evaluation_.extended.data(), evaluation_.unmasked.data());
   evaluation_.unmasked -= step_.external;
+  double reaction_square = take_plane_reactions();
   add_boundary_terms(increment);
   if (failure_.particle >= 0) return jfnk::Evaluation::out_of_domain;
-  double reaction_square = 0.0;
   for (Eigen::Index k = 0; k < evaluation_.unmasked.size(); ++k) {
     const bool given = model_.prescribed[static_cast<std::size_t>(k)] != 0;
     if (given) reaction_square += evaluation_.unmasked[k] * evaluation_.unmasked[k];
@@ -170,9 +199,31 @@ jfnk::Evaluation Equilibrium<Dim>::operator()(const Eigen::VectorXd& increment,
   return jfnk::Evaluation::ok;
 }
 
+// Returns the sum of their squares.
+template <int Dim>
+double Equilibrium<Dim>::take_plane_reactions() {
+  if (evaluation_.plane_reaction.rows() == 0) return 0.0;
+  const auto stride = operator_.stride();
+  evaluation_.plane_reaction.setZero();
+  model_.ghosts.add_reactions(evaluation_.force.data(), model_.size(), stride,
+                              evaluation_.plane_reaction);
+  plane_force_ = model_.ghosts.plane_forces(evaluation_.force.data(), model_.size(), stride);
+  return evaluation_.plane_reaction.squaredNorm();
+}
+
+template <int Dim>
+bool Equilibrium<Dim>::linearise_at_start(Eigen::VectorXd& residual) {
+  const Eigen::VectorXd still = Eigen::VectorXd::Zero(model_.unknowns());
+  fpm::Field<Dim> motion;
+  motion.swap(step_.image_motion);
+  const bool could = (*this)(still, residual) == jfnk::Evaluation::ok && linearise(still);
+  motion.swap(step_.image_motion);
+  return could;
+}
+
 template <int Dim>
 bool Equilibrium<Dim>::linearise(const Eigen::VectorXd& increment) {
-  operator_.extend(increment.data(), evaluation_.extended.data());
+  extend_increment(increment);
   evaluation_.base_increment = increment;
   if (tangents_.stress.size() == 0) allocate(tangents_, step_.sizes);
   const LoopOutcome outcome = loops_.linearise(loop_data());
@@ -183,6 +234,18 @@ bool Equilibrium<Dim>::linearise(const Eigen::VectorXd& increment) {
 template <int Dim>
 void Equilibrium<Dim>::apply_jacobian(const Eigen::VectorXd& v, Eigen::VectorXd& jv) {
   operator_.extend(v.data(), evaluation_.extended.data());
+  act(v, jv);
+}
+
+template <int Dim>
+void Equilibrium<Dim>::apply_motion(const Eigen::VectorXd& prescribed, Eigen::VectorXd& jv) {
+  extend_increment(prescribed);
+  act(prescribed, jv);
+}
+
+// Of the extended direction.
+template <int Dim>
+void Equilibrium<Dim>::act(const Eigen::VectorXd& v, Eigen::VectorXd& jv) {
   loops_.apply(loop_data());
   assemble(evaluation_.extended.data(), jv.data());
   add_boundary_actions(v, jv);
@@ -245,14 +308,20 @@ template <int Dim>
 StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
   StepForces forces;
   forces.reaction = model_.measure.dot(evaluation_.unmasked);
-  operator_.extend(increment.data(), evaluation_.extended.data());
+  for (std::size_t p = 0; p < model_.plane_drive.size(); ++p) {
+    forces.reaction += model_.plane_measure[p].dot(plane_force_[p]);
+    forces.external_work +=
+        (step_.load - state_.programme.load) * model_.plane_drive[p].dot(plane_force_[p]);
+  }
+  extend_increment(increment);
   forces.hourglass_work = hourglass_work(loop_data());
-  forces.external_work = step_.external.dot(increment);
+  forces.external_work += step_.external.dot(increment);
   for (Eigen::Index k = 0; k < increment.size(); ++k) {
     const bool given = model_.prescribed[static_cast<std::size_t>(k)] != 0;
     state_.reaction.data()[k] = given ? evaluation_.unmasked[k] : 0.0;
     if (given) forces.external_work += evaluation_.unmasked[k] * increment[k];
   }
+  if (evaluation_.plane_reaction.rows() > 0) state_.reaction += evaluation_.plane_reaction;
   const LoopOutcome outcome = loops_.commit(loop_data());
   if (!outcome.ok()) {
     throw std::logic_error("commit at an increment at which particle " +

@@ -46,6 +46,13 @@ class Equilibrium {
   jfnk::Evaluation operator()(const Eigen::VectorXd& increment, Eigen::VectorXd& residual);
   bool linearise(const Eigen::VectorXd& increment);
   void apply_jacobian(const Eigen::VectorXd& v, Eigen::VectorXd& jv);
+
+  /// Residual and linearisation where the step begins, before anything prescribed has moved.
+  /// @returns whether both could be had
+  bool linearise_at_start(Eigen::VectorXd& residual);
+  /// Action of the Jacobian on what is prescribed for the step: entries of `prescribed`, and the
+  /// motion of the planes of images.
+  void apply_motion(const Eigen::VectorXd& prescribed, Eigen::VectorXd& jv);
   /// max(|r_prescribed|, |f_ext|) of the latest evaluation: what a residual is small against.
   double reference_norm() const { return reference_norm_; }
 
@@ -62,6 +69,10 @@ class Equilibrium {
 
  private:
   LoopData<Dim> loop_data();
+  void add_to_images(const fpm::Field<Dim>& motion, Eigen::VectorXd& extended) const;
+  void extend_increment(const Eigen::VectorXd& increment);
+  double take_plane_reactions();
+  void act(const Eigen::VectorXd& v, Eigen::VectorXd& jv);
   void remember_pairs(Eigen::Index a, const Eigen::VectorXd& position_moments);
   void assemble(const double* field, double* force);
   void add_boundary_terms(const Eigen::VectorXd& increment);
@@ -76,6 +87,7 @@ class Equilibrium {
   StepArrays<Dim> step_;
   EvaluationArrays<Dim> evaluation_;
   TangentArrays tangents_;
+  std::vector<fpm::Vector<Dim>> plane_force_;  // by which each plane holds the body
   double reference_norm_ = 0.0;
   EvaluationFailure failure_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/loads.hpp"
+#include "model/planes.hpp"
 #include "model/selection.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
@@ -45,16 +46,9 @@ void place_particles(const scene::Scene& scene, Model<Dim>& model) {
   model.row_options.kernel = to_kernel(scene.approximation.kernel);
   model.row_options.support_radius = radius;
   model.row_options.spacing = geometry.spacing;
-  std::vector<fpm::SymmetryPlane> planes;
-  for (const scene::Symmetry& symmetry : scene.symmetry) {
-    const int axis = static_cast<int>(symmetry.axis);
-    planes.push_back({axis, symmetry.position});
-    model.mirror_faces.push_back(
-        {axis, symmetry.position > 0.5 * (lattice.min[axis] + lattice.max[axis])});
-  }
   // Rows may widen their support, and re-searched rows reach for particles that have moved.
   const double reach = model.row_options.max_enlargement * radius;
-  model.ghosts = fpm::MirrorGhosts<Dim>(model.particles.position, planes, reach);
+  model.ghosts = fpm::Ghosts<Dim>(model.particles.position, ghost_planes<Dim>(scene), reach);
 }
 
 template <int Dim>
@@ -104,6 +98,8 @@ void choose_integration(const scene::Scene& scene, Model<Dim>& model) {
 template <int Dim>
 void constrain(const scene::Scene& scene, Model<Dim>& model) {
   const Eigen::Index n = model.size();
+  // Behind a held plane there are images of the others; particles on it move as it does.
+  const bool on_face = scene.geometry.layout == scene::Layout::vertex;
   model.prescribed.assign(static_cast<std::size_t>(model.unknowns()), 0);
   model.drive.setZero(model.unknowns());
   model.measure.setZero(model.unknowns());
@@ -113,12 +109,23 @@ void constrain(const scene::Scene& scene, Model<Dim>& model) {
   };
   for (const scene::Support& support : scene.support) {
     if (support.method == scene::SupportMethod::penalty) continue;  // loads.cpp
+    const bool ghosts = support.method == scene::SupportMethod::ghosts;
     for (const Eigen::Index a : supported_particles(scene, support, model)) {
+      if (ghosts && !on_face) continue;
       for (const scene::Axis axis : support.directions) prescribe(a, static_cast<int>(axis));
     }
   }
   if (scene.drive.kind != scene::DriveKind::displacement) return;
   const fpm::Vector<Dim> direction = to_vector<Dim>(scene.drive.direction).normalized();
+  const bool ghosts = scene.drive.method == scene::DriveMethod::ghosts;
+  if (ghosts) {
+    const std::size_t count = model.ghosts.planes().size();
+    model.plane_drive.assign(count, fpm::Vector<Dim>::Zero());
+    model.plane_measure.assign(count, fpm::Vector<Dim>::Zero());
+    model.plane_drive[driven_plane] = scene.drive.target * direction;
+    model.plane_measure[driven_plane] = direction;
+    if (!on_face) return;
+  }
   for (Eigen::Index a = 0; a < n; ++a) {
     if (!on_side(scene, model, scene.drive.side, a) ||
         !in_side_range(model, scene.drive.side, scene.drive.range_min, scene.drive.range_max, a)) {

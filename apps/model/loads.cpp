@@ -187,19 +187,50 @@ void add_loads(const scene::Scene& scene, Model<Dim>& model) {
 
 template <int Dim>
 fpm::Field<Dim> boundary_area_vectors(const scene::Scene& scene, const Model<Dim>& model) {
+  const fpm::Vector<Dim> middle = 0.5 * (model.box_min + model.box_max);
+  const auto face_of = [&](const fpm::GhostPlane<Dim>& plane) {
+    return fpm::Face{plane.axis, plane.position > middle[plane.axis]};
+  };
   std::vector<fpm::Face> faces = fpm::all_faces<Dim>();
+  const auto& planes = model.ghosts.planes();
   std::erase_if(faces, [&](const fpm::Face& face) {
-    return std::any_of(model.mirror_faces.begin(), model.mirror_faces.end(),
-                       [&](const auto& m) { return m.axis == face.axis && m.upper == face.upper; });
+    return std::any_of(planes.begin(), planes.end(), [&](const auto& plane) {
+      const fpm::Face behind = face_of(plane);
+      return !plane.has_range() && behind.axis == face.axis && behind.upper == face.upper;
+    });
   });
+  // Behind a plate on a part of a face the body goes on; beside it the face is its boundary.
+  std::vector<fpm::GhostPlane<Dim>> plates;
+  for (const auto& plane : planes) {
+    if (plane.has_range()) plates.push_back(plane);
+  }
   if (is_plain_vertex_lattice<Dim>(scene)) {
-    return fpm::tributary_area_vectors(vertex_lattice(scene, model), faces);
+    const auto lattice = vertex_lattice(scene, model);
+    fpm::Field<Dim> area = fpm::tributary_area_vectors(lattice, faces);
+    for (const auto& plate : plates) {
+      const auto under =
+          fpm::tributary_points(lattice, face_of(plate), plate.range_min, plate.range_max);
+      for (fpm::Index c = 0; c < under.points.size(); ++c) {
+        area.row(under.particle[static_cast<std::size_t>(c)]) -=
+            under.points.weight[c] * under.points.normal.row(c);
+      }
+    }
+    return area;
   }
   fpm::BoundaryQuadratureOptions<Dim> options;
   options.min = model.box_min;
   options.max = model.box_max;
   options.spacing = scene.geometry.spacing;
-  const auto points = fpm::boundary_quadrature(options, faces);
+  auto points = fpm::boundary_quadrature(options, faces);
+  for (const auto& plate : plates) {
+    fpm::BoundaryQuadratureOptions<Dim> part = options;
+    part.face = face_of(plate);
+    part.range_min = plate.range_min;
+    part.range_max = plate.range_max;
+    auto under = fpm::boundary_quadrature(part);
+    under.weight *= -1.0;
+    points.append(under);
+  }
   const fpm::PointOperator<Dim> op(model.particles, model.ghosts, points.position,
                                    model.row_options);
   return fpm::area_vectors(op, points);

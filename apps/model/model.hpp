@@ -5,8 +5,8 @@
 
 #include "constitutive/material.hpp"
 #include "fpm/boundary_loads.hpp"
+#include "fpm/ghosts.hpp"
 #include "fpm/hourglass.hpp"
-#include "fpm/mirror.hpp"
 #include "fpm/particles.hpp"
 #include "fpm/rows.hpp"
 #include "model/material_index.hpp"
@@ -38,7 +38,7 @@ struct PenaltySupport {
 template <int Dim>
 struct Model {
   fpm::ParticleSet<Dim> particles;
-  fpm::MirrorGhosts<Dim> ghosts;
+  fpm::Ghosts<Dim> ghosts;
   fpm::RowOptions row_options;
   fpm::Channels channels;
   StateLayout layout;
@@ -63,11 +63,9 @@ struct Model {
   fpm::Vector<Dim> box_min;           // [m]
   fpm::Vector<Dim> box_max;           // [m]
   double spacing = 0.0;               // [m]
-  struct MirrorFace {
-    int axis;
-    bool upper;
-  };
-  std::vector<MirrorFace> mirror_faces;  // faces of the box that are planes of symmetry
+  // Of each plane of the ghosts; empty if none moves.
+  std::vector<fpm::Vector<Dim>> plane_drive;    // [m] displacement at load parameter 1
+  std::vector<fpm::Vector<Dim>> plane_measure;  // weight of its reaction in the reported load
   std::vector<FollowingPressure<Dim>> following_pressures;
   std::vector<PenaltySupport<Dim>> penalty_supports;
 

@@ -13,7 +13,8 @@ enum class Axis { x, y, z };
 /// Faces of the box: left and right are x- and x+, bottom and top y- and y+, front and back z- and
 /// z+. Up is y, in 3D as well.
 enum class Side { left, right, bottom, top, front, back };
-enum class SupportMethod { direct, penalty };
+enum class SupportMethod { direct, penalty, ghosts };
+enum class DriveMethod { direct, ghosts };
 enum class InitialStressKind { none, geostatic };
 enum class DriveKind { none, displacement, load };
 enum class Lateral { fixed, free };

@@ -21,9 +21,10 @@ inline constexpr std::array<std::string_view, 6> control{"auto",      "none",   
 inline constexpr std::array<std::string_view, 3> axis{"x", "y", "z"};
 inline constexpr std::array<std::string_view, 6> side{"left", "right", "bottom",
                                                       "top",  "front", "back"};
-inline constexpr std::array<std::string_view, 2> method{"direct", "penalty"};
+inline constexpr std::array<std::string_view, 3> method{"direct", "penalty", "ghosts"};
 inline constexpr std::array<std::string_view, 2> initial_stress{"none", "geostatic"};
 inline constexpr std::array<std::string_view, 3> drive{"none", "displacement", "load"};
+inline constexpr std::array<std::string_view, 2> drive_method{"direct", "ghosts"};
 inline constexpr std::array<std::string_view, 2> lateral{"fixed", "free"};
 inline constexpr std::array<std::string_view, 2> load{"traction", "gravity"};
 inline constexpr std::array<std::string_view, 6> measure{
@@ -59,6 +60,9 @@ constexpr std::span<const std::string_view> names_of(Side) {
 }
 constexpr std::span<const std::string_view> names_of(SupportMethod) {
   return names::method;
+}
+constexpr std::span<const std::string_view> names_of(DriveMethod) {
+  return names::drive_method;
 }
 constexpr std::span<const std::string_view> names_of(InitialStressKind) {
   return names::initial_stress;

@@ -117,6 +117,7 @@ struct Drive {
   Point range_max;  // [m]
   Point direction;  // unit vector
   Lateral lateral = Lateral::fixed;
+  DriveMethod method = DriveMethod::direct;
   double target = 0.0;                     // [m] length of the prescribed displacement
   std::vector<LoadKind> scales;            // what grows from 0 to 1 in a load drive
   std::optional<double> reference_length;  // B [m]

@@ -51,7 +51,9 @@ SceneTable support() {
       .key("directions", &Support::directions,
            {.need = tables::Need::required, .doc = "Displacement components that are zero."})
       .key("method", &Support::method,
-           {.doc = "direct: the unknowns are removed. penalty: they are held by stiff springs.",
+           {.doc = "direct: the displacements of the particles next to the side are given. ghosts: "
+                   "the body goes on in images behind the side, which is held itself. penalty: the "
+                   "side is held by stiff springs.",
             .source = "penalty: Chen, Huang & Lyamin 2020, Eq. 3-4"})
       .key("penalty_factor", &Support::penalty_factor,
            {.range = tables::positive(),
@@ -145,6 +147,9 @@ SceneTable drive() {
             .absent = "only without a displacement"})
       .key("lateral", &Drive::lateral,
            {.doc = "displacement: fixed (rough) or free (smooth) across the direction."})
+      .key("method", &Drive::method,
+           {.doc = "displacement: direct: the displacements of the particles next to the side are "
+                   "given. ghosts: those of the side itself are, by images behind it."})
       .key("target", &Drive::target,
            {.unit = "m",
             .range = tables::at_least(0.0),

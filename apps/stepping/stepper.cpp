@@ -123,13 +123,11 @@ bool LoadStepper<Dim>::predict_by_tangent(double increment, Eigen::VectorXd& u,
   u.setZero();
   Eigen::VectorXd residual(u.size());
   ++record.residual_evaluations;
-  if ((*equilibrium_)(u, residual) != jfnk::Evaluation::ok || !equilibrium_->linearise(u)) {
-    return false;
-  }
+  if (!equilibrium_->linearise_at_start(residual)) return false;
   Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(u.size());
   set_prescribed(increment, prescribed);
   Eigen::VectorXd action(u.size());
-  equilibrium_->apply_jacobian(prescribed, action);
+  equilibrium_->apply_motion(prescribed, action);
   const Eigen::VectorXd rhs = -(residual + action);
   const auto jacobian = [&](const Eigen::VectorXd& v, Eigen::VectorXd& jv) {
     equilibrium_->apply_jacobian(v, jv);
@@ -282,7 +280,10 @@ Eigen::Index LoadStepper<Dim>::re_search() {
   }
   const Eigen::VectorXd volume = state_.rows.reference_volume().cwiseProduct(ratio);
   const fpm::Field<Dim> position = model_.particles.position + state_.displacement;
-  const auto rebuilt = state_.rows.research(rows, position, volume, model_.driven_particle);
+  std::vector<fpm::Vector<Dim>> plane_motion = model_.plane_drive;
+  for (fpm::Vector<Dim>& motion : plane_motion) motion *= state_.programme.load;
+  const auto rebuilt =
+      state_.rows.research(rows, position, volume, model_.driven_particle, plane_motion);
   for (const fpm::Index a : rebuilt) {
     state_.searched_volume_ratio[a] *= ratio[a];
     Eigen::Map<fpm::Tensor<Dim>>(state_.deformation_gradient.col(a).data()).setIdentity();

@@ -11,8 +11,8 @@ int main() {
   const RowOptions options{.support_radius = 2.4 * box.spacing, .spacing = box.spacing};
 
   const ParticleSet<2> set = make_lattice(box);
-  const MirrorGhosts<2> ghosts(set.position, {{.axis = 0}, {.axis = 1}},
-                               options.max_enlargement * options.support_radius);
+  const Ghosts<2> ghosts(set.position, {symmetry_plane<2>(0, 0.0), symmetry_plane<2>(1, 0.0)},
+                         options.max_enlargement * options.support_radius);
   const Rows<2> rows(set, ghosts, options);
   const Index n = set.size();
 

@@ -40,7 +40,7 @@ Eigen::MatrixXd row_matrix(const RowGeometry<Dim>& geometry, const RowWeights<Di
 
 // S for one component; an image enters as its source, with the sign of that component.
 template <int Dim>
-Eigen::SparseMatrix<double> assemble(const Rows<Dim>& rows, const MirrorGhosts<Dim>& ghosts,
+Eigen::SparseMatrix<double> assemble(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
                                      int component) {
   const Index n = rows.size();
   std::vector<Eigen::Triplet<double>> entries;
@@ -128,7 +128,7 @@ double defect_round_off(const Rows<Dim>& rows) {
 }  // namespace
 
 template <int Dim>
-Field<Dim> consistency_defect(const Rows<Dim>& rows, const MirrorGhosts<Dim>& ghosts,
+Field<Dim> consistency_defect(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
                               const Field<Dim>& area_vector) {
   const Index n = rows.size();
   require_size("area vectors", area_vector.rows(), n);
@@ -152,7 +152,7 @@ Field<Dim> consistency_defect(const Rows<Dim>& rows, const MirrorGhosts<Dim>& gh
 }
 
 template <int Dim>
-Field<Dim> consistency_potential(const Rows<Dim>& rows, const MirrorGhosts<Dim>& ghosts,
+Field<Dim> consistency_potential(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
                                  const Field<Dim>& area_vector) {
   const Field<Dim> missing = -consistency_defect(rows, ghosts, area_vector);
   Field<Dim> potential(rows.size(), Dim);
@@ -168,9 +168,9 @@ Field<Dim> consistency_potential(const Rows<Dim>& rows, const MirrorGhosts<Dim>&
   return potential;
 }
 
-template Field<2> consistency_defect<2>(const Rows<2>&, const MirrorGhosts<2>&, const Field<2>&);
-template Field<3> consistency_defect<3>(const Rows<3>&, const MirrorGhosts<3>&, const Field<3>&);
-template Field<2> consistency_potential<2>(const Rows<2>&, const MirrorGhosts<2>&, const Field<2>&);
-template Field<3> consistency_potential<3>(const Rows<3>&, const MirrorGhosts<3>&, const Field<3>&);
+template Field<2> consistency_defect<2>(const Rows<2>&, const Ghosts<2>&, const Field<2>&);
+template Field<3> consistency_defect<3>(const Rows<3>&, const Ghosts<3>&, const Field<3>&);
+template Field<2> consistency_potential<2>(const Rows<2>&, const Ghosts<2>&, const Field<2>&);
+template Field<3> consistency_potential<3>(const Rows<3>&, const Ghosts<3>&, const Field<3>&);
 
 }  // namespace fpm

@@ -11,7 +11,7 @@ namespace {
 
 // Adds V_a kappa_ab (T_a nu)_ab to the gradient weights; consistency.hpp says what nu is.
 template <int Dim>
-void add_consistency(const MirrorGhosts<Dim>& ghosts, const Field<Dim>& potential, Index row,
+void add_consistency(const Ghosts<Dim>& ghosts, const Field<Dim>& potential, Index row,
                      std::span<const Index> neighbours, const RowGeometry<Dim>& geometry,
                      RowWeights<Dim>& weights) {
   const Index n = static_cast<Index>(potential.rows());
@@ -38,7 +38,7 @@ void add_consistency(const MirrorGhosts<Dim>& ghosts, const Field<Dim>& potentia
 }  // namespace
 
 template <int Dim>
-MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const MirrorGhosts<Dim>& ghosts,
+MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
                                     Channels channels, const Field<Dim>& potential)
     : size_(rows.size()), channels_(channels), ghosts_(ghosts) {
   if (potential.size() > 0) require_size("consistency potential", potential.rows(), size_);

@@ -30,10 +30,10 @@ void PointOperator<Dim>::for_each_entry(Index point, Visitor&& visit) const {
 // Appends the weights of one point unless its moment matrix is poor. Lengths are scaled by R, so
 // that the condition number means something; it does not depend on the scale of the volumes.
 template <int Dim>
-bool PointOperator<Dim>::append_point(const ParticleSet<Dim>& particles,
-                                      const MirrorGhosts<Dim>& ghosts, const Field<Dim>& extended,
-                                      const std::vector<Index>& found, const Vector<Dim>& centre,
-                                      double radius, const RowOptions& options) {
+bool PointOperator<Dim>::append_point(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
+                                      const Field<Dim>& extended, const std::vector<Index>& found,
+                                      const Vector<Dim>& centre, double radius,
+                                      const RowOptions& options) {
   if (static_cast<int>(found.size()) < Dim + 2) return false;
   using Basis = Eigen::Matrix<double, Dim + 1, 1>;
   using MomentMatrix = Eigen::Matrix<double, Dim + 1, Dim + 1>;
@@ -74,9 +74,8 @@ bool PointOperator<Dim>::append_point(const ParticleSet<Dim>& particles,
 }
 
 template <int Dim>
-PointOperator<Dim>::PointOperator(const ParticleSet<Dim>& particles,
-                                  const MirrorGhosts<Dim>& ghosts, const Field<Dim>& points,
-                                  const RowOptions& options)
+PointOperator<Dim>::PointOperator(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
+                                  const Field<Dim>& points, const RowOptions& options)
     : particle_count_(particles.size()) {
   require_size("particle volumes", particles.volume.size(), particles.size());
   check(options);
@@ -84,13 +83,20 @@ PointOperator<Dim>::PointOperator(const ParticleSet<Dim>& particles,
   extended.topRows(particles.size()) = particles.position;
   ghosts.extend_positions(extended.data(), particles.size(), extended.rows());
   const NeighbourSearch<Dim> search(extended);
+  // Images of a support move as it does, not as particles alone: points are served without them.
+  const auto around = [&](const Vector<Dim>& centre, double radius, std::vector<Index>& found) {
+    search.within(centre, radius, found);
+    std::erase_if(found, [&](Index b) {
+      return b >= particles.size() && !ghosts.by_symmetry(b - particles.size());
+    });
+  };
 
   constexpr double growth = 1.05;
   std::vector<Index> found;
   for (Eigen::Index c = 0; c < points.rows(); ++c) {
     const Vector<Dim> centre = points.row(c).transpose();
     double radius = options.support_radius;
-    search.within(centre, radius, found);
+    around(centre, radius, found);
     while (!append_point(particles, ghosts, extended, found, centre, radius, options)) {
       radius *= growth;
       if (radius > options.max_enlargement * options.support_radius) {
@@ -98,7 +104,7 @@ PointOperator<Dim>::PointOperator(const ParticleSet<Dim>& particles,
                                  "neighbourhood within " + std::to_string(options.max_enlargement) +
                                  " support radii");
       }
-      search.within(centre, radius, found);
+      around(centre, radius, found);
     }
     offset_.push_back(entries_.size());
     support_radius_.push_back(radius);
@@ -107,7 +113,7 @@ PointOperator<Dim>::PointOperator(const ParticleSet<Dim>& particles,
 
 template <int Dim>
 PointOperator<Dim> PointOperator<Dim>::at_particles(const ParticleSet<Dim>& particles,
-                                                    const MirrorGhosts<Dim>& ghosts,
+                                                    const Ghosts<Dim>& ghosts,
                                                     const std::vector<Index>& particle,
                                                     const RowOptions& options) {
   Field<Dim> points(static_cast<Eigen::Index>(particle.size()), Dim);

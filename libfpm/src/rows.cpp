@@ -13,7 +13,7 @@ namespace fpm {
 namespace {
 
 template <int Dim>
-Field<Dim> with_ghosts(const Field<Dim>& position, const MirrorGhosts<Dim>& ghosts) {
+Field<Dim> with_ghosts(const Field<Dim>& position, const Ghosts<Dim>& ghosts) {
   Field<Dim> extended(position.rows() + ghosts.size(), Dim);
   extended.topRows(position.rows()) = position;
   ghosts.extend_positions(extended.data(), position.rows(), extended.rows());
@@ -21,7 +21,7 @@ Field<Dim> with_ghosts(const Field<Dim>& position, const MirrorGhosts<Dim>& ghos
 }
 
 template <int Dim>
-Eigen::VectorXd with_ghosts(const Eigen::VectorXd& volume, const MirrorGhosts<Dim>& ghosts) {
+Eigen::VectorXd with_ghosts(const Eigen::VectorXd& volume, const Ghosts<Dim>& ghosts) {
   Eigen::VectorXd extended(volume.size() + ghosts.size());
   extended.head(volume.size()) = volume;
   for (Index g = 0; g < ghosts.size(); ++g) extended[volume.size() + g] = volume[ghosts.source(g)];
@@ -31,7 +31,7 @@ Eigen::VectorXd with_ghosts(const Eigen::VectorXd& volume, const MirrorGhosts<Di
 }  // namespace
 
 template <int Dim>
-void Rows<Dim>::set_initial(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts) {
+void Rows<Dim>::set_initial(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts) {
   ghosts_ = ghosts;
   initial_position_ = with_ghosts<Dim>(particles.position, ghosts);
   initial_volume_ = with_ghosts<Dim>(particles.volume, ghosts);
@@ -41,7 +41,7 @@ void Rows<Dim>::set_initial(const ParticleSet<Dim>& particles, const MirrorGhost
 }
 
 template <int Dim>
-Rows<Dim>::Rows(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts,
+Rows<Dim>::Rows(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
                 const RowOptions& options)
     : options_(options) {
   require_size("particle volumes", particles.volume.size(), particles.size());
@@ -68,7 +68,9 @@ Rows<Dim>::Rows(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghos
                                  " support radii");
       }
       search.within(initial_position_.row(a).transpose(), radius, found);
-      std::erase(found, a);
+      const Vector<Dim> place = initial_position_.row(a).transpose();
+      std::erase_if(
+          found, [&](Index b) { return b == a || (b >= n && !ghosts.visible_from(place, b - n)); });
       neighbour_.resize(static_cast<std::size_t>(row_offset_.back()));
       neighbour_.insert(neighbour_.end(), found.begin(), found.end());
       row_offset_.push_back(static_cast<Index>(neighbour_.size()));
@@ -135,11 +137,13 @@ bool Rows<Dim>::accept(const RowGeometry<Dim>& row, RowWeights<Dim>& scratch) co
 template <int Dim>
 std::vector<Index> Rows<Dim>::research(const std::vector<Index>& rows, const Field<Dim>& position,
                                        const Eigen::VectorXd& volume,
-                                       const std::vector<char>& excluded) {
+                                       const std::vector<char>& excluded,
+                                       const std::vector<Vector<Dim>>& plane_motion) {
   require_size("positions", position.rows(), size());
   require_size("volumes", volume.size(), size());
   require_size("excluded", static_cast<Eigen::Index>(excluded.size()), size());
-  const Field<Dim> now = with_ghosts<Dim>(position, ghosts_);
+  Field<Dim> now = with_ghosts<Dim>(position, ghosts_);
+  if (!plane_motion.empty()) now.bottomRows(ghosts_.size()) += ghosts_.of_motion(plane_motion);
   const Eigen::VectorXd volume_now = with_ghosts<Dim>(volume, ghosts_);
   const NeighbourSearch<Dim> search(now);
   const std::set<Index> wanted(rows.begin(), rows.end());
@@ -158,6 +162,9 @@ std::vector<Index> Rows<Dim>::research(const std::vector<Index>& rows, const Fie
     search.within(now.row(a).transpose(), support_radius_[a], found);
     std::erase_if(found, [&](Index b) {
       const Index particle = b < size() ? b : ghosts_.source(b - size());
+      if (b >= size() && !ghosts_.visible_from(now.row(a).transpose(), b - size(), plane_motion)) {
+        return true;
+      }
       return b == a || (excluded[static_cast<std::size_t>(particle)] != 0 &&
                         !std::binary_search(old.begin(), old.end(), b));
     });
@@ -227,7 +234,7 @@ void Rows<Dim>::index_searched_rows() {
 }
 
 template <int Dim>
-void Rows<Dim>::restore(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts,
+void Rows<Dim>::restore(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
                         const RowOptions& options) {
   options_ = options;
   set_initial(particles, ghosts);

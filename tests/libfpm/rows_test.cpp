@@ -87,7 +87,7 @@ TEST(Rows, AskForMoreNeighboursWhenSecondGradientsAreFitted) {
 
 TEST(Rows, RefuseSizesAndOptionsThatCannotBe) {
   auto set = fpm::make_lattice(lattice<2>({8, 8}));
-  const MirrorGhosts<2> none;
+  const Ghosts<2> none;
   auto options = row_options<2>();
   options.support_radius = 0.0;
   EXPECT_THAT([&] { Rows<2>(set, none, options); },

@@ -10,14 +10,15 @@
 namespace fpm_test {
 
 using fpm::Field;
+using fpm::GhostPlane;
+using fpm::Ghosts;
 using fpm::Index;
 using fpm::LatticeLayout;
 using fpm::LatticeOptions;
-using fpm::MirrorGhosts;
 using fpm::ParticleSet;
 using fpm::RowOptions;
 using fpm::Rows;
-using fpm::SymmetryPlane;
+using fpm::symmetry_plane;
 using fpm::Tensor;
 using fpm::Vector;
 
@@ -59,17 +60,31 @@ RowOptions row_options(double spacing = 0.1, bool second = false) {
   return options;
 }
 
+/// A plane of symmetry in any dimension.
+struct SymmetryPlane {
+  int axis;
+  double position;
+};
+
+template <int Dim>
+std::vector<GhostPlane<Dim>> planes_of_symmetry(const std::vector<SymmetryPlane>& planes) {
+  std::vector<GhostPlane<Dim>> result;
+  for (const auto& [axis, position] : planes) result.push_back(symmetry_plane<Dim>(axis, position));
+  return result;
+}
+
 /// A set with its images and rows.
 template <int Dim>
 struct Model {
   ParticleSet<Dim> set;
-  MirrorGhosts<Dim> ghosts;
+  Ghosts<Dim> ghosts;
   Rows<Dim> rows;
 
   Model(ParticleSet<Dim> particles, const RowOptions& options,
         const std::vector<SymmetryPlane>& planes = {})
       : set(std::move(particles)),
-        ghosts(set.position, planes, options.max_enlargement * options.support_radius),
+        ghosts(set.position, planes_of_symmetry<Dim>(planes),
+               options.max_enlargement * options.support_radius),
         rows(set, ghosts, options) {}
   explicit Model(const LatticeOptions<Dim>& options, bool second = false,
                  const std::vector<SymmetryPlane>& planes = {})

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fpm/mirror.hpp"
+#include "fpm/ghosts.hpp"
 #include "fpm/particles.hpp"
 #include "fpm/points.hpp"
 #include "fpm/rows.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fpm/mirror.hpp"
+#include "fpm/ghosts.hpp"
 #include "fpm/rows.hpp"
 #include "fpm/types.hpp"
 
@@ -24,12 +24,12 @@ namespace fpm {
 /// @throws ShapeError if sizes disagree; std::runtime_error if the factorisation fails or the
 ///   tolerance is not reached, as it cannot be if s does not close the surface.
 template <int Dim>
-Field<Dim> consistency_potential(const Rows<Dim>& rows, const MirrorGhosts<Dim>& ghosts,
+Field<Dim> consistency_potential(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
                                  const Field<Dim>& area_vector);
 
 /// Force patch error of a set: sum_a V_a G_ab - s_b, n x Dim, before any correction.
 template <int Dim>
-Field<Dim> consistency_defect(const Rows<Dim>& rows, const MirrorGhosts<Dim>& ghosts,
+Field<Dim> consistency_defect(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
                               const Field<Dim>& area_vector);
 
 }  // namespace fpm

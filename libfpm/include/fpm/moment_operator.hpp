@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fpm/mirror.hpp"
+#include "fpm/ghosts.hpp"
 #include "fpm/rows.hpp"
 #include "fpm/stencil.hpp"
 #include "fpm/types.hpp"
@@ -55,13 +55,13 @@ class MomentOperator {
   /// Builds the layout from the rows.
   /// @param potential  n x Dim potential of the consistency correction, or empty for none; rows
   ///   that were re-searched ignore it (see consistency.hpp)
-  MomentOperator(const Rows<Dim>& rows, const MirrorGhosts<Dim>& ghosts, Channels channels,
+  MomentOperator(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Channels channels,
                  const Field<Dim>& potential = {});
 
   Index size() const { return size_; }
   Channels channels() const { return channels_; }
   int channel_count() const { return channels_.count(Dim); }
-  const MirrorGhosts<Dim>& ghosts() const { return ghosts_; }
+  const Ghosts<Dim>& ghosts() const { return ghosts_; }
 
   /// Length between the components of an extended nodal array (particles, ghosts, padding).
   Eigen::Index stride() const { return size_ + ghosts_.size() + padding; }
@@ -126,7 +126,7 @@ class MomentOperator {
  private:
   Index size_ = 0;
   Channels channels_;
-  MirrorGhosts<Dim> ghosts_;
+  Ghosts<Dim> ghosts_;
   SegmentedRows forward_;
   SegmentedRows transposed_;  // rows: particles, then ghosts
   Field<Dim> first_moment_;

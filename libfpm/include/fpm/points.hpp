@@ -3,7 +3,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "fpm/mirror.hpp"
+#include "fpm/ghosts.hpp"
 #include "fpm/particles.hpp"
 #include "fpm/rows.hpp"
 #include "fpm/types.hpp"
@@ -39,14 +39,13 @@ class PointOperator {
   ///   condition number gets a support wider by up to `max_enlargement`
   /// @throws std::runtime_error naming the point if no admissible support gives a valid operator;
   ///   std::invalid_argument if an option is out of range; ShapeError if sizes disagree.
-  PointOperator(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts,
+  PointOperator(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
                 const Field<Dim>& points, const RowOptions& options);
 
   /// The operator at particles whose value is the particle's own (N_cb = 1 for b = particle[c],
   /// otherwise 0) and whose gradient is the corrected one: boundary terms lumped to particles.
   /// @throws ShapeError if a particle does not exist; otherwise as the constructor.
-  static PointOperator at_particles(const ParticleSet<Dim>& particles,
-                                    const MirrorGhosts<Dim>& ghosts,
+  static PointOperator at_particles(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
                                     const std::vector<Index>& particle, const RowOptions& options);
 
   /// Number of points.
@@ -94,7 +93,7 @@ class PointOperator {
 
   template <class Visitor>
   void for_each_entry(Index point, Visitor&& visit) const;
-  bool append_point(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts,
+  bool append_point(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
                     const Field<Dim>& extended, const std::vector<Index>& found,
                     const Vector<Dim>& centre, double radius, const RowOptions& options);
 

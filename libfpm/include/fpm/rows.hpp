@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "fpm/ghosts.hpp"
 #include "fpm/kernel.hpp"
-#include "fpm/mirror.hpp"
 #include "fpm/particles.hpp"
 #include "fpm/stencil.hpp"
 #include "fpm/types.hpp"
@@ -43,8 +43,7 @@ class Rows {
   /// First search, on the initial particles. A row with too few neighbours or an ill-conditioned
   /// moment matrix gets a wider support.
   /// @throws std::runtime_error naming the particle if no admissible support gives a valid row.
-  Rows(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts,
-       const RowOptions& options);
+  Rows(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts, const RowOptions& options);
 
   Index size() const { return static_cast<Index>(support_radius_.size()); }
   const RowOptions& options() const { return options_; }
@@ -67,10 +66,12 @@ class Rows {
   /// @param rows  in any order
   /// @param position  [m] current positions
   /// @param volume  [m^Dim] current volumes
+  /// @param plane_motion  [m] displacement of each plane of the ghosts, or empty for none
   /// @returns the rows that were rebuilt, ascending.
   /// @throws ShapeError if sizes disagree or a row does not exist.
   std::vector<Index> research(const std::vector<Index>& rows, const Field<Dim>& position,
-                              const Eigen::VectorXd& volume, const std::vector<char>& excluded);
+                              const Eigen::VectorXd& volume, const std::vector<char>& excluded,
+                              const std::vector<Vector<Dim>>& plane_motion = {});
 
   /// Visits what a checkpoint must hold: visit(name, unit, vector).
   template <class Visitor>
@@ -87,19 +88,19 @@ class Rows {
   /// Rebuilds what follows from the visited fields; call after reading them.
   /// @throws ShapeError if the fields contradict each other, refer to particles that do not exist
   /// or hold a radius or volume that is not positive.
-  void restore(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts,
+  void restore(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
                const RowOptions& options);
 
  private:
   bool accept(const RowGeometry<Dim>& geometry, RowWeights<Dim>& scratch) const;
   Vector<Dim> snapped(Vector<Dim> offset) const;
   void index_searched_rows();
-  void set_initial(const ParticleSet<Dim>& particles, const MirrorGhosts<Dim>& ghosts);
+  void set_initial(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts);
 
   RowOptions options_;
   Field<Dim> initial_position_;     // ghosts included
   Eigen::VectorXd initial_volume_;  // ghosts included
-  MirrorGhosts<Dim> ghosts_;
+  Ghosts<Dim> ghosts_;
   double round_off_ = 0.0;  // [m] of a difference of initial positions
 
   std::vector<Index> row_offset_{0};  // CSR over all rows

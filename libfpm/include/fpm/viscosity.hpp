@@ -79,7 +79,7 @@ class PairViscosity {
                      const Eigen::Ref<const Eigen::VectorXd>& volume);
   void sum_pairs(FieldTarget<Dim> force);
 
-  MirrorGhosts<Dim> ghosts_;
+  Ghosts<Dim> ghosts_;
   Index size_ = 0;
   Eigen::VectorXd modulus_;           // images included
   Eigen::VectorXd smoothing_length_;  // images included

@@ -5,7 +5,7 @@
 int main() {
   const double spacing = 0.125, slope_x = 2.0, slope_y = -3.0;
   const auto particles = fpm::make_lattice<2>({.spacing = spacing, .jitter = 0.2});
-  const fpm::MirrorGhosts<2> no_ghosts;
+  const fpm::Ghosts<2> no_ghosts;
   const fpm::Rows<2> rows(particles, no_ghosts,
                           {.support_radius = 2.4 * spacing, .spacing = spacing});
   const fpm::MomentOperator<2> gradient(rows, no_ghosts, fpm::Channels{});

@@ -1,7 +1,7 @@
 // A half model with images against the symmetric full one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <fpm/mirror.hpp>
+#include <fpm/ghosts.hpp>
 
 #include <map>
 
@@ -130,23 +130,23 @@ void expect_half_is_full(const Counts<Dim>& half_cells, int planes) {
             tolerance * full_force.cwiseAbs().maxCoeff());
 }
 
-TEST(MirrorGhosts, MakeTheHalfModelTheFullOne) {
+TEST(Ghosts, MakeTheHalfModelTheFullOne) {
   expect_half_is_full<2>({9, 12}, 1);
   expect_half_is_full<3>({5, 5, 4}, 1);
 }
 
-TEST(MirrorGhosts, MakeTheQuarterModelTheFullOne) {
+TEST(Ghosts, MakeTheQuarterModelTheFullOne) {
   expect_half_is_full<2>({9, 8}, 2);
   expect_half_is_full<3>({5, 5, 4}, 2);
 }
 
-TEST(MirrorGhosts, MakeTheEighthModelTheFullOne) {
+TEST(Ghosts, MakeTheEighthModelTheFullOne) {
   expect_half_is_full<3>({5, 5, 5}, 3);
 }
 
-TEST(MirrorGhosts, LieBehindThePlaneAtTheSameDistance) {
+TEST(Ghosts, LieBehindThePlaneAtTheSameDistance) {
   const auto set = fpm::make_lattice(lattice<2>({6, 4}));
-  const MirrorGhosts<2> ghosts(set.position, {{0, 0.6}}, 0.24);
+  const Ghosts<2> ghosts(set.position, {symmetry_plane<2>(0, 0.6)}, 0.24);
   ASSERT_EQ(ghosts.size(), 8);  // two columns of four
   Field<2> extended(24 + 8, 2);
   extended.topRows(24) = set.position;
@@ -160,9 +160,11 @@ TEST(MirrorGhosts, LieBehindThePlaneAtTheSameDistance) {
   }
 }
 
-TEST(MirrorGhosts, FoldingForcesIsTheTransposeOfExtendingVectors) {
+TEST(Ghosts, FoldingForcesIsTheTransposeOfExtendingVectors) {
   const auto set = fpm::make_lattice(lattice<3>({4, 4, 4}));
-  const MirrorGhosts<3> ghosts(set.position, {{0, 0.0}, {1, 0.0}, {2, 0.4}}, 0.24);
+  const Ghosts<3> ghosts(
+      set.position,
+      {symmetry_plane<3>(0, 0.0), symmetry_plane<3>(1, 0.0), symmetry_plane<3>(2, 0.4)}, 0.24);
   const Index n = set.size();
   const Index total = n + ghosts.size();
   ASSERT_GT(ghosts.size(), 100);
@@ -177,22 +179,19 @@ TEST(MirrorGhosts, FoldingForcesIsTheTransposeOfExtendingVectors) {
   EXPECT_NEAR(of_extended, of_folded, round_off(8.0, f.cwiseProduct(u).cwiseAbs().sum()));
 }
 
-TEST(MirrorGhosts, LeaveOutParticlesOnThePlaneAndOutOfReach) {
+TEST(Ghosts, LeaveOutParticlesOnThePlaneAndOutOfReach) {
   Field<2> position(3, 2);
   position << 0.0, 0.0, 0.1, 0.0, 0.5, 0.0;
-  const MirrorGhosts<2> ghosts(position, {{0, 0.0}}, 0.3);
+  const Ghosts<2> ghosts(position, {symmetry_plane<2>(0, 0.0)}, 0.3);
   ASSERT_EQ(ghosts.size(), 1);
   EXPECT_EQ(ghosts.source(0), 1);
 }
 
-TEST(MirrorGhosts, RefuseAnAxisThatDoesNotExist) {
+TEST(Ghosts, RefuseAnAxisThatDoesNotExist) {
   const auto set = fpm::make_lattice(lattice<2>({4, 4}));
   for (const int axis : {-1, 2}) {
-    EXPECT_THAT(
-        [&] {
-          MirrorGhosts<2>(set.position, {{axis, 0.0}}, 0.24);
-        },
-        ThrowsMessage<std::invalid_argument>(HasSubstr("in a space of dimension 2")));
+    EXPECT_THAT([&] { Ghosts<2>(set.position, {symmetry_plane<2>(axis, 0.0)}, 0.24); },
+                ThrowsMessage<std::invalid_argument>(HasSubstr("in a space of dimension 2")));
   }
 }
 

@@ -1,0 +1,66 @@
+#include "model/planes.hpp"
+
+#include <algorithm>
+
+#include "scene/derived.hpp"
+#include "scene/scene.hpp"
+
+namespace model {
+namespace {
+
+template <int Dim>
+fpm::GhostPlane<Dim> plane_at(const scene::Scene& scene, scene::Side side) {
+  fpm::GhostPlane<Dim> plane;
+  plane.axis = scene::axis_of(side);
+  plane.position = scene::side_position(scene.geometry, side);
+  return plane;
+}
+
+template <int Dim>
+fpm::GhostPlane<Dim> driven(const scene::Scene& scene) {
+  const scene::Drive& drive = scene.drive;
+  fpm::GhostPlane<Dim> plane = plane_at<Dim>(scene, drive.side);
+  const double slack = scene::same_place * scene.geometry.spacing;
+  std::size_t k = 0;
+  for (int i = 0; i < Dim; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    plane.held[axis] = drive.lateral == scene::Lateral::fixed || drive.direction[axis] != 0.0;
+    if (i == plane.axis || drive.range_min.empty()) continue;
+    plane.range_min[i] = drive.range_min[k] - slack;
+    plane.range_max[i] = drive.range_max[k] + slack;
+    ++k;
+  }
+  return plane;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<fpm::GhostPlane<Dim>> ghost_planes(const scene::Scene& scene) {
+  std::vector<fpm::GhostPlane<Dim>> planes;
+  if (scene.drive.kind == scene::DriveKind::displacement &&
+      scene.drive.method == scene::DriveMethod::ghosts) {
+    planes.push_back(driven<Dim>(scene));
+  }
+  const auto first_support = static_cast<std::ptrdiff_t>(planes.size());
+  for (const scene::Support& support : scene.support) {
+    if (support.method != scene::SupportMethod::ghosts) continue;
+    const auto plane = plane_at<Dim>(scene, *support.side);
+    auto known = std::find_if(planes.begin() + first_support, planes.end(), [&](const auto& other) {
+      return other.axis == plane.axis && other.position == plane.position;
+    });
+    if (known == planes.end()) known = planes.insert(planes.end(), plane);
+    for (const scene::Axis axis : support.directions) {
+      known->held[static_cast<std::size_t>(axis)] = true;
+    }
+  }
+  for (const scene::Symmetry& symmetry : scene.symmetry) {
+    planes.push_back(fpm::symmetry_plane<Dim>(static_cast<int>(symmetry.axis), symmetry.position));
+  }
+  return planes;
+}
+
+template std::vector<fpm::GhostPlane<2>> ghost_planes<2>(const scene::Scene&);
+template std::vector<fpm::GhostPlane<3>> ghost_planes<3>(const scene::Scene&);
+
+}  // namespace model

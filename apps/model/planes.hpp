@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fpm/ghosts.hpp"
+
+namespace scene {
+struct Scene;
+}
+
+namespace model {
+
+/// The planes behind which a scene's body has images: the driven side (first, as it may be a part
+/// of one), the supports by ghosts, and the mirrors. Supports of one side share a plane.
+template <int Dim>
+std::vector<fpm::GhostPlane<Dim>> ghost_planes(const scene::Scene& scene);
+
+/// Place of the driven side among them, if it is driven by ghosts.
+inline constexpr std::size_t driven_plane = 0;
+
+}  // namespace model
