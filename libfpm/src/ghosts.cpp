@@ -51,10 +51,10 @@ Ghosts<Dim>::Ghosts(const Field<Dim>& position, const std::vector<GhostPlane<Dim
         for (std::size_t k = share_begin_[static_cast<std::size_t>(parent)];
              k < share_begin_[static_cast<std::size_t>(parent) + 1]; ++k) {
           const Share inherited = share_[k];
-          share_.push_back({inherited.plane, turn.cwiseProduct(inherited.factor)});
+          share_.push_back({inherited.plane, turn.cwiseProduct(inherited.factor), inherited.side});
         }
       }
-      share_.push_back({p, factor});
+      share_.push_back({p, factor, x[axis] < plane.position ? -1.0 : 1.0});
       share_begin_.push_back(share_.size());
     };
     const auto before = size();
@@ -106,6 +106,19 @@ bool Ghosts<Dim>::visible_from(const Vector<Dim>& x, Index g,
   for (const Share& share : shares(g)) {
     const Vector<Dim> moved = motion.empty() ? Vector<Dim>::Zero() : motion[share.plane];
     if (!within(planes_[share.plane], x, moved)) return false;
+  }
+  return true;
+}
+
+template <int Dim>
+bool Ghosts<Dim>::stands_for(const Vector<Dim>& x, Index g,
+                             const std::vector<Vector<Dim>>& motion) const {
+  for (const Share& share : shares(g)) {
+    const GhostPlane<Dim>& plane = planes_[share.plane];
+    if (!plane.has_range()) continue;
+    const Vector<Dim> moved = motion.empty() ? Vector<Dim>::Zero() : motion[share.plane];
+    const double beyond = x[plane.axis] - plane.position - moved[plane.axis];
+    if (beyond * share.side <= 0.0 || !within(plane, x, moved)) return false;
   }
   return true;
 }

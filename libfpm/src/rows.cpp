@@ -162,7 +162,9 @@ std::vector<Index> Rows<Dim>::research(const std::vector<Index>& rows, const Fie
     search.within(now.row(a).transpose(), support_radius_[a], found);
     std::erase_if(found, [&](Index b) {
       const Index particle = b < size() ? b : ghosts_.source(b - size());
-      if (b >= size() && !ghosts_.visible_from(now.row(a).transpose(), b - size(), plane_motion)) {
+      if (b >= size() &&
+          !(ghosts_.visible_from(now.row(a).transpose(), b - size(), plane_motion) &&
+            ghosts_.stands_for(now.row(particle).transpose(), b - size(), plane_motion))) {
         return true;
       }
       return b == a || (excluded[static_cast<std::size_t>(particle)] != 0 &&

@@ -88,6 +88,10 @@ class Ghosts {
   bool visible_from(const Vector<Dim>& x, Index g,
                     const std::vector<Vector<Dim>>& motion = {}) const;
 
+  /// Whether ghost g still stands for its source, now at `x`: a particle that has left from behind
+  /// a part of a plane, along it or past it, has no image there.
+  bool stands_for(const Vector<Dim>& x, Index g, const std::vector<Vector<Dim>>& motion = {}) const;
+
   /// What displacements of the planes add to the displacements of the ghosts, size() x Dim.
   /// @param motion  [m] of each plane; components that are not held do not matter
   /// @throws ShapeError if there is not one for each plane.
@@ -118,6 +122,7 @@ class Ghosts {
   struct Share {
     std::size_t plane;
     Vector<Dim> factor;
+    double side;  // of the plane that the source is on: -1 or 1
   };
   std::span<const Share> shares(Index g) const;
   bool within(const GhostPlane<Dim>& plane, const Vector<Dim>& x, const Vector<Dim>& motion) const;
