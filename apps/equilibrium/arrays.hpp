@@ -16,6 +16,7 @@ struct ArraySizes {
   Eigen::Index subpoints = 0;         // with sub-points
   Eigen::Index viscosity = 0;         // with the paper's viscosity
   Eigen::Index viscosity_finite = 0;  // the same in finite strain
+  Eigen::Index following = 0;         // with loads that follow the boundary
   Eigen::Index tangent_entries = 0;   // of all particles (TangentLayout)
   Eigen::Index rotation_entries = 0;  // likewise
 };
@@ -62,6 +63,7 @@ struct EvaluationArrays {
   Eigen::VectorXd force;                     // extended to the images
   Eigen::VectorXd own_force;                 // of the pairs of a row on itself
   Eigen::VectorXd unmasked;                  // full residual, reactions included
+  Eigen::VectorXd following;                 // [N/m or N] loads that follow the boundary
   Eigen::VectorXd base_increment;            // of the latest linearise, where a term needs it
   fpm::Field<Dim> displacement;              // total, where a boundary term needs it
   fpm::Field<Dim * Dim> inverse_transposed;  // F^-T of each row, with the paper's viscosity
@@ -75,6 +77,7 @@ struct EvaluationArrays {
     visit("force", self.force, n.extended * Dim, 1);
     visit("own_force", self.own_force, n.particles * Dim, 1);
     visit("unmasked", self.unmasked, n.particles * Dim, 1);
+    visit("following", self.following, n.following * Dim, 1);
     visit("base_increment", self.base_increment, n.particles * Dim, 1);
     visit("displacement", self.displacement, n.particles, Dim);
     visit("inverse_transposed", self.inverse_transposed, n.viscosity_finite, Dim * Dim);

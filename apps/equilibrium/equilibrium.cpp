@@ -1,6 +1,7 @@
 #include "equilibrium/equilibrium.hpp"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -37,6 +38,7 @@ ArraySizes array_sizes(const model::Model<Dim>& model, const fpm::MomentOperator
   sizes.subpoints = count(model.channels.second);
   sizes.viscosity = count(viscosity);
   sizes.viscosity_finite = count(viscosity && model.layout.finite);
+  sizes.following = count(!model.following_pressures.empty());
   sizes.tangent_entries = model.layout.subpoints
                               ? StressTangents<generalised_size<Dim, true>>::total(n)
                               : StressTangents<generalised_size<Dim, false>>::total(n);
@@ -166,7 +168,10 @@ jfnk::Evaluation Equilibrium<Dim>::operator()(const Eigen::VectorXd& increment,
     if (given) reaction_square += evaluation_.unmasked[k] * evaluation_.unmasked[k];
     residual[k] = given ? 0.0 : evaluation_.unmasked[k];
   }
-  reference_norm_ = std::max(std::sqrt(reaction_square), step_.external.norm());
+  const double loads = evaluation_.following.size() > 0
+                           ? (step_.external + evaluation_.following).norm()
+                           : step_.external.norm();
+  reference_norm_ = std::max(std::sqrt(reaction_square), loads);
   return jfnk::Evaluation::ok;
 }
 
@@ -191,6 +196,17 @@ void Equilibrium<Dim>::apply_jacobian(const Eigen::VectorXd& v, Eigen::VectorXd&
   }
 }
 
+template <int Dim>
+fpm::Index Equilibrium<Dim>::nearest_particle(
+    const Eigen::Matrix<double, 1, Dim>& reference_place) const {
+  Eigen::Index nearest = 0;
+  (model_.particles.position.rowwise() - reference_place)
+      .rowwise()
+      .squaredNorm()
+      .minCoeff(&nearest);
+  return static_cast<fpm::Index>(nearest);
+}
+
 // Terms that scenes seldom have: following pressures, penalty supports, the paper's viscosity.
 template <int Dim>
 void Equilibrium<Dim>::add_boundary_terms(const Eigen::VectorXd& increment) {
@@ -208,14 +224,16 @@ void Equilibrium<Dim>::add_boundary_terms(const Eigen::VectorXd& increment) {
     fpm::add_penalty_force<Dim>(support.op, support.points, support.options, support.target,
                                 evaluation_.displacement, force);
   }
+  if (model_.following_pressures.empty()) return;
+  Eigen::Map<fpm::Field<Dim>> following(evaluation_.following.data(), n, Dim);
+  following.setZero();
   for (const auto& load : model_.following_pressures) {
-    const double pressure =
-        -load.pressure * (load.scaled ? step_.load : 1.0);  // f_ext is subtracted
-    if (fpm::add_following_pressure<Dim>(load.op, load.points, pressure, evaluation_.displacement,
-                                         force)) {
-      failure_.particle = 0;
-    }
+    const double pressure = load.pressure * (load.scaled ? step_.load : 1.0);
+    const std::optional<fpm::Index> inverted = fpm::add_following_pressure<Dim>(
+        load.op, load.points, pressure, evaluation_.displacement, following);
+    if (inverted) failure_.particle = nearest_particle(load.points.position.row(*inverted));
   }
+  evaluation_.unmasked -= evaluation_.following;
 }
 
 template <int Dim>
@@ -248,6 +266,9 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
   operator_.extend(increment.data(), evaluation_.extended.data());
   forces.hourglass_work = hourglass_work(loop_data());
   forces.external_work = step_.external.dot(increment);
+  if (evaluation_.following.size() > 0) {
+    forces.external_work += evaluation_.following.dot(increment);
+  }
   for (Eigen::Index k = 0; k < increment.size(); ++k) {
     const bool given = model_.prescribed[static_cast<std::size_t>(k)] != 0;
     state_.reaction.data()[k] = given ? evaluation_.unmasked[k] : 0.0;
