@@ -33,7 +33,7 @@ struct StepArrays {
   double load = 0.0;         // load parameter at the end of the step
   Eigen::VectorXd external;  // [N/m or N] dead loads
   fpm::Field<Dim> start_position;
-  Eigen::VectorXd position;          // the same, extended to the images
+  Eigen::VectorXd position;          // from a point next to the body, extended to the images
   Columns<6> second_gradient;        // H_a(n), with sub-points
   Columns<Dim> memory_first;         // sum kappa e(n)
   Columns<Dim * Dim> memory_second;  // sum kappa e(n) x X

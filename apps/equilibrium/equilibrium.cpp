@@ -84,7 +84,7 @@ void Equilibrium<Dim>::begin_step(double load) {
   step_.load = load;
   step_.external = model_.constant_load + load * model_.scaled_load;
   step_.start_position = model_.particles.position + state_.displacement;
-  operator_.extend_positions(step_.start_position.data(), step_.position.data());
+  place_particles();
   if (!model_.channels.pair && !model_.channels.second) return;
 
   const int m = operator_.channel_count();
@@ -106,6 +106,20 @@ void Equilibrium<Dim>::begin_step(double load) {
       }
     }
   }
+}
+
+// What is summed over pairs are differences of these positions, whose round-off is that of their
+// size: measured from a point next to the body it does not depend on where the origin is.
+template <int Dim>
+void Equilibrium<Dim>::place_particles() {
+  operator_.extend_positions(model_.particles.position.data(), step_.position.data());
+  operator_.extend(state_.displacement.data(), evaluation_.extended.data());
+  const fpm::Vector<Dim> origin = model_.nearby_origin();
+  const Eigen::Index nodes = model_.size() + model_.ghosts.size();
+  for (int i = 0; i < Dim; ++i) {
+    step_.position.segment(i * operator_.stride(), nodes).array() -= origin[i];
+  }
+  step_.position += evaluation_.extended;
 }
 
 template <int Dim>

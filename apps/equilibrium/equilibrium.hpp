@@ -64,6 +64,7 @@ class Equilibrium {
 
  private:
   LoopData<Dim> loop_data();
+  void place_particles();
   void remember_pairs(Eigen::Index a, const Eigen::VectorXd& position_moments);
   void assemble(const double* field, double* force);
   void add_boundary_terms(const Eigen::VectorXd& increment);

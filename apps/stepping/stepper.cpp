@@ -51,9 +51,10 @@ jfnk::Options solver_options(const scene::Scene& scene, double rounding) {
 template <int Dim>
 double rounding_of_forces(const scene::Scene& scene, const model::Model<Dim>& model) {
   constexpr double neighbours = 10.0;  // whose rounding adds up in a particle
-  const double size =
-      std::max(model.box_min.cwiseAbs().maxCoeff(), model.box_max.cwiseAbs().maxCoeff()) +
-      scene.drive.target;
+  const fpm::Vector<Dim> origin = model.nearby_origin();
+  const double size = std::max((model.box_min - origin).cwiseAbs().maxCoeff(),
+                               (model.box_max - origin).cwiseAbs().maxCoeff()) +
+                      scene.drive.target;
   const double strain = std::numeric_limits<double>::epsilon() * size / model.spacing;
   const double stiffest = *std::ranges::max_element(model.youngs_modulus);
   return neighbours * stiffest * strain * std::pow(model.spacing, Dim - 1) *

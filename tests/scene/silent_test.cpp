@@ -53,6 +53,44 @@ TEST(Places, ALineOfDecimalsHoldsItsParticlesInBothLayouts) {
   EXPECT_TRUE(lattice_box(cell, {0.0, 0.31}, {1.0, 0.34}).empty());
 }
 
+// Map coordinates: five thousand kilometres from the origin they are known to a nanometre.
+TEST(Places, ALineOfDecimalsHoldsItsParticlesFarFromTheOrigin) {
+  const Geometry far{
+      .min = {5e6, 5e6}, .max = {5000001.0, 5000002.0}, .spacing = 0.1, .layout = Layout::vertex};
+  for (int line = 1; line <= 19; ++line) {
+    const double y =
+        std::stod("500000" + std::to_string(line / 10) + "." + std::to_string(line % 10));
+    const LatticeBox box = lattice_box(far, {5e6, y}, {5000001.0, y});
+    EXPECT_EQ(box.first[1], line);
+    EXPECT_EQ(box.last[1], line);
+  }
+}
+
+TEST(Places, HalfwayBetweenTwoParticlesMeanTheFirst) {
+  for (const double origin : {0.0, 5e6}) {
+    const Geometry cell{
+        .min = {origin, origin}, .max = {origin + 1.0, origin + 1.0}, .spacing = 0.1};
+    for (int line = 1; line <= 9; ++line) {
+      Support support;
+      support.at = {origin + 0.1 * line, origin + 0.05};
+      EXPECT_EQ(lattice_box(cell, support).first[0], line - 1);
+    }
+  }
+}
+
+TEST(Places, TooFarForTheSpacingAreRefused) {
+  const auto at = [](const char* min, const char* max) {
+    return errors({std::string("geometry.min=[") + min + ", -1.0]",
+                   std::string("geometry.max=[") + max + ", 0.0]",
+                   std::string("symmetry.0.position=") + min, std::string("drive.range_min=") + min,
+                   std::string("drive.range_max=") + max});
+  };
+  EXPECT_THAT(at("5e6", "5000002.0"), IsEmpty());
+  EXPECT_THAT(at("5e9", "5000000002.0"),
+              ElementsAre(HasSubstr("geometry.min: found so far from the origin that its "
+                                    "coordinates are known to 1.1e-06 m, with a spacing of 0.1")));
+}
+
 TEST(Places, MaterialsReachToTheLastDigitOfTheirRegions) {
   Scene scene;
   scene.geometry = {.min = {0.0, 0.0}, .max = {1.0, 2.0}, .spacing = 0.1};
