@@ -259,20 +259,22 @@ void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis) {
     if (scene.geometry.dimension == 3) {
       refuse("found mixed in 3D", "sub-points exist in 2D only: use \"incremental\"");
     }
+    bool none_yields = true;
     for (std::size_t i = 0; i < scene.material.size(); ++i) {
       const Material& material = scene.material[i];
-      if (!diagnosis.good({fmt::format("material.{}.model", i)})) continue;
-      const constitutive::ModelInfo& model = model_of(material);
-      const auto found =
-          fmt::format("found mixed with the {} material \"{}\"", material.model, material.name);
-      if (!model.yields) {
-        refuse(found,
-               "a body that does not yield gains nothing from sub-points: use \"stiffness\"");
-      } else if (!model.one_pressure) {
-        refuse(found,
-               "the sub-points share one pressure, which true corners do not allow: use "
-               "\"incremental\", or the model drucker_prager");
+      none_yields =
+          none_yields && diagnosis.good({fmt::format("material.{}.model", i)}) && !yields(material);
+      if (!diagnosis.good({fmt::format("material.{}.model", i)}) || !yields(material) ||
+          model_of(material).one_pressure) {
+        continue;
       }
+      refuse(fmt::format("found mixed with the {} material \"{}\"", material.model, material.name),
+             "the sub-points share one pressure, which true corners do not allow: use "
+             "\"incremental\", or the model drucker_prager");
+    }
+    if (none_yields) {
+      refuse("found mixed with elastic materials only",
+             "a body that does not yield gains nothing from sub-points: use \"stiffness\"");
     }
   }
   const bool no_stiffness = hourglass.control == HourglassControl::none ||

@@ -46,8 +46,10 @@ HourglassControl resolve_control(const Scene& scene) {
   if (!std::any_of(scene.material.begin(), scene.material.end(), yields)) {
     return HourglassControl::stiffness;
   }
-  const bool has_sub_points = scene.geometry.dimension == 2 &&
-                              all([](const Material& m) { return model_of(m).one_pressure; });
+  // What does not yield is at home with either: it must not decide for the ground that does.
+  const bool has_sub_points = scene.geometry.dimension == 2 && all([](const Material& m) {
+                                return model_of(m).one_pressure || !yields(m);
+                              });
   return has_sub_points ? HourglassControl::mixed : HourglassControl::incremental;
 }
 

@@ -192,6 +192,18 @@ TEST(InitialStress, SaysWhereTheGroundCannotBearIt) {
   EXPECT_THAT(warned("2.041"), ElementsAre(HasSubstr("initial_stress.K0: 2.041 is more than")));
 }
 
+// Elastic parts are welcome to the control of the ground around them; a body of them alone is not.
+TEST(Hourglass, MixedNeedsSomethingThatYields) {
+  const std::string block =
+      "[[material]]\nname = \"block\"\nmodel = \"elastic\"\nyoungs_modulus = 1e6\n"
+      "poissons_ratio = 0.2\ndensity = 1.0\nregion_min = [0.5, -0.5]\nregion_max = [1.0, 0.0]\n";
+  EXPECT_THAT(errors({"hourglass.control=mixed"}, block), IsEmpty());
+  EXPECT_THAT(
+      errors({"hourglass.control=mixed", "material.0.model=elastic"}, block),
+      ElementsAre(StartsWith("--set hourglass.control=mixed: hourglass.control: found mixed "
+                             "with elastic materials only; a body that does not yield")));
+}
+
 TEST(Tolerance, IsTightEnoughForTheFriction) {
   EXPECT_THAT(errors({"solver.tolerance=0.5"}), ElementsAre(HasSubstr("0 < value <= 0.01")));
   // tan^2(45 + 75/2) = 57.7

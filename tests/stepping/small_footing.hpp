@@ -59,8 +59,9 @@ steps = 20
 
 /// The small footing with settings as --set takes them, and what advances it.
 struct SmallFooting {
-  explicit SmallFooting(const std::vector<std::string>& settings = {})
-      : scene(read(settings)),
+  explicit SmallFooting(const std::vector<std::string>& settings = {},
+                        const std::string& tables = "")
+      : scene(read(settings, tables)),
         model(model::build_model<2>(scene)),
         state(model::initial_state(model, scene)),
         stepper(scene, model, state) {
@@ -69,8 +70,8 @@ struct SmallFooting {
   SmallFooting(const SmallFooting&) = delete;
   SmallFooting& operator=(const SmallFooting&) = delete;
 
-  static scene::Scene read(const std::vector<std::string>& settings) {
-    const auto reading = scene::parse_scene(small_footing, "small footing", settings);
+  static scene::Scene read(const std::vector<std::string>& settings, const std::string& tables) {
+    const auto reading = scene::parse_scene(small_footing + tables, "small footing", settings);
     if (!reading.scene) throw std::runtime_error(reading.errors.front().text());
     return *reading.scene;
   }
@@ -79,6 +80,7 @@ struct SmallFooting {
   model::Model<2> model;
   model::State<2> state;
   LoadStepper<2> stepper;
+  double load = 0.0;  // of the plate, for a test to note [N/m]
 };
 
 }  // namespace stepping
