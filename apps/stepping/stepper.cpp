@@ -61,6 +61,27 @@ double rounding_of_forces(const scene::Scene& scene, const model::Model<Dim>& mo
          std::sqrt(static_cast<double>(model.size()));
 }
 
+// The solver's outcome in the words of the scene; its own name options that no scene has.
+std::string reason_of(const jfnk::Report& report, const scene::Scene& scene, int dimension) {
+  if (report.status == jfnk::Status::out_of_domain_at_start) {
+    return "the step cannot be evaluated at its start";
+  }
+  const char* unit = dimension == 2 ? "N/m" : "N";
+  // More digits where two would hide which one is the larger.
+  std::string found = fmt::format("{:.2g}", report.residual_norm);
+  std::string allowed = fmt::format("{:.2g}", report.tolerance);
+  if (found == allowed) {
+    found = fmt::format("{:.6g}", report.residual_norm);
+    allowed = fmt::format("{:.6g}", report.tolerance);
+  }
+  const std::string unbalanced =
+      fmt::format("unbalanced are {} {}, solver.tolerance = {} allows {}", found, unit,
+                  scene::resolve_solver(scene.solver).tolerance, allowed);
+  if (report.status != jfnk::Status::evaluation_limit) return unbalanced;
+  return fmt::format("solver.max_evaluations_per_step = {} is used up: {}",
+                     scene.solver.max_evaluations_per_step, unbalanced);
+}
+
 double coarse_spacing(const scene::Scene& scene) {
   return scene::resolve_solver(scene.solver).preconditioner == scene::PreconditionerKind::two_level
              ? scene.solver.coarse_spacing_over_spacing
@@ -155,7 +176,8 @@ bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult&
   record.residual_ratio = report.residual_norm / std::max(report.reference_norm, 1e-300);
   result.status = report.status;
   if (report.converged()) return true;
-  result.reason = report.reason;
+  result.trouble = report.trouble;
+  result.reason = reason_of(report, scene_, Dim);
   result.folded_particle = equilibrium_->failure().particle;
   if (report.status == jfnk::Status::stopped) result.outcome = StepOutcome::stopped;
   return false;

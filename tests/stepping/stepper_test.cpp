@@ -35,6 +35,14 @@ TEST(LoadStepper, LeavesTheStateAsItWasWhenAStepFailsAtTheSmallestIncrement) {
   EXPECT_EQ(numbers_of(run.state), before);
 }
 
+// Not in the solver's, whose options no scene has.
+TEST(LoadStepper, SaysInTheScenesWordsWhyAStepFailed) {
+  SmallFooting run(without_hope);
+  EXPECT_THAT(run.stepper.advance().reason,
+              ::testing::MatchesRegex("solver.max_evaluations_per_step = 10 is used up: unbalanced "
+                                      "are .* N/m, solver.tolerance = 0.001 allows .*"));
+}
+
 TEST(LoadStepper, LeavesTheStateAsItWasWhenItHasLostPatience) {
   auto settings = without_hope;
   settings.back() = "programme.minimum_increment_ratio=1e-30";
