@@ -13,9 +13,11 @@
 namespace scene {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 std::vector<std::string> texts(const std::vector<tables::Problem>& problems) {
@@ -202,6 +204,82 @@ TEST(Hourglass, MixedNeedsSomethingThatYields) {
       errors({"hourglass.control=mixed", "material.0.model=elastic"}, block),
       ElementsAre(StartsWith("--set hourglass.control=mixed: hourglass.control: found mixed "
                              "with elastic materials only; a body that does not yield")));
+}
+
+// sqrt(J2) = c is reached at 2 c in plane strain and at sqrt(3) c in triaxial compression.
+TEST(VonMises, SaysInSpaceThatItsCompressionIsWeaker) {
+  const std::vector<std::string> in_space{"geometry.dimension=3",
+                                          "geometry.min=[0.0, -1.0, 0.0]",
+                                          "geometry.max=[2.0, 0.0, 1.0]",
+                                          "gravity.acceleration=[0.0, -9.81, 0.0]",
+                                          "drive.direction=[0.0, -1.0, 0.0]",
+                                          "drive.range_min=[0.0, 0.0]",
+                                          "drive.range_max=[0.5, 1.0]",
+                                          "support.0.directions=[\"x\", \"y\", \"z\"]",
+                                          "material.0.friction_angle=0",
+                                          "material.0.dilation_angle=0"};
+  const auto warnings = [](std::vector<std::string> settings, const std::string& model) {
+    settings.push_back("material.0.model=" + model);
+    return texts(with(settings).warnings);
+  };
+  EXPECT_THAT(warnings(in_space, "von_mises"),
+              Contains(HasSubstr("material.0.model: found von_mises in 3D; it is the cylinder "
+                                 "sqrt(J2) = cohesion: compression carries 1.73 cohesion")));
+  EXPECT_THAT(warnings(in_space, "mohr_coulomb"), Not(Contains(HasSubstr("1.73"))));
+  EXPECT_THAT(warnings({"material.0.friction_angle=0", "material.0.dilation_angle=0"}, "von_mises"),
+              Not(Contains(HasSubstr("1.73"))));
+}
+
+std::string measure(const std::string& name, const std::string& what) {
+  return "[[measure]]\nname = \"" + name + "\"\nkind = " + what + "\n";
+}
+
+TEST(Measure, HasANameThatMakesAColumn) {
+  EXPECT_THAT(errors({}, measure("a b", "\"max_displacement\"")),
+              ElementsAre(HasSubstr("measure.0.name: found \"a b\"; allowed are letters, digits "
+                                    "and _")));
+  EXPECT_THAT(errors({}, measure("", "\"max_displacement\"")),
+              ElementsAre(HasSubstr("measure.0.name: found \"\"; allowed are letters")));
+  EXPECT_THAT(
+      errors({}, measure("a", "\"max_displacement\"") + measure("a", "\"max_displacement\"")),
+      ElementsAre(HasSubstr("measure.1.name: found \"a\" again; it is the name of "
+                            "measure.0")));
+}
+
+TEST(Measure, HasTheOneKeyThatItsKindNeeds) {
+  for (const std::string kind : {"displacement", "stress", "plastic_strain"}) {
+    const std::string what = "\"" + kind + "\"";
+    EXPECT_THAT(
+        errors({}, measure("a", what)),
+        ElementsAre(HasSubstr("measure.0.at: absent; a measure of kind " + kind + " needs it")));
+    EXPECT_THAT(errors({}, measure("a", what + "\nat = [2.0, -1.0]")), IsEmpty());
+    EXPECT_THAT(errors({}, measure("a", what + "\nat = [1.0, -0.5]\nside = \"top\"")),
+                ElementsAre(HasSubstr("measure.0.side: found; a measure of kind " + kind +
+                                      " does not have it")));
+  }
+  EXPECT_THAT(
+      errors({}, measure("a", "\"reaction\"")),
+      ElementsAre(HasSubstr("measure.0.support: absent; a measure of kind reaction needs")));
+  EXPECT_THAT(errors({}, measure("a", "\"resultant\"")),
+              ElementsAre(HasSubstr("measure.0.side: absent; a measure of kind resultant needs")));
+  EXPECT_THAT(
+      errors({}, measure("a", "\"max_displacement\"\nsupport = \"base\"")),
+      ElementsAre(HasSubstr("measure.0.support: found; a measure of kind max_displacement")));
+}
+
+TEST(Measure, IsOfWhatTheSceneHas) {
+  EXPECT_THAT(errors({}, measure("a", "\"reaction\"\nsupport = \"bse\"")),
+              ElementsAre(HasSubstr("measure.0.support: found \"bse\"; the supports are base")));
+  EXPECT_THAT(errors({}, measure("a", "\"displacement\"\nat = [2.1, -0.5]")),
+              ElementsAre(HasSubstr("measure.0.at: found 2.1 along x; the body is from 0 to 2")));
+  EXPECT_THAT(errors({}, measure("a", "\"displacement\"\nat = [2.0]")),
+              ElementsAre(HasSubstr("measure.0.at: found length 1")));
+  EXPECT_THAT(errors({}, measure("a", "\"resultant\"\nside = \"front\"")),
+              ElementsAre(HasSubstr("measure.0.side: found front in 2D")));
+  EXPECT_THAT(
+      errors({"material.0.model=elastic"}, measure("a", "\"plastic_strain\"\nat = [1.0, -0.5]")),
+      ElementsAre(HasSubstr("measure.0.kind: found plastic_strain; every material is "
+                            "elastic")));
 }
 
 TEST(Tolerance, IsTightEnoughForTheFriction) {
