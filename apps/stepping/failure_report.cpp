@@ -74,6 +74,9 @@ std::string advice(const scene::Scene& scene, const model::State<Dim>& state,
   if (scene.drive.kind == scene::DriveKind::load) {
     return "the load may be beyond what the body carries: drive a displacement instead";
   }
+  if (scene.drive.kind == scene::DriveKind::none && state.layout.plastic) {
+    return "the loads may be beyond what the body carries: let them grow, drive.kind = \"load\"";
+  }
   if (result.outcome == StepOutcome::hopeless) {
     return fmt::format(
         "a looser tolerance, if its error is acceptable: resume with --set "

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 
 #include "equilibrium/elastic_block.hpp"
@@ -86,6 +87,22 @@ std::string incompressible(const scene::Scene& scene) {
       fmt::join(keys, ", "), nearly);
 }
 
+std::string sudden_weight(const scene::Scene& scene, bool plastic, double load) {
+  const auto& g = scene.gravity.acceleration;
+  const bool heavy =
+      std::any_of(g.begin(), g.end(), [](double component) { return component != 0.0; });
+  const auto& scales = scene.drive.scales;
+  const bool grows =
+      scene.drive.kind == scene::DriveKind::load &&
+      std::find(scales.begin(), scales.end(), scene::LoadKind::gravity) != scales.end();
+  if (!heavy || grows || !plastic || load > 0.0 ||
+      scene.initial_stress.kind == scene::InitialStressKind::geostatic) {
+    return "";
+  }
+  return "the whole weight comes on ground without stress in the first step, and makes it yield: "
+         "give [initial_stress] kind = \"geostatic\", or let a load drive scale gravity";
+}
+
 // The Jaumann rate turns the stress with the material: shear between two fibres loses stiffness by
 // half their stress difference, and has none left where that is twice the shear modulus.
 template <int Dim>
@@ -154,7 +171,9 @@ std::vector<std::string> likely_causes(const scene::Scene& scene, const model::M
     causes.push_back(fmt::format("no support, symmetry or drive resists {}: add a [[support]]",
                                  fmt::join(motions, ", ")));
   }
-  for (std::string cause : {incompressible(scene), strained_beyond_the_law(model, state)}) {
+  for (std::string cause :
+       {incompressible(scene), sudden_weight(scene, state.layout.plastic, state.programme.load),
+        strained_beyond_the_law(model, state)}) {
     if (!cause.empty()) causes.push_back(std::move(cause));
   }
   return causes;

@@ -103,12 +103,13 @@ LoadStepper<Dim>::LoadStepper(const scene::Scene& scene, const model::Model<Dim>
     : scene_(scene),
       model_(model),
       state_(state),
+      rounding_(rounding_of_forces(scene, model)),
       equilibrium_(std::make_unique<equilibrium::Equilibrium<Dim>>(model, state)),
       preconditioner_(std::make_unique<equilibrium::TwoLevelPreconditioner<Dim>>(
           model, initial_operator(model), coarse_spacing(scene))),
       use_preconditioner_(scene::resolve_solver(scene.solver).preconditioner !=
                           scene::PreconditionerKind::none),
-      solver_(solver_options(scene, rounding_of_forces(scene, model))),
+      solver_(solver_options(scene, rounding_)),
       nominal_increment_(1.0 / static_cast<double>(scene::nominal_steps(scene))),
       patience_(scene.programme.patience, nominal_increment_, state.programme.load),
       increment_(model.unknowns()) {
@@ -153,6 +154,10 @@ bool LoadStepper<Dim>::predict_by_tangent(double increment, Eigen::VectorXd& u,
   Eigen::VectorXd action(u.size());
   equilibrium_->apply_jacobian(prescribed, action);
   const Eigen::VectorXd rhs = -(residual + action);
+  if (rhs.norm() <= rounding_) {  // of which a body that is hardly held would make a motion
+    u = prescribed;
+    return true;
+  }
   const auto jacobian = [&](const Eigen::VectorXd& v, Eigen::VectorXd& jv) {
     equilibrium_->apply_jacobian(v, jv);
   };

@@ -87,6 +87,7 @@ class LoadStepper {
   const scene::Scene& scene_;
   const model::Model<Dim>& model_;
   model::State<Dim>& state_;
+  double rounding_;  // [N/m or N] what it leaves of a residual that is zero
   std::unique_ptr<equilibrium::Equilibrium<Dim>> equilibrium_;
   std::unique_ptr<equilibrium::TwoLevelPreconditioner<Dim>> preconditioner_;
   bool use_preconditioner_ = true;

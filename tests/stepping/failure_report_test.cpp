@@ -164,6 +164,14 @@ TEST(FailureReport, AdvisesALoadDriveToDriveADisplacement) {
                         "displacement instead."));
 }
 
+TEST(FailureReport, AdvisesConstantLoadsOnWhatYieldsToGrow) {
+  SmallFooting run;
+  run.scene.drive.kind = scene::DriveKind::none;
+  EXPECT_THAT(report_of(run, given_up(jfnk::Status::stagnated)),
+              HasSubstr("advice: the loads may be beyond what the body carries: let them grow, "
+                        "drive.kind = \"load\"."));
+}
+
 TEST(FailureReport, AdvisesTheHopelessALooserTolerance) {
   const SmallFooting run({"solver.tolerance=1e-4"});
   EXPECT_THAT(report_of(run, given_up(jfnk::Status::stagnated, StepOutcome::hopeless)),

@@ -80,6 +80,15 @@ TEST(LikelyCauses, AreNearlyIncompressibleMaterials) {
               ElementsAre(HasSubstr("material.0.poissons_ratio = 0.4999: next to 0.5")));
 }
 
+TEST(LikelyCauses, AreWeightsThatNoInitialStressCarries) {
+  SmallFooting run({"initial_stress.kind=none"});
+  EXPECT_THAT(causes(run), ElementsAre(HasSubstr("give [initial_stress] kind = \"geostatic\"")));
+  run.state.programme.load = 0.1;  // it was borne
+  EXPECT_THAT(causes(run), IsEmpty());
+  EXPECT_THAT(causes(SmallFooting({"initial_stress.kind=none", "material.0.model=elastic"})),
+              IsEmpty());
+}
+
 // G = E / 2.6: the law loses its stiffness against shear where the stresses differ by E / 1.3.
 TEST(LikelyCauses, AreStrainsBeyondTheElasticLaw) {
   SmallFooting run({"material.0.model=elastic"});
