@@ -18,6 +18,7 @@ struct ArraySizes {
   Eigen::Index moving_images = 0;     // with a side driven by ghosts
   Eigen::Index held = 0;              // with a side held by ghosts
   Eigen::Index viscosity_finite = 0;  // the same in finite strain
+  Eigen::Index following = 0;         // with loads that follow the boundary
   Eigen::Index tangent_entries = 0;   // of all particles (TangentLayout)
   Eigen::Index rotation_entries = 0;  // likewise
 };
@@ -34,7 +35,7 @@ struct StepArrays {
   double load = 0.0;         // load parameter at the end of the step
   Eigen::VectorXd external;  // [N/m or N] dead loads
   fpm::Field<Dim> start_position;
-  Eigen::VectorXd position;          // the same, extended to the images
+  Eigen::VectorXd position;          // from a point next to the body, extended to the images
   fpm::Field<Dim> image_motion;      // what the planes' motion of the step adds to the images
   Columns<6> second_gradient;        // H_a(n), with sub-points
   Columns<Dim> memory_first;         // sum kappa e(n)
@@ -67,6 +68,7 @@ struct EvaluationArrays {
   Eigen::VectorXd own_force;                 // of the pairs of a row on itself
   Eigen::VectorXd unmasked;                  // full residual, reactions included
   fpm::Field<Dim> plane_reaction;            // what the images carry onto held planes, by particle
+  Eigen::VectorXd following;                 // [N/m or N] loads that follow the boundary
   Eigen::VectorXd base_increment;            // of the latest linearise, where a term needs it
   fpm::Field<Dim> displacement;              // total, where a boundary term needs it
   fpm::Field<Dim * Dim> inverse_transposed;  // F^-T of each row, with the paper's viscosity
@@ -81,6 +83,7 @@ struct EvaluationArrays {
     visit("own_force", self.own_force, n.particles * Dim, 1);
     visit("unmasked", self.unmasked, n.particles * Dim, 1);
     visit("plane_reaction", self.plane_reaction, n.held, Dim);
+    visit("following", self.following, n.following * Dim, 1);
     visit("base_increment", self.base_increment, n.particles * Dim, 1);
     visit("displacement", self.displacement, n.particles, Dim);
     visit("inverse_transposed", self.inverse_transposed, n.viscosity_finite, Dim * Dim);

@@ -87,20 +87,32 @@ bool BackgroundGrid<Dim>::is_on(const fpm::GhostPlane<Dim>& plane, fpm::Index no
   return true;
 }
 
+// The stiffest of the materials that each node's particles are of.
+template <int Dim>
+Eigen::VectorXd BackgroundGrid<Dim>::node_moduli(const model::Model<Dim>& model) const {
+  Eigen::VectorXd modulus = Eigen::VectorXd::Zero(nodes_);
+  for (Eigen::Index a = 0; a < model.size(); ++a) {
+    const double own = model.youngs_modulus[model.material[static_cast<std::size_t>(a)]];
+    for (const fpm::Index node : corner_.col(a)) modulus[node] = std::max(modulus[node], own);
+  }
+  return modulus;
+}
+
 // Planes of images hold the nodes on them, penalty supports those of their points;
 // a stiffness far above the body's would cost the single-precision factor its digits.
 template <int Dim>
 void BackgroundGrid<Dim>::add_grid_supports(const model::Model<Dim>& model,
                                             std::vector<Eigen::Triplet<double>>& entries) const {
   constexpr int corners = 1 << Dim;
-  const double most = penalty_factor * model.youngs_modulus.front() *
-                      std::pow(model.particles.volume.maxCoeff(), 1.0 - 2.0 / Dim);
+  const Eigen::VectorXd most = penalty_factor *
+                               std::pow(model.particles.volume.maxCoeff(), 1.0 - 2.0 / Dim) *
+                               node_moduli(model);
   for (const fpm::GhostPlane<Dim>& plane : model.ghosts.planes()) {
     for (fpm::Index node = 0; node < nodes_; ++node) {
       if (!is_on(plane, node)) continue;
       for (int i = 0; i < Dim; ++i) {
         if (plane.held[static_cast<std::size_t>(i)]) {
-          entries.emplace_back(node * Dim + i, node * Dim + i, most);
+          entries.emplace_back(node * Dim + i, node * Dim + i, most[node]);
         }
       }
     }
@@ -111,7 +123,8 @@ void BackgroundGrid<Dim>::add_grid_supports(const model::Model<Dim>& model,
   for (const model::PenaltySupport<Dim>& support : model.penalty_supports) {
     for (fpm::Index c = 0; c < support.points.size(); ++c) {
       interpolation_of(support.points.position.row(c), nodes, values, gradients);
-      const double stiffness = std::min(most, support.options.penalty * support.points.weight[c]);
+      double stiffness = support.options.penalty * support.points.weight[c];
+      for (const fpm::Index node : nodes) stiffness = std::min(stiffness, most[node]);
       for (int i = 0; i < Dim; ++i) {
         if (!support.options.prescribed[static_cast<std::size_t>(i)]) continue;
         for (int p = 0; p < corners; ++p) {

@@ -31,6 +31,7 @@ class BackgroundGrid {
   bool is_on(const fpm::GhostPlane<Dim>& plane, fpm::Index node) const;
   using FloatMatrix = Eigen::SparseMatrix<float>;
   std::vector<Eigen::Triplet<double>> grid_stiffness(const model::Model<Dim>& model);
+  Eigen::VectorXd node_moduli(const model::Model<Dim>& model) const;
   void add_grid_supports(const model::Model<Dim>& model,
                          std::vector<Eigen::Triplet<double>>& entries) const;
   void interpolation_of(const Eigen::Matrix<double, 1, Dim>& position,

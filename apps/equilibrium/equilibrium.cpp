@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -46,6 +47,7 @@ ArraySizes array_sizes(const model::Model<Dim>& model, const fpm::MomentOperator
   sizes.moving_images = model.plane_drive.empty() ? 0 : model.ghosts.size();
   sizes.held = count(holds_planes(model));
   sizes.viscosity_finite = count(viscosity && model.layout.finite);
+  sizes.following = count(!model.following_pressures.empty());
   sizes.tangent_entries = model.layout.subpoints
                               ? StressTangents<generalised_size<Dim, true>>::total(n)
                               : StressTangents<generalised_size<Dim, false>>::total(n);
@@ -91,7 +93,7 @@ void Equilibrium<Dim>::begin_step(double load) {
   step_.load = load;
   step_.external = model_.constant_load + load * model_.scaled_load;
   step_.start_position = model_.particles.position + state_.displacement;
-  operator_.extend_positions(step_.start_position.data(), step_.position.data());
+  place_particles();
   if (!model_.plane_drive.empty()) {
     const double start = state_.programme.load;
     const fpm::Field<Dim> motion = model_.ghosts.of_motion(model_.plane_drive);
@@ -119,6 +121,20 @@ void Equilibrium<Dim>::begin_step(double load) {
       }
     }
   }
+}
+
+// What is summed over pairs are differences of these positions, whose round-off is that of their
+// size: measured from a point next to the body it does not depend on where the origin is.
+template <int Dim>
+void Equilibrium<Dim>::place_particles() {
+  operator_.extend_positions(model_.particles.position.data(), step_.position.data());
+  operator_.extend(state_.displacement.data(), evaluation_.extended.data());
+  const fpm::Vector<Dim> origin = model_.nearby_origin();
+  const Eigen::Index nodes = model_.size() + model_.ghosts.size();
+  for (int i = 0; i < Dim; ++i) {
+    step_.position.segment(i * operator_.stride(), nodes).array() -= origin[i];
+  }
+  step_.position += evaluation_.extended;
 }
 
 template <int Dim>
@@ -195,7 +211,10 @@ jfnk::Evaluation Equilibrium<Dim>::operator()(const Eigen::VectorXd& increment,
     if (given) reaction_square += evaluation_.unmasked[k] * evaluation_.unmasked[k];
     residual[k] = given ? 0.0 : evaluation_.unmasked[k];
   }
-  reference_norm_ = std::max(std::sqrt(reaction_square), step_.external.norm());
+  const double loads = evaluation_.following.size() > 0
+                           ? (step_.external + evaluation_.following).norm()
+                           : step_.external.norm();
+  reference_norm_ = std::max(std::sqrt(reaction_square), loads);
   return jfnk::Evaluation::ok;
 }
 
@@ -254,6 +273,17 @@ void Equilibrium<Dim>::act(const Eigen::VectorXd& v, Eigen::VectorXd& jv) {
   }
 }
 
+template <int Dim>
+fpm::Index Equilibrium<Dim>::nearest_particle(
+    const Eigen::Matrix<double, 1, Dim>& reference_place) const {
+  Eigen::Index nearest = 0;
+  (model_.particles.position.rowwise() - reference_place)
+      .rowwise()
+      .squaredNorm()
+      .minCoeff(&nearest);
+  return static_cast<fpm::Index>(nearest);
+}
+
 // Terms that scenes seldom have: following pressures, penalty supports, the paper's viscosity.
 template <int Dim>
 void Equilibrium<Dim>::add_boundary_terms(const Eigen::VectorXd& increment) {
@@ -271,14 +301,16 @@ void Equilibrium<Dim>::add_boundary_terms(const Eigen::VectorXd& increment) {
     fpm::add_penalty_force<Dim>(support.op, support.points, support.options, support.target,
                                 evaluation_.displacement, force);
   }
+  if (model_.following_pressures.empty()) return;
+  Eigen::Map<fpm::Field<Dim>> following(evaluation_.following.data(), n, Dim);
+  following.setZero();
   for (const auto& load : model_.following_pressures) {
-    const double pressure =
-        -load.pressure * (load.scaled ? step_.load : 1.0);  // f_ext is subtracted
-    if (fpm::add_following_pressure<Dim>(load.op, load.points, pressure, evaluation_.displacement,
-                                         force)) {
-      failure_.particle = 0;
-    }
+    const double pressure = load.pressure * (load.scaled ? step_.load : 1.0);
+    const std::optional<fpm::Index> inverted = fpm::add_following_pressure<Dim>(
+        load.op, load.points, pressure, evaluation_.displacement, following);
+    if (inverted) failure_.particle = nearest_particle(load.points.position.row(*inverted));
   }
+  evaluation_.unmasked -= evaluation_.following;
 }
 
 template <int Dim>
@@ -316,6 +348,9 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
   extend_increment(increment);
   forces.hourglass_work = hourglass_work(loop_data());
   forces.external_work += step_.external.dot(increment);
+  if (evaluation_.following.size() > 0) {
+    forces.external_work += evaluation_.following.dot(increment);
+  }
   for (Eigen::Index k = 0; k < increment.size(); ++k) {
     const bool given = model_.prescribed[static_cast<std::size_t>(k)] != 0;
     state_.reaction.data()[k] = given ? evaluation_.unmasked[k] : 0.0;

@@ -11,7 +11,8 @@ namespace equilibrium {
 
 /// Why and where the last evaluation was not possible.
 struct EvaluationFailure {
-  fpm::Index particle = -1;  // the lowest index whose motion is inverted or not finite
+  // The lowest index whose motion is inverted or not finite, or next to such a point of a load.
+  fpm::Index particle = -1;
 };
 
 /// What a converged step leaves for the records.
@@ -53,7 +54,8 @@ class Equilibrium {
   /// Action of the Jacobian on what is prescribed for the step: entries of `prescribed`, and the
   /// motion of the planes of images.
   void apply_motion(const Eigen::VectorXd& prescribed, Eigen::VectorXd& jv);
-  /// max(|r_prescribed|, |f_ext|) of the latest evaluation: what a residual is small against.
+  /// max(|r_prescribed|, |f_ext|) of the latest evaluation, loads that follow the boundary
+  /// included: what a residual is small against.
   double reference_norm() const { return reference_norm_; }
 
   /// Takes the increment into the state. Call right after an evaluation that converged at it.
@@ -73,9 +75,12 @@ class Equilibrium {
   void extend_increment(const Eigen::VectorXd& increment);
   double take_plane_reactions();
   void act(const Eigen::VectorXd& v, Eigen::VectorXd& jv);
+  void place_particles();
   void remember_pairs(Eigen::Index a, const Eigen::VectorXd& position_moments);
   void assemble(const double* field, double* force);
   void add_boundary_terms(const Eigen::VectorXd& increment);
+  [[nodiscard]] fpm::Index nearest_particle(
+      const Eigen::Matrix<double, 1, Dim>& reference_place) const;
   void add_boundary_actions(const Eigen::VectorXd& v, Eigen::VectorXd& jv);
 
   const model::Model<Dim>& model_;

@@ -128,7 +128,8 @@ void constrain(const scene::Scene& scene, Model<Dim>& model) {
   }
   for (Eigen::Index a = 0; a < n; ++a) {
     if (!on_side(scene, model, scene.drive.side, a) ||
-        !in_side_range(model, scene.drive.side, scene.drive.range_min, scene.drive.range_max, a)) {
+        !in_side_range(scene, model, scene.drive.side, scene.drive.range_min, scene.drive.range_max,
+                       a)) {
       continue;
     }
     model.driven_particle[static_cast<std::size_t>(a)] = 1;

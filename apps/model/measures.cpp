@@ -45,7 +45,7 @@ Measures<Dim>::Measures(const scene::Scene& scene, const Model<Dim>& model)
   for (const scene::Measure& asked : scene::resolve_measures(scene)) {
     Measure& measure = measures_.emplace_back();
     measure.kind = asked.kind;
-    if (!asked.at.empty()) locate(asked, measure);
+    if (!asked.at.empty()) locate(scene, asked, measure);
     if (asked.support) find_support(scene, *asked.support, measure);
     if (asked.side) find_side(scene, *asked.side, measure);
     name_columns(asked);
@@ -53,11 +53,11 @@ Measures<Dim>::Measures(const scene::Scene& scene, const Model<Dim>& model)
 }
 
 template <int Dim>
-void Measures<Dim>::locate(const scene::Measure& asked, Measure& measure) const {
-  const Eigen::Map<const Eigen::Matrix<double, 1, Dim>> at(asked.at.data());
-  (model_.particles.position.rowwise() - at).rowwise().squaredNorm().minCoeff(&measure.particle);
+void Measures<Dim>::locate(const scene::Scene& scene, const scene::Measure& asked,
+                           Measure& measure) const {
+  measure.particle = nearest_particle(scene, asked.at, model_);
   if (asked.kind != scene::MeasureKind::displacement) return;
-  const fpm::Field<Dim> point = at;
+  const fpm::Field<Dim> point = Eigen::Map<const Eigen::Matrix<double, 1, Dim>>(asked.at.data());
   measure.point =
       fpm::PointOperator<Dim>(model_.particles, model_.ghosts, point, model_.row_options);
 }

@@ -44,7 +44,7 @@ class Measures {
     std::vector<Load> loads;             // of a resultant
   };
 
-  void locate(const scene::Measure& asked, Measure& measure) const;
+  void locate(const scene::Scene& scene, const scene::Measure& asked, Measure& measure) const;
   void find_support(const scene::Scene& scene, const std::string& name, Measure& measure) const;
   void find_side(const scene::Scene& scene, scene::Side side, Measure& measure) const;
   void name_columns(const scene::Measure& asked);

@@ -69,8 +69,22 @@ struct Model {
   std::vector<FollowingPressure<Dim>> following_pressures;
   std::vector<PenaltySupport<Dim>> penalty_supports;
 
+  /// A point next to the body [m], by whose distance its coordinates lose no digits: the origin of
+  /// the scene unless that is further away than the body is wide.
+  fpm::Vector<Dim> nearby_origin() const;
+
   Eigen::Index size() const { return particles.position.rows(); }
   Eigen::Index unknowns() const { return size() * Dim; }
 };
+
+template <int Dim>
+fpm::Vector<Dim> Model<Dim>::nearby_origin() const {
+  fpm::Vector<Dim> origin = fpm::Vector<Dim>::Zero();
+  for (int i = 0; i < Dim; ++i) {
+    const double width = box_max[i] - box_min[i];
+    if (box_min[i] > width || box_max[i] < -width) origin[i] = box_min[i];
+  }
+  return origin;
+}
 
 }  // namespace model

@@ -20,7 +20,7 @@ template <int Dim>
 fpm::GhostPlane<Dim> driven(const scene::Scene& scene) {
   const scene::Drive& drive = scene.drive;
   fpm::GhostPlane<Dim> plane = plane_at<Dim>(scene, drive.side);
-  const double slack = scene::same_place * scene.geometry.spacing;
+  const double slack = scene::same_place(scene.geometry);
   std::size_t k = 0;
   for (int i = 0; i < Dim; ++i) {
     const auto axis = static_cast<std::size_t>(i);

@@ -17,8 +17,13 @@ bool on_side(const scene::Scene& scene, const Model<Dim>& model, scene::Side sid
 
 /// Whether a particle lies in a part of a side (Dim - 1 entries each); empty: the whole side.
 template <int Dim>
-bool in_side_range(const Model<Dim>& model, scene::Side side, const std::vector<double>& min,
-                   const std::vector<double>& max, Eigen::Index a);
+bool in_side_range(const scene::Scene& scene, const Model<Dim>& model, scene::Side side,
+                   const std::vector<double>& min, const std::vector<double>& max, Eigen::Index a);
+
+/// The particle nearest to a place; of several as near, the first of the lattice.
+template <int Dim>
+Eigen::Index nearest_particle(const scene::Scene& scene, const std::vector<double>& at,
+                              const Model<Dim>& model);
 
 /// The particles that a support holds.
 template <int Dim>

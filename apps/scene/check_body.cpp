@@ -20,8 +20,22 @@ constexpr double round_off = 1e-9;
 constexpr double most_particles = 2147483647.0;
 constexpr std::int64_t fewest_per_axis = 3;
 
-bool is_whole(double value) {
-  return std::abs(value - std::round(value)) <= round_off * value;
+/// Whether an extent is a whole number of spacings but for the round-off of its two coordinates.
+bool is_whole(double extent, double spacing, const Geometry& geometry) {
+  const double value = extent / spacing;
+  return std::abs(value - std::round(value)) <=
+         round_off * value + coordinate_round_off(geometry) / spacing;
+}
+
+/// A number with so many digits that it does not look whole.
+std::string not_whole(double value) {
+  constexpr int fewest = 6, most = 17;
+  std::string text;
+  for (int digits = fewest; digits <= most; ++digits) {
+    text = fmt::format("{:.{}g}", value, digits);
+    if (text.find('.') != std::string::npos) break;
+  }
+  return text;
 }
 
 /// The spacing nearest to the wanted one that divides every extent, or 0 if none from half to twice
@@ -37,7 +51,7 @@ double nearest_spacing(const Geometry& geometry) {
     const double spacing = extent / n;
     bool fits = true;
     for (std::size_t i = 1; i < geometry.min.size(); ++i) {
-      fits = fits && is_whole((geometry.max[i] - geometry.min[i]) / spacing);
+      fits = fits && is_whole(geometry.max[i] - geometry.min[i], spacing, geometry);
     }
     const bool nearer = std::abs(spacing - geometry.spacing) < std::abs(best - geometry.spacing);
     if (fits && (best == 0.0 || nearer)) best = spacing;
@@ -45,16 +59,32 @@ double nearest_spacing(const Geometry& geometry) {
   return best;
 }
 
+/// Whether the coordinates' digits tell particles from each other, as differences of coordinates.
+bool is_resolved(const Geometry& geometry, tables::Diagnosis& diagnosis) {
+  constexpr double of_spacing = 1e-7;
+  const double round_off = coordinate_round_off(geometry);
+  if (round_off <= of_spacing * geometry.spacing) return true;
+  diagnosis.error("geometry.min",
+                  fmt::format("found so far from the origin that its coordinates are known to "
+                              "{:.2g} m, with a spacing of {}",
+                              round_off, geometry.spacing),
+                  fmt::format("allowed is {:.0e} of the spacing: measure from a point nearer to "
+                              "the body",
+                              of_spacing));
+  return false;
+}
+
 void check_spacing(const Scene& scene, tables::Diagnosis& diagnosis) {
   const Geometry& geometry = scene.geometry;
+  if (!is_resolved(geometry, diagnosis)) return;
   double particles = 1.0;
   for (std::size_t i = 0; i < geometry.min.size(); ++i) {
     const double extent = geometry.max[i] - geometry.min[i];
-    if (!is_whole(extent / geometry.spacing)) {
+    if (!is_whole(extent, geometry.spacing, geometry)) {
       const double nearest = nearest_spacing(geometry);
       diagnosis.error("geometry.spacing",
-                      fmt::format("found {}, which is {:.6g} times in the extent {:.6g} along {}",
-                                  geometry.spacing, extent / geometry.spacing, extent,
+                      fmt::format("found {}, which is {} times in the extent {:.12g} along {}",
+                                  geometry.spacing, not_whole(extent / geometry.spacing), extent,
                                   name_of(static_cast<Axis>(i))),
                       nearest > 0.0 ? fmt::format("the nearest that fits is {}", nearest)
                                     : "it must be a whole number of times in every extent");
@@ -184,7 +214,7 @@ bool check_region(const Point& region_min, const Point& region_max, const std::s
                       fmt::format("it must not be below region_min, {}", region_min[i]));
       return false;
     }
-    const double slack = same_place * scene.geometry.spacing;
+    const double slack = same_place(scene.geometry);
     if (region_max[i] < scene.geometry.min[i] - slack ||
         region_min[i] > scene.geometry.max[i] + slack) {
       diagnosis.error(
@@ -229,20 +259,22 @@ void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis) {
     if (scene.geometry.dimension == 3) {
       refuse("found mixed in 3D", "sub-points exist in 2D only: use \"incremental\"");
     }
+    bool none_yields = true;
     for (std::size_t i = 0; i < scene.material.size(); ++i) {
       const Material& material = scene.material[i];
-      if (!diagnosis.good({fmt::format("material.{}.model", i)})) continue;
-      const constitutive::ModelInfo& model = model_of(material);
-      const auto found =
-          fmt::format("found mixed with the {} material \"{}\"", material.model, material.name);
-      if (!model.yields) {
-        refuse(found,
-               "a body that does not yield gains nothing from sub-points: use \"stiffness\"");
-      } else if (!model.one_pressure) {
-        refuse(found,
-               "the sub-points share one pressure, which true corners do not allow: use "
-               "\"incremental\", or the model drucker_prager");
+      none_yields =
+          none_yields && diagnosis.good({fmt::format("material.{}.model", i)}) && !yields(material);
+      if (!diagnosis.good({fmt::format("material.{}.model", i)}) || !yields(material) ||
+          model_of(material).one_pressure) {
+        continue;
       }
+      refuse(fmt::format("found mixed with the {} material \"{}\"", material.model, material.name),
+             "the sub-points share one pressure, which true corners do not allow: use "
+             "\"incremental\", or the model drucker_prager");
+    }
+    if (none_yields) {
+      refuse("found mixed with elastic materials only",
+             "a body that does not yield gains nothing from sub-points: use \"stiffness\"");
     }
   }
   const bool no_stiffness = hourglass.control == HourglassControl::none ||

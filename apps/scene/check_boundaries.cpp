@@ -30,7 +30,7 @@ void check_symmetry(const Scene& scene, std::size_t index, tables::Diagnosis& di
   }
   const auto axis = static_cast<std::size_t>(symmetry.axis);
   const double lower = scene.geometry.min[axis], upper = scene.geometry.max[axis];
-  const double slack = same_place * scene.geometry.spacing;
+  const double slack = same_place(scene.geometry);
   if (std::abs(symmetry.position - lower) > slack && std::abs(symmetry.position - upper) > slack) {
     diagnosis.error(table + ".position", fmt::format("found {}", symmetry.position),
                     fmt::format("a mirror is at a face of the body, {} = {} or {}",
@@ -68,7 +68,7 @@ void check_support_choice(const Scene& scene, const Support& support, const std:
     return;
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const double slack = same_place * scene.geometry.spacing;
+    const double slack = same_place(scene.geometry);
     if (support.at[i] >= scene.geometry.min[i] - slack &&
         support.at[i] <= scene.geometry.max[i] + slack) {
       continue;
@@ -133,7 +133,7 @@ bool check_range(Side side, const Point& range_min, const Point& range_max,
   const bool lower_fits = check_length(range_min, n - 1, lower, scene, diagnosis);
   const bool upper_fits = check_length(range_max, n - 1, upper, scene, diagnosis);
   if (!lower_fits || !upper_fits || !box_is_good(scene, diagnosis)) return false;
-  const double slack = same_place * scene.geometry.spacing;
+  const double slack = same_place(scene.geometry);
   for (std::size_t axis = 0, i = 0; axis < n; ++axis) {
     if (axis == static_cast<std::size_t>(axis_of(side))) continue;
     const double from = scene.geometry.min[axis], to = scene.geometry.max[axis];

@@ -49,8 +49,9 @@ void check_point(const Scene& scene, const Point& at, const std::string& key,
   if (at.empty() || !check_length(at, n, key, scene, diagnosis) || !box_is_good(scene, diagnosis)) {
     return;
   }
+  const double slack = same_place(scene.geometry);
   for (std::size_t i = 0; i < n; ++i) {
-    if (at[i] >= scene.geometry.min[i] && at[i] <= scene.geometry.max[i]) continue;
+    if (at[i] >= scene.geometry.min[i] - slack && at[i] <= scene.geometry.max[i] + slack) continue;
     diagnosis.error(
         key, fmt::format("found {} along {}", at[i], name_of(static_cast<Axis>(i))),
         fmt::format("the body is from {} to {}", scene.geometry.min[i], scene.geometry.max[i]));

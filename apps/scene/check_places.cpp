@@ -69,7 +69,7 @@ bool is_mirror(const Scene& scene, Side side) {
   return std::any_of(scene.symmetry.begin(), scene.symmetry.end(), [&](const Symmetry& symmetry) {
     return static_cast<int>(symmetry.axis) == axis_of(side) &&
            std::abs(symmetry.position - side_position(scene.geometry, side)) <=
-               same_place * scene.geometry.spacing;
+               same_place(scene.geometry);
   });
 }
 

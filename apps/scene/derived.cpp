@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -45,8 +46,10 @@ HourglassControl resolve_control(const Scene& scene) {
   if (!std::any_of(scene.material.begin(), scene.material.end(), yields)) {
     return HourglassControl::stiffness;
   }
-  const bool has_sub_points = scene.geometry.dimension == 2 &&
-                              all([](const Material& m) { return model_of(m).one_pressure; });
+  // What does not yield is at home with either: it must not decide for the ground that does.
+  const bool has_sub_points = scene.geometry.dimension == 2 && all([](const Material& m) {
+                                return model_of(m).one_pressure || !yields(m);
+                              });
   return has_sub_points ? HourglassControl::mixed : HourglassControl::incremental;
 }
 
@@ -127,8 +130,22 @@ std::vector<Measure> resolve_measures(const Scene& scene) {
   return all;
 }
 
+double coordinate_round_off(const Geometry& geometry) {
+  double largest = 0.0;
+  for (const Point& corner : {geometry.min, geometry.max}) {
+    for (const double x : corner) largest = std::max(largest, std::abs(x));
+  }
+  return std::numeric_limits<double>::epsilon() * largest;
+}
+
+double same_place(const Geometry& geometry) {
+  constexpr double of_spacing = 1e-9;
+  constexpr double roundings = 8.0;  // on the way from what was typed to a difference
+  return of_spacing * geometry.spacing + roundings * coordinate_round_off(geometry);
+}
+
 std::size_t material_at(const Scene& scene, std::span<const double> place) {
-  const double slack = same_place * scene.geometry.spacing;
+  const double slack = same_place(scene.geometry);
   const auto holds = [&](const Material& material) {
     for (std::size_t i = 0; i < place.size(); ++i) {
       if (place[i] < material.region_min[i] - slack || place[i] > material.region_max[i] + slack) {
@@ -147,7 +164,10 @@ double geostatic_stress(const Scene& scene, std::span<const double> place) {
   const double gravity = -scene.gravity.acceleration[up];
   const double surface = scene.initial_stress.surface.value_or(scene.geometry.max[up]);
   const double depth = surface - place[up];
-  const double slices = std::max(1.0, std::ceil(std::abs(depth) / scene.geometry.spacing));
+  const double spacing = scene.geometry.spacing;
+  // As many at a whole number of spacings, whatever the round-off of the depth.
+  const double slices =
+      std::max(1.0, std::ceil((std::abs(depth) - same_place(scene.geometry)) / spacing));
   Point at(place.begin(), place.end());
   double vertical = -scene.initial_stress.surcharge;
   for (double k = 0.5; k < slices; k += 1.0) {

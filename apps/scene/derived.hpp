@@ -21,8 +21,12 @@ struct Measure;
 struct Scene;
 struct Solver;
 
-/// Decimal input leaves places this far from where they are meant to be [of the spacing].
-inline constexpr double same_place = 1e-9;
+/// Places less than this apart are one [m]: decimal input and the round-off of coordinates leave
+/// them that far from where they are meant to be.
+[[nodiscard]] double same_place(const Geometry& geometry);
+
+/// Round-off of a difference of two coordinates of the body [m].
+[[nodiscard]] double coordinate_round_off(const Geometry& geometry);
 
 /// The model of a material, by its family and match.
 [[nodiscard]] const constitutive::ModelInfo& model_of(const Material& material);

@@ -20,7 +20,7 @@ LatticeBox whole(const Geometry& geometry) {
 
 /// Narrows a box to the particles from `min` to `max` along an axis.
 void narrow(LatticeBox& box, const Geometry& geometry, std::size_t axis, double min, double max) {
-  const double slack = same_place + geometry.jitter;
+  const double slack = same_place(geometry) / geometry.spacing + geometry.jitter;
   const auto index = [&](double at) {
     return (at - geometry.min[axis]) / geometry.spacing - first_place(geometry);
   };
@@ -76,7 +76,10 @@ LatticeBox lattice_box(const Geometry& geometry, const Support& support) {
   LatticeBox box = whole(geometry);
   for (std::size_t i = 0; i < support.at.size(); ++i) {
     const double at = (support.at[i] - geometry.min[i]) / geometry.spacing - first_place(geometry);
-    box.first[i] = box.last[i] = std::clamp<std::int64_t>(std::llround(at), 0, box.last[i]);
+    // Halfway between two, the first.
+    const double half = 0.5 + same_place(geometry) / geometry.spacing;
+    box.first[i] = box.last[i] =
+        std::clamp<std::int64_t>(static_cast<std::int64_t>(std::ceil(at - half)), 0, box.last[i]);
   }
   return box;
 }

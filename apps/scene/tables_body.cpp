@@ -170,7 +170,8 @@ SceneTable hourglass() {
                 "viscosity: the paper's, for reproduction. stiffness: elastic bodies; locks when "
                 "they yield. incremental: cheap, biases collapse loads at first order in spacing. "
                 "mixed: sub-points with one pressure plus a weak incremental control; collapse "
-                "loads converge. auto: stiffness if all is elastic, mixed in 2D for von_mises and "
+                "loads converge. auto: stiffness if all is elastic, mixed in 2D where all that "
+                "yields is von_mises or "
                 "drucker_prager, else incremental.",
             .source = "viscosity: Chen, Huang & Lyamin 2020, Eq. 15-20"})
       .key("stiffness_ratio", &Hourglass::stiffness_ratio,

@@ -9,6 +9,7 @@
 
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
+#include "stepping/likely_causes.hpp"
 
 namespace stepping {
 
@@ -30,6 +31,9 @@ std::string what_limits(const StepResult& result) {
   if (result.folded_particle >= 0) {
     return fmt::format("a folded particle: the neighbourhood of particle {} turns inside out",
                        result.folded_particle);
+  }
+  if (result.trouble == jfnk::Trouble::flat || result.trouble == jfnk::Trouble::singular) {
+    return "the tangent: the body, or a part of it, gives way without resistance";
   }
   switch (result.status) {
     case jfnk::Status::evaluation_limit:
@@ -69,6 +73,9 @@ std::string advice(const scene::Scene& scene, const model::State<Dim>& state,
   }
   if (scene.drive.kind == scene::DriveKind::load) {
     return "the load may be beyond what the body carries: drive a displacement instead";
+  }
+  if (scene.drive.kind == scene::DriveKind::none && state.layout.plastic) {
+    return "the loads may be beyond what the body carries: let them grow, drive.kind = \"load\"";
   }
   if (result.outcome == StepOutcome::hopeless) {
     return fmt::format(
@@ -150,10 +157,14 @@ std::string where(const model::Model<Dim>& model, const model::State<Dim>& state
 template <int Dim>
 std::string failure_report(const scene::Scene& scene, const model::Model<Dim>& model,
                            const model::State<Dim>& state, const StepResult& result) {
-  return fmt::format("{}: {}.\n  limits: {}.{}\n  advice: {}.",
+  std::string causes;
+  for (const std::string& cause : likely_causes(scene, model, state)) {
+    causes += fmt::format("\n  likely: {}.", cause);
+  }
+  return fmt::format("{}: {}.\n  limits: {}.{}{}\n  advice: {}{}.",
                      what_ended_it(result, state.programme.load), result.reason,
-                     what_limits(result), where(model, state, result),
-                     advice(scene, state, result));
+                     what_limits(result), where(model, state, result), causes,
+                     causes.empty() ? "" : "if that is not it, ", advice(scene, state, result));
 }
 
 template <int Dim>

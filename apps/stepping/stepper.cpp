@@ -51,13 +51,35 @@ jfnk::Options solver_options(const scene::Scene& scene, double rounding) {
 template <int Dim>
 double rounding_of_forces(const scene::Scene& scene, const model::Model<Dim>& model) {
   constexpr double neighbours = 10.0;  // whose rounding adds up in a particle
-  const double size =
-      std::max(model.box_min.cwiseAbs().maxCoeff(), model.box_max.cwiseAbs().maxCoeff()) +
-      scene.drive.target;
+  const fpm::Vector<Dim> origin = model.nearby_origin();
+  const double size = std::max((model.box_min - origin).cwiseAbs().maxCoeff(),
+                               (model.box_max - origin).cwiseAbs().maxCoeff()) +
+                      scene.drive.target;
   const double strain = std::numeric_limits<double>::epsilon() * size / model.spacing;
   const double stiffest = *std::ranges::max_element(model.youngs_modulus);
   return neighbours * stiffest * strain * std::pow(model.spacing, Dim - 1) *
          std::sqrt(static_cast<double>(model.size()));
+}
+
+// The solver's outcome in the words of the scene; its own name options that no scene has.
+std::string reason_of(const jfnk::Report& report, const scene::Scene& scene, int dimension) {
+  if (report.status == jfnk::Status::out_of_domain_at_start) {
+    return "the step cannot be evaluated at its start";
+  }
+  const char* unit = dimension == 2 ? "N/m" : "N";
+  // More digits where two would hide which one is the larger.
+  std::string found = fmt::format("{:.2g}", report.residual_norm);
+  std::string allowed = fmt::format("{:.2g}", report.tolerance);
+  if (found == allowed) {
+    found = fmt::format("{:.6g}", report.residual_norm);
+    allowed = fmt::format("{:.6g}", report.tolerance);
+  }
+  const std::string unbalanced =
+      fmt::format("unbalanced are {} {}, solver.tolerance = {} allows {}", found, unit,
+                  scene::resolve_solver(scene.solver).tolerance, allowed);
+  if (report.status != jfnk::Status::evaluation_limit) return unbalanced;
+  return fmt::format("solver.max_evaluations_per_step = {} is used up: {}",
+                     scene.solver.max_evaluations_per_step, unbalanced);
 }
 
 double coarse_spacing(const scene::Scene& scene) {
@@ -81,12 +103,13 @@ LoadStepper<Dim>::LoadStepper(const scene::Scene& scene, const model::Model<Dim>
     : scene_(scene),
       model_(model),
       state_(state),
+      rounding_(rounding_of_forces(scene, model)),
       equilibrium_(std::make_unique<equilibrium::Equilibrium<Dim>>(model, state)),
       preconditioner_(std::make_unique<equilibrium::TwoLevelPreconditioner<Dim>>(
           model, initial_operator(model), coarse_spacing(scene))),
       use_preconditioner_(scene::resolve_solver(scene.solver).preconditioner !=
                           scene::PreconditionerKind::none),
-      solver_(solver_options(scene, rounding_of_forces(scene, model))),
+      solver_(solver_options(scene, rounding_)),
       nominal_increment_(1.0 / static_cast<double>(scene::nominal_steps(scene))),
       patience_(scene.programme.patience, nominal_increment_, state.programme.load),
       increment_(model.unknowns()) {
@@ -129,6 +152,10 @@ bool LoadStepper<Dim>::predict_by_tangent(double increment, Eigen::VectorXd& u,
   Eigen::VectorXd action(u.size());
   equilibrium_->apply_motion(prescribed, action);
   const Eigen::VectorXd rhs = -(residual + action);
+  if (rhs.norm() <= rounding_) {  // of which a body that is hardly held would make a motion
+    u = prescribed;
+    return true;
+  }
   const auto jacobian = [&](const Eigen::VectorXd& v, Eigen::VectorXd& jv) {
     equilibrium_->apply_jacobian(v, jv);
   };
@@ -152,7 +179,8 @@ bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult&
   record.residual_ratio = report.residual_norm / std::max(report.reference_norm, 1e-300);
   result.status = report.status;
   if (report.converged()) return true;
-  result.reason = report.reason;
+  result.trouble = report.trouble;
+  result.reason = reason_of(report, scene_, Dim);
   result.folded_particle = equilibrium_->failure().particle;
   if (report.status == jfnk::Status::stopped) result.outcome = StepOutcome::stopped;
   return false;

@@ -40,7 +40,8 @@ struct StepResult {
   StepOutcome outcome = StepOutcome::converged;
   StepRecord record;
   jfnk::Status status = jfnk::Status::converged;  // of the last attempt
-  std::string reason;                             // why the last attempt failed
+  jfnk::Trouble trouble = jfnk::Trouble::none;    // of the last attempt
+  std::string reason;                             // why the last attempt failed, in scene's words
   // Of the last attempt, if the stepper gave up:
   fpm::Index folded_particle = -1;  // could not be evaluated: inverted or not finite
   Eigen::VectorXd attempt;          // [m] increment of the lowest residual met, or empty
@@ -86,6 +87,7 @@ class LoadStepper {
   const scene::Scene& scene_;
   const model::Model<Dim>& model_;
   model::State<Dim>& state_;
+  double rounding_;  // [N/m or N] what it leaves of a residual that is zero
   std::unique_ptr<equilibrium::Equilibrium<Dim>> equilibrium_;
   std::unique_ptr<equilibrium::TwoLevelPreconditioner<Dim>> preconditioner_;
   bool use_preconditioner_ = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace fpm {
@@ -13,16 +14,37 @@ struct Pieces {
   std::vector<double> width;
 };
 
-// [low, high] cut at the lines origin + i step; a sliver of round-off width is no piece.
-Pieces cut(double low, double high, double origin, double step) {
-  constexpr double sliver = 1e-9;
+// Differences of coordinates are those of the lattice but for the round-off of the coordinates:
+// what lies a sliver from one of its lines is on it.
+constexpr double sliver = 1e-9;
+
+// A distance from the box's corner, on the line of `step` that it is meant to be on, if it is.
+double on_line(double distance, double step, double round_off) {
+  const double line = std::round(distance / step) * step;
+  return std::abs(distance - line) <= sliver * step + round_off ? line : distance;
+}
+
+// The part of an axis, measured from the box's corner: [0, extent] clipped to the range.
+struct Span {
+  double low, high;
+};
+
+Span clipped(double min, double max, double range_min, double range_max, double step) {
+  const double round_off =
+      4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(min), std::abs(max));
+  return {on_line(std::max(0.0, range_min - min), step, round_off),
+          on_line(std::min(max, range_max) - min, step, round_off)};
+}
+
+// [low, high] cut at the lines i step; a sliver of round-off width is no piece.
+Pieces cut(const Span& span, double step) {
   Pieces pieces;
-  double from = low;
-  auto line = static_cast<long>(std::floor((low - origin) / step));
-  while (from < high) {
-    double to = origin + static_cast<double>(++line) * step;
+  double from = span.low;
+  auto line = static_cast<long>(std::floor(span.low / step));
+  while (from < span.high) {
+    double to = static_cast<double>(++line) * step;
     if (to <= from + sliver * step) continue;
-    if (to >= high - sliver * step) to = high;
+    if (to >= span.high - sliver * step) to = span.high;
     pieces.centre.push_back(0.5 * (from + to));
     pieces.width.push_back(to - from);
     from = to;
@@ -124,10 +146,11 @@ BoundaryPoints<Dim> boundary_quadrature(const BoundaryQuadratureOptions<Dim>& op
   Eigen::Matrix<Index, Dim, 1> count;
   for (int i = 0; i < Dim; ++i) {
     if (i == axis) {
-      pieces[i] = {{upper ? options.max[i] : options.min[i]}, {1.0}};
+      pieces[i] = {{0.0}, {1.0}};
     } else {
-      pieces[i] = cut(std::max(options.min[i], options.range_min[i]),
-                      std::min(options.max[i], options.range_max[i]), options.min[i], step);
+      pieces[i] = cut(
+          clipped(options.min[i], options.max[i], options.range_min[i], options.range_max[i], step),
+          step);
     }
     count[i] = static_cast<Index>(pieces[i].centre.size());
   }
@@ -141,7 +164,8 @@ BoundaryPoints<Dim> boundary_quadrature(const BoundaryQuadratureOptions<Dim>& op
   for_each_combination<Dim>(count, [&](const auto& at) {
     for (int i = 0; i < Dim; ++i) {
       const auto k = static_cast<std::size_t>(at[i]);
-      points.position(c, i) = pieces[i].centre[k];
+      points.position(c, i) =
+          (i == axis && upper ? options.max[i] : options.min[i]) + pieces[i].centre[k];
       points.weight[c] *= pieces[i].width[k];
     }
     ++c;
@@ -166,12 +190,15 @@ TributaryPoints<Dim> tributary_points(const LatticeOptions<Dim>& lattice, Face f
   check_axis(face.axis, Dim);
   check_vertex_lattice(lattice);
   const Eigen::Matrix<Index, Dim, 1> count = lattice_cells(lattice).array() + 1;
+  const double half = 0.5 * lattice.spacing;
+  Span span[Dim];
+  for (int i = 0; i < Dim; ++i) {
+    span[i] = clipped(lattice.min[i], lattice.max[i], range_min[i], range_max[i], half);
+  }
   const auto length = [&](int axis, Index at) {
     if (axis == face.axis) return at == (face.upper ? count[axis] - 1 : 0) ? 1.0 : 0.0;
-    const double x = lattice.min[axis] + at * lattice.spacing;
-    const double low = std::max({x - 0.5 * lattice.spacing, lattice.min[axis], range_min[axis]});
-    const double high = std::min({x + 0.5 * lattice.spacing, lattice.max[axis], range_max[axis]});
-    return std::max(0.0, high - low);
+    const double x = at * lattice.spacing;
+    return std::max(0.0, std::min(x + half, span[axis].high) - std::max(x - half, span[axis].low));
   };
 
   std::vector<double> area;

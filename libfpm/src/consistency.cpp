@@ -110,9 +110,10 @@ class RegularisedSolver {
 };
 
 // Round-off of the defect in the 2-norm: that of a sum of areas V_a G_ab whose weights come from
-// moment matrices with condition numbers up to some hundreds.
+// moment matrices with condition numbers up to some hundreds, and that of the boundary, whose
+// coordinates differ from those that would close it by their own round-off.
 template <int Dim>
-double defect_round_off(const Rows<Dim>& rows) {
+double defect_round_off(const Rows<Dim>& rows, const Field<Dim>& area_vector) {
   constexpr double relative = 1e3 * std::numeric_limits<double>::epsilon();
   double sum = 0.0;
   RowGeometry<Dim> geometry;
@@ -122,7 +123,8 @@ double defect_round_off(const Rows<Dim>& rows) {
     compute_weights(geometry, rows.options().kernel, false, weights);
     sum += geometry.own_volume * geometry.own_volume * weights.gradient.squaredNorm();
   }
-  return relative * std::sqrt(sum);
+  const double misplaced = rows.coordinate_round_off() / rows.options().support_radius;
+  return relative * std::sqrt(sum) + misplaced * area_vector.norm();
 }
 
 }  // namespace
@@ -156,7 +158,7 @@ Field<Dim> consistency_potential(const Rows<Dim>& rows, const Ghosts<Dim>& ghost
                                  const Field<Dim>& area_vector) {
   const Field<Dim> missing = -consistency_defect(rows, ghosts, area_vector);
   Field<Dim> potential(rows.size(), Dim);
-  const double round_off = defect_round_off(rows);
+  const double round_off = defect_round_off(rows, area_vector);
   std::unique_ptr<const RegularisedSolver> solver;
   for (int i = 0; i < Dim; ++i) {
     // Without images S is the same for all components.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fpm/neighbour_search.hpp"
+#include "snap.hpp"
 
 namespace fpm {
 namespace {
@@ -31,9 +32,9 @@ void PointOperator<Dim>::for_each_entry(Index point, Visitor&& visit) const {
 // that the condition number means something; it does not depend on the scale of the volumes.
 template <int Dim>
 bool PointOperator<Dim>::append_point(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
-                                      const Field<Dim>& extended, const std::vector<Index>& found,
-                                      const Vector<Dim>& centre, double radius,
-                                      const RowOptions& options) {
+                                      const std::vector<Index>& found,
+                                      const Eigen::Matrix<double, Dim, Eigen::Dynamic>& offset,
+                                      double radius, const RowOptions& options) {
   if (static_cast<int>(found.size()) < Dim + 2) return false;
   using Basis = Eigen::Matrix<double, Dim + 1, 1>;
   using MomentMatrix = Eigen::Matrix<double, Dim + 1, Dim + 1>;
@@ -50,19 +51,20 @@ bool PointOperator<Dim>::append_point(const ParticleSet<Dim>& particles, const G
   };
 
   MomentMatrix moment = MomentMatrix::Zero();
-  for (const Index b : found) {
-    const Vector<Dim> x = (extended.row(b).transpose() - centre) / radius;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const Vector<Dim> x = offset.col(static_cast<Eigen::Index>(k)) / radius;
     Basis p;
     p << 1.0, x;
-    moment += weighted_kernel(b, x) * p.transpose();
+    moment += weighted_kernel(found[k], x) * p.transpose();
   }
   const MomentMatrix inverse = moment.inverse();
   const double condition =
       moment.cwiseAbs().colwise().sum().maxCoeff() * inverse.cwiseAbs().colwise().sum().maxCoeff();
   if (!(condition <= options.max_condition)) return false;  // so that a NaN is refused
 
-  for (const Index b : found) {
-    const Vector<Dim> x = (extended.row(b).transpose() - centre) / radius;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const Index b = found[k];
+    const Vector<Dim> x = offset.col(static_cast<Eigen::Index>(k)) / radius;
     const Basis h = inverse * weighted_kernel(b, x);
     Vector<Dim> sign = Vector<Dim>::Ones();
     if (b >= n) {
@@ -92,19 +94,31 @@ PointOperator<Dim>::PointOperator(const ParticleSet<Dim>& particles, const Ghost
   };
 
   constexpr double growth = 1.05;
+  // Boundary points at two to a spacing are a multiple of this from the particles of a lattice.
+  const double grid = 0.25 * options.spacing;
+  const double round_off = difference_round_off<Dim>(extended);
   std::vector<Index> found;
+  Eigen::Matrix<double, Dim, Eigen::Dynamic> offset;
   for (Eigen::Index c = 0; c < points.rows(); ++c) {
     const Vector<Dim> centre = points.row(c).transpose();
     double radius = options.support_radius;
-    around(centre, radius, found);
-    while (!append_point(particles, ghosts, extended, found, centre, radius, options)) {
+    const auto search_within = [&] {
+      around(centre, radius, found);
+      offset.resize(Dim, static_cast<Eigen::Index>(found.size()));
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        offset.col(static_cast<Eigen::Index>(k)) =
+            snapped<Dim>(extended.row(found[k]).transpose() - centre, grid, round_off);
+      }
+    };
+    search_within();
+    while (!append_point(particles, ghosts, found, offset, radius, options)) {
       radius *= growth;
       if (radius > options.max_enlargement * options.support_radius) {
         throw std::runtime_error("point " + std::to_string(c) + " has no well-conditioned " +
                                  "neighbourhood within " + std::to_string(options.max_enlargement) +
                                  " support radii");
       }
-      around(centre, radius, found);
+      search_within();
     }
     offset_.push_back(entries_.size());
     support_radius_.push_back(radius);

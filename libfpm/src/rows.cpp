@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <set>
 #include <stdexcept>
 
 #include "fpm/neighbour_search.hpp"
+#include "snap.hpp"
 
 namespace fpm {
 namespace {
@@ -35,9 +35,7 @@ void Rows<Dim>::set_initial(const ParticleSet<Dim>& particles, const Ghosts<Dim>
   ghosts_ = ghosts;
   initial_position_ = with_ghosts<Dim>(particles.position, ghosts);
   initial_volume_ = with_ghosts<Dim>(particles.volume, ghosts);
-  const double extent =
-      initial_position_.size() == 0 ? 0.0 : initial_position_.cwiseAbs().maxCoeff();
-  round_off_ = 8.0 * std::numeric_limits<double>::epsilon() * extent;
+  round_off_ = difference_round_off<Dim>(initial_position_);
 }
 
 template <int Dim>
@@ -89,19 +87,6 @@ std::span<const Index> Rows<Dim>::neighbours(Index row) const {
   return {neighbour_.data() + begin, end - begin};
 }
 
-// A lattice difference is known only to the round-off of the coordinates; taken as the multiple it
-// stands for, equal neighbourhoods get equal weights to the last bit.
-template <int Dim>
-Vector<Dim> Rows<Dim>::snapped(Vector<Dim> offset) const {
-  const double grid = 0.5 * options_.spacing;
-  if (grid <= 0.0) return offset;
-  for (int i = 0; i < Dim; ++i) {
-    const double lattice = std::round(offset[i] / grid) * grid;
-    if (std::abs(lattice - offset[i]) <= round_off_) offset[i] = lattice;
-  }
-  return offset;
-}
-
 template <int Dim>
 void Rows<Dim>::geometry(Index row, RowGeometry<Dim>& geometry) const {
   const auto list = neighbours(row);
@@ -119,7 +104,8 @@ void Rows<Dim>::geometry(Index row, RowGeometry<Dim>& geometry) const {
     } else {
       const Index b = list[static_cast<std::size_t>(k)];
       geometry.offset.col(k) =
-          snapped((initial_position_.row(b) - initial_position_.row(row)).transpose());
+          snapped<Dim>((initial_position_.row(b) - initial_position_.row(row)).transpose(),
+                       0.5 * options_.spacing, round_off_);
       geometry.volume[k] = initial_volume_[b];
     }
   }

@@ -116,6 +116,28 @@ TEST(TwoLevelPreconditioner, LeavesPrescribedUnknownsAlone) {
   }
 }
 
+// Soft below and a thousand times stiffer above, told either way round: what holds the body on the
+// grid is as stiff as what it holds, not as the material that comes first.
+TEST(TwoLevelPreconditioner, DoesNotDependOnTheOrderOfTheMaterials) {
+  const auto layered = [](const std::string& first, const std::string& second, const char* from,
+                          const char* to) {
+    std::string text =
+        block(2, 10,
+              "[[symmetry]]\naxis = \"x\"\nposition = 0.0\n[[support]]\nname = \"springs\"\n"
+              "side = \"right\"\ndirections = [\"x\"]\nmethod = \"penalty\"\n"
+              "[[material]]\nname = \"other\"\nmodel = \"elastic\"\npoissons_ratio = 0.3\n"
+              "youngs_modulus = " +
+                  second + "\nregion_min = [0.0, " + from + "]\nregion_max = [1.0, " + to + "]\n");
+    const std::string soil = "youngs_modulus = 1e6";
+    return text.replace(text.find(soil), soil.size(), "youngs_modulus = " + first);
+  };
+  Elastic<2> soft_first(layered("1e6", "1e9", "0.5", "1.0"), 3.0);
+  Elastic<2> stiff_first(layered("1e9", "1e6", "0.0", "0.5"), 3.0);
+  Noise noise(7);
+  Eigen::VectorXd r = noise.vector(soft_first.model.unknowns(), 1.0);
+  EXPECT_EQ(soft_first.precondition(r), stiff_first.precondition(r));
+}
+
 struct Course {
   int iterations = 0;
   double condition = 0.0;  // of M J, from the Lanczos process that conjugate gradients are

@@ -55,6 +55,34 @@ TEST(BoundaryQuadrature, LeavesNoSliverWhereRangeAndCellsMeet) {
   EXPECT_NEAR(points.weight.sum(), 0.4, 10.0 * epsilon);
 }
 
+// Five thousand kilometres away, as map coordinates are, where they are known to a nanometre.
+constexpr double far = 5e6;
+
+TEST(BoundaryQuadrature, HasTheSamePiecesAndWeightsWhereverTheOriginIs) {
+  const auto on_top = [](double origin) {
+    const auto box = lattice<2>({9, 6}, 0.1, LatticeLayout::cell, 0.0, origin);
+    return std::pair(box, boundary_quadrature(BoundaryQuadratureOptions<2>{
+                              .min = box.min,
+                              .max = box.max,
+                              .spacing = box.spacing,
+                              .face = {1, true},
+                              .range_min = {origin + 0.3, 0.0},
+                              .range_max = {origin + 0.7, 2.0 * far}}));
+  };
+  const auto values = [](const LatticeOptions<2>& box, const BoundaryPoints<2>& points) {
+    const Model<2> m(box);
+    const PointOperator<2> op(m.set, m.ghosts, points.position, row_options<2>());
+    Field<2> result(points.size(), 2);
+    op.values(random_field<2>(m.set.size(), 3), result);
+    return result;
+  };
+  const auto [near_box, near] = on_top(0.0);
+  const auto [far_box, away] = on_top(far);
+  ASSERT_EQ(near.size(), 8);
+  EXPECT_EQ(away.weight, near.weight);
+  EXPECT_EQ(values(far_box, away), values(near_box, near));
+}
+
 TEST(BoundaryQuadrature, ClipsARangeToTheFace) {
   const auto points =
       boundary_quadrature(BoundaryQuadratureOptions<3>{.max = {1.0, 2.0, 3.0},
@@ -176,6 +204,16 @@ TEST(TributaryPoints, AreTheFacesParticlesWithTheirShares) {
   EXPECT_EQ(part.particle, (std::vector<Index>{15, 16, 17}));
   EXPECT_NEAR(part.points.weight.sum(), 0.85, 4.0 * epsilon);
   EXPECT_NEAR(part.points.weight[2], 0.1, 4.0 * epsilon);
+}
+
+TEST(TributaryPoints, HaveTheSameSharesWhereverTheOriginIs) {
+  const auto shares = [](double origin) {
+    const auto box = lattice<3>({4, 3, 5}, 0.1, LatticeLayout::vertex, 0.0, origin);
+    return fpm::tributary_points<3>(box, Face{0, true}, {0.0, origin + 0.1, origin},
+                                    {0.0, origin + 0.3, origin + 0.25});
+  };
+  EXPECT_EQ(shares(far).particle, shares(0.0).particle);
+  EXPECT_EQ(shares(far).points.weight, shares(0.0).points.weight);
 }
 
 TEST(TributaryPoints, CoverAFaceInSpace) {

@@ -108,6 +108,15 @@ TEST(Measures, TakeStressAndPlasticStrainOfTheNearestParticle) {
   EXPECT_THAT(box.measures.of(box.state), ElementsAre(-1.0, -2.0, -3.0, 0.5, 0.25));
 }
 
+TEST(Measures, HalfwayBetweenParticlesAreOfTheFirst) {
+  Box box("[[measure]]\nname = \"e\"\nkind = \"plastic_strain\"\nat = [0.75, 0.5]\n");
+  const auto place = [&](Eigen::Index a) { return box.model.particles.position.row(a); };
+  for (Eigen::Index a = 0; a < box.model.size(); ++a) {
+    if (place(a)[0] < 0.75 && place(a)[1] < 0.5) box.state.plastic_strain[a] = place(a)[0];
+  }
+  EXPECT_THAT(box.measures.of(box.state), ElementsAre(0.625));
+}
+
 // Eight particles of a force of 1 each along x and 10 along y; the one in the corner is held along
 // x by the wall, too.
 TEST(Measures, SumTheReactionsOfASupportInItsDirectionsOnly) {

@@ -25,10 +25,13 @@ TEST(HourglassControl, AutoFollowsMaterialAndDimension) {
   EXPECT_EQ(resolve_control(scene_of("mohr_coulomb")), C::incremental);
 }
 
-TEST(HourglassControl, AutoIsIncrementalForElasticPartsInAYieldingBody) {
-  Scene scene = scene_of("drucker_prager");
-  scene.material.emplace_back().model = "elastic";
-  EXPECT_EQ(resolve_control(scene), HourglassControl::incremental);
+TEST(HourglassControl, AutoIsThatOfWhatYieldsWhateverElasticPartsThereAre) {
+  for (const char* model : {"drucker_prager", "von_mises", "mohr_coulomb"}) {
+    Scene scene = scene_of(model);
+    const HourglassControl alone = resolve_control(scene);
+    scene.material.emplace_back().model = "elastic";
+    EXPECT_EQ(resolve_control(scene), alone) << model;
+  }
 }
 
 TEST(HourglassControl, HasItsStiffnessRatioUnlessTheSceneSaysOtherwise) {

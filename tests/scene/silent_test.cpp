@@ -13,9 +13,11 @@
 namespace scene {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 std::vector<std::string> texts(const std::vector<tables::Problem>& problems) {
@@ -51,6 +53,44 @@ TEST(Places, ALineOfDecimalsHoldsItsParticlesInBothLayouts) {
   const Geometry cell{.min = {0.0, 0.0}, .max = {1.0, 2.0}, .spacing = 0.1};
   EXPECT_FALSE(lattice_box(cell, {0.0, 0.35}, {1.0, 0.35}).empty());
   EXPECT_TRUE(lattice_box(cell, {0.0, 0.31}, {1.0, 0.34}).empty());
+}
+
+// Map coordinates: five thousand kilometres from the origin they are known to a nanometre.
+TEST(Places, ALineOfDecimalsHoldsItsParticlesFarFromTheOrigin) {
+  const Geometry far{
+      .min = {5e6, 5e6}, .max = {5000001.0, 5000002.0}, .spacing = 0.1, .layout = Layout::vertex};
+  for (int line = 1; line <= 19; ++line) {
+    const double y =
+        std::stod("500000" + std::to_string(line / 10) + "." + std::to_string(line % 10));
+    const LatticeBox box = lattice_box(far, {5e6, y}, {5000001.0, y});
+    EXPECT_EQ(box.first[1], line);
+    EXPECT_EQ(box.last[1], line);
+  }
+}
+
+TEST(Places, HalfwayBetweenTwoParticlesMeanTheFirst) {
+  for (const double origin : {0.0, 5e6}) {
+    const Geometry cell{
+        .min = {origin, origin}, .max = {origin + 1.0, origin + 1.0}, .spacing = 0.1};
+    for (int line = 1; line <= 9; ++line) {
+      Support support;
+      support.at = {origin + 0.1 * line, origin + 0.05};
+      EXPECT_EQ(lattice_box(cell, support).first[0], line - 1);
+    }
+  }
+}
+
+TEST(Places, TooFarForTheSpacingAreRefused) {
+  const auto at = [](const char* min, const char* max) {
+    return errors({std::string("geometry.min=[") + min + ", -1.0]",
+                   std::string("geometry.max=[") + max + ", 0.0]",
+                   std::string("symmetry.0.position=") + min, std::string("drive.range_min=") + min,
+                   std::string("drive.range_max=") + max});
+  };
+  EXPECT_THAT(at("5e6", "5000002.0"), IsEmpty());
+  EXPECT_THAT(at("5e9", "5000000002.0"),
+              ElementsAre(HasSubstr("geometry.min: found so far from the origin that its "
+                                    "coordinates are known to 1.1e-06 m, with a spacing of 0.1")));
 }
 
 TEST(Places, MaterialsReachToTheLastDigitOfTheirRegions) {
@@ -152,6 +192,94 @@ TEST(InitialStress, SaysWhereTheGroundCannotBearIt) {
   EXPECT_THAT(warned("2.039"), IsEmpty());
   EXPECT_THAT(warned("0.489"), ElementsAre(HasSubstr("it bears 0.4903 .. 2.04 there")));
   EXPECT_THAT(warned("2.041"), ElementsAre(HasSubstr("initial_stress.K0: 2.041 is more than")));
+}
+
+// Elastic parts are welcome to the control of the ground around them; a body of them alone is not.
+TEST(Hourglass, MixedNeedsSomethingThatYields) {
+  const std::string block =
+      "[[material]]\nname = \"block\"\nmodel = \"elastic\"\nyoungs_modulus = 1e6\n"
+      "poissons_ratio = 0.2\ndensity = 1.0\nregion_min = [0.5, -0.5]\nregion_max = [1.0, 0.0]\n";
+  EXPECT_THAT(errors({"hourglass.control=mixed"}, block), IsEmpty());
+  EXPECT_THAT(
+      errors({"hourglass.control=mixed", "material.0.model=elastic"}, block),
+      ElementsAre(StartsWith("--set hourglass.control=mixed: hourglass.control: found mixed "
+                             "with elastic materials only; a body that does not yield")));
+}
+
+// sqrt(J2) = c is reached at 2 c in plane strain and at sqrt(3) c in triaxial compression.
+TEST(VonMises, SaysInSpaceThatItsCompressionIsWeaker) {
+  const std::vector<std::string> in_space{"geometry.dimension=3",
+                                          "geometry.min=[0.0, -1.0, 0.0]",
+                                          "geometry.max=[2.0, 0.0, 1.0]",
+                                          "gravity.acceleration=[0.0, -9.81, 0.0]",
+                                          "drive.direction=[0.0, -1.0, 0.0]",
+                                          "drive.range_min=[0.0, 0.0]",
+                                          "drive.range_max=[0.5, 1.0]",
+                                          "support.0.directions=[\"x\", \"y\", \"z\"]",
+                                          "material.0.friction_angle=0",
+                                          "material.0.dilation_angle=0"};
+  const auto warnings = [](std::vector<std::string> settings, const std::string& model) {
+    settings.push_back("material.0.model=" + model);
+    return texts(with(settings).warnings);
+  };
+  EXPECT_THAT(warnings(in_space, "von_mises"),
+              Contains(HasSubstr("material.0.model: found von_mises in 3D; it is the cylinder "
+                                 "sqrt(J2) = cohesion: compression carries 1.73 cohesion")));
+  EXPECT_THAT(warnings(in_space, "mohr_coulomb"), Not(Contains(HasSubstr("1.73"))));
+  EXPECT_THAT(warnings({"material.0.friction_angle=0", "material.0.dilation_angle=0"}, "von_mises"),
+              Not(Contains(HasSubstr("1.73"))));
+}
+
+std::string measure(const std::string& name, const std::string& what) {
+  return "[[measure]]\nname = \"" + name + "\"\nkind = " + what + "\n";
+}
+
+TEST(Measure, HasANameThatMakesAColumn) {
+  EXPECT_THAT(errors({}, measure("a b", "\"max_displacement\"")),
+              ElementsAre(HasSubstr("measure.0.name: found \"a b\"; allowed are letters, digits "
+                                    "and _")));
+  EXPECT_THAT(errors({}, measure("", "\"max_displacement\"")),
+              ElementsAre(HasSubstr("measure.0.name: found \"\"; allowed are letters")));
+  EXPECT_THAT(
+      errors({}, measure("a", "\"max_displacement\"") + measure("a", "\"max_displacement\"")),
+      ElementsAre(HasSubstr("measure.1.name: found \"a\" again; it is the name of "
+                            "measure.0")));
+}
+
+TEST(Measure, HasTheOneKeyThatItsKindNeeds) {
+  for (const std::string kind : {"displacement", "stress", "plastic_strain"}) {
+    const std::string what = "\"" + kind + "\"";
+    EXPECT_THAT(
+        errors({}, measure("a", what)),
+        ElementsAre(HasSubstr("measure.0.at: absent; a measure of kind " + kind + " needs it")));
+    EXPECT_THAT(errors({}, measure("a", what + "\nat = [2.0, -1.0]")), IsEmpty());
+    EXPECT_THAT(errors({}, measure("a", what + "\nat = [1.0, -0.5]\nside = \"top\"")),
+                ElementsAre(HasSubstr("measure.0.side: found; a measure of kind " + kind +
+                                      " does not have it")));
+  }
+  EXPECT_THAT(
+      errors({}, measure("a", "\"reaction\"")),
+      ElementsAre(HasSubstr("measure.0.support: absent; a measure of kind reaction needs")));
+  EXPECT_THAT(errors({}, measure("a", "\"resultant\"")),
+              ElementsAre(HasSubstr("measure.0.side: absent; a measure of kind resultant needs")));
+  EXPECT_THAT(
+      errors({}, measure("a", "\"max_displacement\"\nsupport = \"base\"")),
+      ElementsAre(HasSubstr("measure.0.support: found; a measure of kind max_displacement")));
+}
+
+TEST(Measure, IsOfWhatTheSceneHas) {
+  EXPECT_THAT(errors({}, measure("a", "\"reaction\"\nsupport = \"bse\"")),
+              ElementsAre(HasSubstr("measure.0.support: found \"bse\"; the supports are base")));
+  EXPECT_THAT(errors({}, measure("a", "\"displacement\"\nat = [2.1, -0.5]")),
+              ElementsAre(HasSubstr("measure.0.at: found 2.1 along x; the body is from 0 to 2")));
+  EXPECT_THAT(errors({}, measure("a", "\"displacement\"\nat = [2.0]")),
+              ElementsAre(HasSubstr("measure.0.at: found length 1")));
+  EXPECT_THAT(errors({}, measure("a", "\"resultant\"\nside = \"front\"")),
+              ElementsAre(HasSubstr("measure.0.side: found front in 2D")));
+  EXPECT_THAT(
+      errors({"material.0.model=elastic"}, measure("a", "\"plastic_strain\"\nat = [1.0, -0.5]")),
+      ElementsAre(HasSubstr("measure.0.kind: found plastic_strain; every material is "
+                            "elastic")));
 }
 
 TEST(Tolerance, IsTightEnoughForTheFriction) {

@@ -70,6 +70,23 @@ TEST(FailureReport, OfAFoldedParticleNamesItAndItsPlace) {
   }
 }
 
+TEST(FailureReport, SaysThatTheBodyGivesWayWhereItsTangentShowsIt) {
+  const SmallFooting run;
+  StepResult result = given_up(jfnk::Status::krylov_stalled);
+  for (const auto trouble : {jfnk::Trouble::singular, jfnk::Trouble::flat}) {
+    result.trouble = trouble;
+    EXPECT_THAT(report_of(run, result), HasSubstr("limits: the tangent: the body, or a part of "
+                                                  "it, gives way without resistance"));
+  }
+}
+
+TEST(FailureReport, PutsWhatIsLikelyBeforeItsAdvice) {
+  const SmallFooting run({"material.0.poissons_ratio=0.4999"});
+  const std::string report = report_of(run, given_up(jfnk::Status::krylov_stalled));
+  EXPECT_THAT(report, HasSubstr("\n  likely: material.0.poissons_ratio = 0.4999: next to 0.5"));
+  EXPECT_THAT(report, HasSubstr("\n  advice: if that is not it, resume with"));
+}
+
 TEST(FailureReport, NamesTheThreeParticlesThatHoldMostOfTheResidual) {
   SmallFooting run;
   const Eigen::Index n = run.model.size();
@@ -145,6 +162,14 @@ TEST(FailureReport, AdvisesALoadDriveToDriveADisplacement) {
   EXPECT_THAT(report_of(run, given_up(jfnk::Status::stagnated)),
               HasSubstr("advice: the load may be beyond what the body carries: drive a "
                         "displacement instead."));
+}
+
+TEST(FailureReport, AdvisesConstantLoadsOnWhatYieldsToGrow) {
+  SmallFooting run;
+  run.scene.drive.kind = scene::DriveKind::none;
+  EXPECT_THAT(report_of(run, given_up(jfnk::Status::stagnated)),
+              HasSubstr("advice: the loads may be beyond what the body carries: let them grow, "
+                        "drive.kind = \"load\"."));
 }
 
 TEST(FailureReport, AdvisesTheHopelessALooserTolerance) {

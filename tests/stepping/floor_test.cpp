@@ -32,6 +32,13 @@ side = "bottom"
 directions = ["x", "y"]
 )";
 const std::string no_load = base;
+// Turns freely about one particle.
+const std::string hardly_held = R"([[support]]
+name = "one"
+at = [0.43, 0.37]
+directions = ["x", "y"]
+method = "penalty"
+)";
 const std::string cancelling = base + R"([[traction]]
 name = "down"
 side = "top"
@@ -83,6 +90,10 @@ class Floor : public ::testing::TestWithParam<std::pair<std::string, std::string
 
 TEST_P(Floor, OfABodyWithoutLoadIsRest) {
   EXPECT_LT(error_of(body() + no_load, 0.0), rounding);
+}
+
+TEST_P(Floor, OfABodyWithoutLoadIsRestHoweverItIsHeld) {
+  EXPECT_LT(error_of(body() + hardly_held, 0.0), rounding);
 }
 
 TEST_P(Floor, OfLoadsThatCancelIsRest) {

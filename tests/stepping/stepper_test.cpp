@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "small_footing.hpp"
 
 namespace stepping {
@@ -33,6 +35,14 @@ TEST(LoadStepper, LeavesTheStateAsItWasWhenAStepFailsAtTheSmallestIncrement) {
   EXPECT_EQ(numbers_of(run.state), before);
 }
 
+// Not in the solver's, whose options no scene has.
+TEST(LoadStepper, SaysInTheScenesWordsWhyAStepFailed) {
+  SmallFooting run(without_hope);
+  EXPECT_THAT(run.stepper.advance().reason,
+              ::testing::MatchesRegex("solver.max_evaluations_per_step = 10 is used up: unbalanced "
+                                      "are .* N/m, solver.tolerance = 0.001 allows .*"));
+}
+
 TEST(LoadStepper, LeavesTheStateAsItWasWhenItHasLostPatience) {
   auto settings = without_hope;
   settings.back() = "programme.minimum_increment_ratio=1e-30";
@@ -43,6 +53,32 @@ TEST(LoadStepper, LeavesTheStateAsItWasWhenItHasLostPatience) {
   ASSERT_EQ(result.outcome, StepOutcome::hopeless);
   ASSERT_GT(result.record.cuts, 0);
   EXPECT_EQ(numbers_of(run.state), before);
+}
+
+// A particle in the far corner, of the same stiffness, that cannot yield where next to nothing
+// does: the load under the plate is that of the ground's own control, not of another.
+TEST(LoadStepper, CarriesTheSameLoadWithAFarElasticCorner) {
+  constexpr double hardly = 0.05;  // of what another control would change
+  SmallFooting plain, other({"hourglass.control=incremental"});
+  SmallFooting corner({}, R"([[material]]
+name = "corner"
+model = "elastic"
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+density = 1800.0
+region_min = [2.75, -2.0]
+region_max = [3.0, -1.75]
+)");
+  StepResult result;
+  for (SmallFooting* run : {&plain, &other, &corner}) {
+    for (int step = 0; step < 5; ++step) {
+      result = run->stepper.advance();
+      ASSERT_EQ(result.outcome, StepOutcome::converged);
+    }
+    run->load = result.record.reaction;
+  }
+  ASSERT_GT(result.record.plastic_particles, 0);
+  EXPECT_LT(std::abs(corner.load - plain.load), hardly * std::abs(other.load - plain.load));
 }
 
 // A step that is cut before it is stopped: its halved increment must not stay behind.

@@ -94,8 +94,9 @@ class PointOperator {
   template <class Visitor>
   void for_each_entry(Index point, Visitor&& visit) const;
   bool append_point(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
-                    const Field<Dim>& extended, const std::vector<Index>& found,
-                    const Vector<Dim>& centre, double radius, const RowOptions& options);
+                    const std::vector<Index>& found,
+                    const Eigen::Matrix<double, Dim, Eigen::Dynamic>& offset, double radius,
+                    const RowOptions& options);
 
   Index particle_count_ = 0;
   std::vector<std::size_t> offset_{0};

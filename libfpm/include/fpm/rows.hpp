@@ -47,6 +47,9 @@ class Rows {
 
   Index size() const { return static_cast<Index>(support_radius_.size()); }
   const RowOptions& options() const { return options_; }
+  /// Round-off of the difference of two initial coordinates [m]: it grows with the distance from
+  /// the origin.
+  double coordinate_round_off() const { return round_off_; }
 
   /// Neighbours of a row, itself excluded, ascending; indices >= size() are ghosts.
   std::span<const Index> neighbours(Index row) const;
@@ -93,7 +96,6 @@ class Rows {
 
  private:
   bool accept(const RowGeometry<Dim>& geometry, RowWeights<Dim>& scratch) const;
-  Vector<Dim> snapped(Vector<Dim> offset) const;
   void index_searched_rows();
   void set_initial(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts);
 
