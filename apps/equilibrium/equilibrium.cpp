@@ -66,10 +66,20 @@ Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>&
     potential_ = fpm::consistency_potential(initial, model_.ghosts, model_.area_vector);
   }
   rebuild_operator();
+  if (model_.initial_stress.size() > 0) {
+    balance_ = balance_initial_stress(model_, initial_operator());
+  }
   const ArraySizes sizes = array_sizes(model_, operator_);
   allocate(step_, sizes);
   allocate(evaluation_, sizes);
   if (sizes.viscosity > 0) evaluation_.volume = state_.rows.reference_volume();
+}
+
+// On the initial rows, whatever was re-searched since.
+template <int Dim>
+fpm::MomentOperator<Dim> Equilibrium<Dim>::initial_operator() const {
+  return {fpm::Rows<Dim>(model_.particles, model_.ghosts, model_.row_options), model_.ghosts,
+          model_.channels, potential_};
 }
 
 template <int Dim>
@@ -92,6 +102,7 @@ template <int Dim>
 void Equilibrium<Dim>::begin_step(double load) {
   step_.load = load;
   step_.external = model_.constant_load + load * model_.scaled_load;
+  if (balance_.load.size() > 0) step_.external += balance_.load;
   step_.start_position = model_.particles.position + state_.displacement;
   place_particles();
   if (!model_.plane_drive.empty()) {
@@ -224,9 +235,16 @@ double Equilibrium<Dim>::take_plane_reactions() {
   if (evaluation_.plane_reaction.rows() == 0) return 0.0;
   const auto stride = operator_.stride();
   evaluation_.plane_reaction.setZero();
-  model_.ghosts.add_reactions(evaluation_.force.data(), model_.size(), stride,
-                              evaluation_.plane_reaction);
+  const auto& planes = model_.ghosts.planes();
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    if (planes[p].symmetry) continue;
+    model_.ghosts.add_reactions(p, evaluation_.force.data(), model_.size(), stride,
+                                evaluation_.plane_reaction);
+  }
   plane_force_ = model_.ghosts.plane_forces(evaluation_.force.data(), model_.size(), stride);
+  for (std::size_t p = 0; p < balance_.plane_force.size(); ++p) {
+    plane_force_[p] += balance_.plane_force[p];
+  }
   return evaluation_.plane_reaction.squaredNorm();
 }
 
@@ -357,6 +375,7 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
     if (given) forces.external_work += evaluation_.unmasked[k] * increment[k];
   }
   if (evaluation_.plane_reaction.rows() > 0) state_.reaction += evaluation_.plane_reaction;
+  if (balance_.reaction.rows() > 0) state_.reaction += balance_.reaction;
   const LoopOutcome outcome = loops_.commit(loop_data());
   if (!outcome.ok()) {
     throw std::logic_error("commit at an increment at which particle " +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "equilibrium/initial_balance.hpp"
 #include "equilibrium/law_loops.hpp"
 #include "fpm/moment_operator.hpp"
 #include "fpm/viscosity.hpp"
@@ -70,6 +71,7 @@ class Equilibrium {
   std::size_t bytes() const;
 
  private:
+  fpm::MomentOperator<Dim> initial_operator() const;
   LoopData<Dim> loop_data();
   void add_to_images(const fpm::Field<Dim>& motion, Eigen::VectorXd& extended) const;
   void extend_increment(const Eigen::VectorXd& increment);
@@ -86,7 +88,8 @@ class Equilibrium {
   const model::Model<Dim>& model_;
   model::State<Dim>& state_;
   fpm::MomentOperator<Dim> operator_;
-  fpm::Field<Dim> potential_;  // of the consistency correction, kept for rebuilds
+  fpm::Field<Dim> potential_;    // of the consistency correction, kept for rebuilds
+  InitialBalance<Dim> balance_;  // of the initial stress, if there is one
   fpm::PairViscosity<Dim> viscosity_;
   LawLoops<Dim> loops_;
   StepArrays<Dim> step_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/initial_stress.hpp"
 #include "model/loads.hpp"
 #include "model/planes.hpp"
 #include "model/selection.hpp"
@@ -142,20 +143,6 @@ void constrain(const scene::Scene& scene, Model<Dim>& model) {
   }
 }
 
-template <int Dim>
-void set_geostatic_stress(const scene::Scene& scene, const Model<Dim>& model, State<Dim>& state) {
-  constexpr int up = 1;
-  for (Eigen::Index a = 0; a < model.size(); ++a) {
-    const scene::Material& material = scene.material[model.material[static_cast<std::size_t>(a)]];
-    const fpm::Vector<Dim> x = model.particles.position.row(a).transpose();
-    const double vertical = scene::geostatic_stress(scene, {x.data(), Dim});
-    state.stress.col(a).setZero();
-    state.stress.col(a).template head<3>().setConstant(scene::resolve_k0(scene, material) *
-                                                       vertical);
-    state.stress(up, a) = vertical;
-  }
-}
-
 }  // namespace
 
 template <int Dim>
@@ -166,20 +153,19 @@ Model<Dim> build_model(const scene::Scene& scene) {
   choose_integration(scene, model);
   constrain(scene, model);
   add_loads(scene, model);
+  add_initial_stress(scene, model);
   model.consistency = scene::resolve_consistency(scene);
   if (model.consistency) model.area_vector = boundary_area_vectors(scene, model);
   return model;
 }
 
 template <int Dim>
-State<Dim> initial_state(const Model<Dim>& model, const scene::Scene& scene) {
+State<Dim> initial_state(const Model<Dim>& model) {
   State<Dim> state;
   state.layout = model.layout;
   state.resize(model.size());
   state.rows = fpm::Rows<Dim>(model.particles, model.ghosts, model.row_options);
-  if (scene.initial_stress.kind == scene::InitialStressKind::geostatic) {
-    set_geostatic_stress(scene, model, state);
-  }
+  if (model.initial_stress.size() > 0) state.stress = model.initial_stress;
   if (model.layout.subpoints) {
     for (Eigen::Index a = 0; a < model.size(); ++a) {
       const constitutive::StressVector<Dim> s =
@@ -194,7 +180,7 @@ State<Dim> initial_state(const Model<Dim>& model, const scene::Scene& scene) {
 
 template Model<2> build_model<2>(const scene::Scene&);
 template Model<3> build_model<3>(const scene::Scene&);
-template State<2> initial_state<2>(const Model<2>&, const scene::Scene&);
-template State<3> initial_state<3>(const Model<3>&, const scene::Scene&);
+template State<2> initial_state<2>(const Model<2>&);
+template State<3> initial_state<3>(const Model<3>&);
 
 }  // namespace model

@@ -15,6 +15,6 @@ Model<Dim> build_model(const scene::Scene& scene);
 
 /// The state before the first step: initial search, initial stress.
 template <int Dim>
-State<Dim> initial_state(const Model<Dim>& model, const scene::Scene& scene);
+State<Dim> initial_state(const Model<Dim>& model);
 
 }  // namespace model

@@ -2,76 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "model/selection.hpp"
+#include "model/side_points.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
 
 namespace model {
 namespace {
-
-template <int Dim>
-struct SidePoints {
-  fpm::PointOperator<Dim> op;
-  fpm::BoundaryPoints<Dim> points;
-};
-
-template <int Dim>
-bool is_plain_vertex_lattice(const scene::Scene& scene) {
-  return scene.geometry.layout == scene::Layout::vertex && scene.geometry.jitter == 0.0;
-}
-
-template <int Dim>
-fpm::LatticeOptions<Dim> vertex_lattice(const scene::Scene& scene, const Model<Dim>& model) {
-  fpm::LatticeOptions<Dim> lattice;
-  lattice.min = model.box_min;
-  lattice.max = model.box_max;
-  lattice.spacing = scene.geometry.spacing;
-  lattice.layout = fpm::LatticeLayout::vertex;
-  return lattice;
-}
-
-// A range along a side (Dim - 1 entries) as a box of Dim entries; empty means the whole side.
-template <int Dim>
-fpm::Vector<Dim> range_corner(const scene::Point& range, scene::Side side, double otherwise) {
-  fpm::Vector<Dim> corner = fpm::Vector<Dim>::Constant(otherwise);
-  std::size_t k = 0;
-  for (int i = 0; i < Dim && !range.empty(); ++i) {
-    if (i != scene::axis_of(side)) corner[i] = range[k++];
-  }
-  return corner;
-}
-
-// A part of a side as points: lumped to the particles of a vertex lattice, which lie on it, or
-// true boundary points that the particles are interpolated to.
-template <int Dim>
-SidePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, scene::Side side,
-                            const scene::Point& range_min, const scene::Point& range_max) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const fpm::Face face{scene::axis_of(side), scene::is_upper(side)};
-  const auto from = range_corner<Dim>(range_min, side, -infinity);
-  const auto to = range_corner<Dim>(range_max, side, infinity);
-  SidePoints<Dim> result;
-  if (is_plain_vertex_lattice<Dim>(scene)) {
-    auto tributary = fpm::tributary_points(vertex_lattice(scene, model), face, from, to);
-    result.op = fpm::PointOperator<Dim>::at_particles(model.particles, model.ghosts,
-                                                      tributary.particle, model.row_options);
-    result.points = std::move(tributary.points);
-    return result;
-  }
-  fpm::BoundaryQuadratureOptions<Dim> options;
-  options.min = model.box_min;
-  options.max = model.box_max;
-  options.spacing = scene.geometry.spacing;
-  options.face = face;
-  options.range_min = from;
-  options.range_max = to;
-  result.points = fpm::boundary_quadrature(options);
-  result.op = fpm::PointOperator<Dim>(model.particles, model.ghosts, result.points.position,
-                                      model.row_options);
-  return result;
-}
 
 bool scales_with(const scene::Scene& scene, scene::LoadKind kind) {
   const auto& scales = scene.drive.scales;
@@ -204,7 +142,7 @@ fpm::Field<Dim> boundary_area_vectors(const scene::Scene& scene, const Model<Dim
   for (const auto& plane : planes) {
     if (plane.has_range()) plates.push_back(plane);
   }
-  if (is_plain_vertex_lattice<Dim>(scene)) {
+  if (is_plain_vertex_lattice(scene)) {
     const auto lattice = vertex_lattice(scene, model);
     fpm::Field<Dim> area = fpm::tributary_area_vectors(lattice, faces);
     for (const auto& plate : plates) {

@@ -60,9 +60,13 @@ struct Model {
   Eigen::VectorXd measure;            // per unknown: weight of its reaction in the reported load
   Eigen::VectorXd constant_load;      // [N/m or N] dead loads that act from the start
   Eigen::VectorXd scaled_load;        // [N/m or N] dead loads at load parameter 1
-  fpm::Vector<Dim> box_min;           // [m]
-  fpm::Vector<Dim> box_max;           // [m]
-  double spacing = 0.0;               // [m]
+  // Before the first step, or empty for none: the stress of each particle, and the loads it is in
+  // equilibrium with, the weight and its own traction on free sides [N/m or N].
+  Eigen::Matrix<double, constitutive::stress_size<Dim>, Eigen::Dynamic> initial_stress;
+  Eigen::VectorXd initial_load;
+  fpm::Vector<Dim> box_min;  // [m]
+  fpm::Vector<Dim> box_max;  // [m]
+  double spacing = 0.0;      // [m]
   // Of each plane of the ghosts; empty if none moves.
   std::vector<fpm::Vector<Dim>> plane_drive;    // [m] displacement at load parameter 1
   std::vector<fpm::Vector<Dim>> plane_measure;  // weight of its reaction in the reported load

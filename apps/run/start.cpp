@@ -87,7 +87,7 @@ RunStart<Dim> find_start(const RunRequest& request, const model::Model<Dim>& mod
   RunStart<Dim> start;
   start.measures = measures;
   if (!request.resume) {
-    start.state = initial_state(model, request.scene);
+    start.state = initial_state(model);
     return start;
   }
   const std::filesystem::path checkpoint =

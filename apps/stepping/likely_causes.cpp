@@ -51,14 +51,18 @@ Eigen::Matrix<double, rigid_motions<Dim>, rigid_motions<Dim>> resistance(
     hold(static_cast<int>(k / model.size()),
          model.particles.position.row(k % model.size()).transpose());
   }
-  for (const auto& [axis, upper] : model.mirror_faces) {
+  for (const fpm::GhostPlane<Dim>& plane : model.ghosts.planes()) {
     for (int corner = 0; corner < 1 << Dim; ++corner) {
       fpm::Vector<Dim> place;
       for (int i = 0; i < Dim; ++i) {
-        const bool high = i == axis ? upper : ((corner >> i) & 1) != 0;
-        place[i] = high ? model.box_max[i] : model.box_min[i];
+        const bool high = ((corner >> i) & 1) != 0;
+        place[i] = high ? std::min(model.box_max[i], plane.range_max[i])
+                        : std::max(model.box_min[i], plane.range_min[i]);
       }
-      hold(axis, place);
+      place[plane.axis] = plane.position;
+      for (int i = 0; i < Dim; ++i) {
+        if (plane.held[static_cast<std::size_t>(i)]) hold(i, place);
+      }
     }
   }
   for (const model::PenaltySupport<Dim>& support : model.penalty_supports) {

@@ -151,11 +151,11 @@ std::vector<Vector<Dim>> Ghosts<Dim>::plane_forces(const double* extended, Eigen
 }
 
 template <int Dim>
-void Ghosts<Dim>::add_reactions(const double* extended, Eigen::Index n, Eigen::Index stride,
-                                Field<Dim>& reaction) const {
+void Ghosts<Dim>::add_reactions(std::size_t plane, const double* extended, Eigen::Index n,
+                                Eigen::Index stride, Field<Dim>& reaction) const {
   for (Index g = 0; g < size(); ++g) {
     for (const Share& share : shares(g)) {
-      if (planes_[share.plane].symmetry) continue;
+      if (share.plane != plane) continue;
       for (int i = 0; i < Dim; ++i) {
         reaction(source(g), i) += share.factor[i] * extended[i * stride + n + g];
       }

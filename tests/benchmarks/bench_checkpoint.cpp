@@ -48,7 +48,7 @@ class Run {
   Run(const scene::Scene& scene, std::filesystem::path folder)
       : scene_(scene),
         model_(model::build_model<Dim>(scene)),
-        state_(model::initial_state(model_, scene)),
+        state_(model::initial_state(model_)),
         stepper_(scene, model_, state_),
         notes_(model::notes_for(scene)),
         folder_(std::move(folder)) {}

@@ -60,7 +60,7 @@ bool run(const Body& body, const scene::Scene& scene, const Request& request) {
   using Clock = std::chrono::steady_clock;
   const double before = peak_bytes();
   const auto model = model::build_model<Dim>(scene);
-  auto state = model::initial_state(model, scene);
+  auto state = model::initial_state(model);
   stepping::LoadStepper<Dim> stepper(scene, model, state);
   const double to = request.to.value_or(body.run_to);
   long steps = 0;

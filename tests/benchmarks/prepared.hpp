@@ -18,7 +18,7 @@ namespace benchmarks {
 template <int Dim>
 model::State<Dim> settled_state(const scene::Scene& scene, const model::Model<Dim>& model,
                                 int steps) {
-  model::State<Dim> state = model::initial_state(model, scene);
+  model::State<Dim> state = model::initial_state(model);
   stepping::LoadStepper<Dim> stepper(scene, model, state);
   for (int k = 0; k < steps && !stepper.finished(); ++k) {
     const stepping::StepResult result = stepper.advance();

@@ -32,7 +32,7 @@ follower = true
 TEST(Domain, EndsWhereALoadsFaceIsTurnedInsideOutAndNamesTheParticleNextToIt) {
   const auto scene = *scene::parse_scene(pressed_square, "square").scene;
   const auto model = model::build_model<2>(scene);
-  auto state = model::initial_state(model, scene);
+  auto state = model::initial_state(model);
   equilibrium::Equilibrium<2> equilibrium(model, state);
   equilibrium.begin_step(1.0);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(model.unknowns());

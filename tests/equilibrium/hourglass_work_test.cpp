@@ -27,7 +27,7 @@ struct Moved {
   explicit Moved(const BodyOptions& body)
       : scene(*scene::parse_scene(body_scene(body), "body", {}).scene),
         model(model::build_model<Dim>(scene)),
-        state(model::initial_state(model, scene)),
+        state(model::initial_state(model)),
         equilibrium(model, state) {}
 
   // Three motions, so that pairs remember deformation and rows have yielded and turned.

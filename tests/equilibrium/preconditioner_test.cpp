@@ -33,7 +33,7 @@ struct Elastic {
   Elastic(const std::string& text, double coarse_over_spacing)
       : scene(*scene::parse_scene(text, "block", {}).scene),
         model(model::build_model<Dim>(scene)),
-        state(model::initial_state(model, scene)),
+        state(model::initial_state(model)),
         equilibrium(model, state),
         preconditioner(model, equilibrium.moment_operator(), coarse_over_spacing) {
     equilibrium.begin_step(0.0);

@@ -64,7 +64,7 @@ struct Box {
   explicit Box(const std::string& measures)
       : scene(read(box + measures)),
         model(build_model<2>(scene)),
-        state(initial_state(model, scene)),
+        state(initial_state(model)),
         measures(scene, model) {}
 
   static scene::Scene read(const std::string& text) {

@@ -15,7 +15,7 @@ namespace {
 struct Plane {
   scene::Scene scene = *scene::parse_scene(footing, "footing").scene;
   model::Model<2> model = model::build_model<2>(scene);
-  model::State<2> state = model::initial_state(model, scene);
+  model::State<2> state = model::initial_state(model);
   record::CheckpointNotes notes = model::notes_for(scene);
 
   Plane() { notes.history.resize(1); }

@@ -69,7 +69,7 @@ double error_of(const std::string& text, double along_x) {
   const auto reading = scene::parse_scene(text, "square");
   if (!reading.scene) throw std::runtime_error(reading.errors.front().text());
   const auto model = model::build_model<2>(*reading.scene);
-  auto state = model::initial_state(model, *reading.scene);
+  auto state = model::initial_state(model);
   omp_set_num_threads(1);
   LoadStepper<2> stepper(*reading.scene, model, state);
   while (!stepper.finished()) {

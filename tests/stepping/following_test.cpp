@@ -80,7 +80,7 @@ void expect_uniform_compression(const std::string& text) {
   const auto reading = scene::parse_scene(text, "body");
   if (!reading.scene) throw std::runtime_error(reading.errors.front().text());
   const auto model = model::build_model<Dim>(*reading.scene);
-  auto state = model::initial_state(model, *reading.scene);
+  auto state = model::initial_state(model);
   omp_set_num_threads(1);
   LoadStepper<Dim> stepper(*reading.scene, model, state);
   const StepResult result = stepper.advance();

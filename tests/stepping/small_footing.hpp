@@ -20,7 +20,7 @@ struct SmallFooting {
                         const std::string& tables = "")
       : scene(read(settings, tables)),
         model(model::build_model<2>(scene)),
-        state(model::initial_state(model, scene)),
+        state(model::initial_state(model)),
         stepper(scene, model, state) {
     omp_set_num_threads(1);  // so few particles keep no more of them busy
   }

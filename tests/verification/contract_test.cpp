@@ -23,7 +23,7 @@ template <int Dim>
 void expect_no_allocation(const BodyOptions& body) {
   const TestScene scene = scene_of(body_scene(body));
   const auto model = model::build_model<Dim>(scene);
-  auto state = model::initial_state(model, scene);
+  auto state = model::initial_state(model);
   equilibrium::Equilibrium<Dim> equilibrium(model, state);
   const Eigen::VectorXd u = increment_field(
       model, state, [](const fpm::Vector<Dim>& x) { return bending<Dim>(x, 0.01); });

@@ -23,7 +23,7 @@ template <int Dim>
 double jacobian_error(const BodyOptions& body) {
   const TestScene scene = scene_of(body_scene(body));
   const auto model = model::build_model<Dim>(scene);
-  auto state = model::initial_state(model, scene);
+  auto state = model::initial_state(model);
   equilibrium::Equilibrium<Dim> equilibrium(model, state);
   Noise noise(7);
   move(equilibrium, increment_field(model, state, [](const fpm::Vector<Dim>& x) {

@@ -15,7 +15,7 @@ template <int Dim>
 void expect_linear_field_is_exact(BodyOptions body) {
   const TestScene scene = scene_of(body_scene(body));
   const auto model = model::build_model<Dim>(scene);
-  auto state = model::initial_state(model, scene);
+  auto state = model::initial_state(model);
   equilibrium::Equilibrium<Dim> equilibrium(model, state);
   fpm::Tensor<Dim> gradient = fpm::Tensor<Dim>::Zero();
   gradient(0, 0) = 2e-3;
@@ -100,7 +100,7 @@ template <int Dim>
 void expect_momentum(const BodyOptions& body, bool angular) {
   const TestScene scene = scene_of(body_scene(body));
   const auto model = model::build_model<Dim>(scene);
-  auto state = model::initial_state(model, scene);
+  auto state = model::initial_state(model);
   equilibrium::Equilibrium<Dim> equilibrium(model, state);
   Noise noise(3);
   for (int step = 0; step < 3; ++step) {

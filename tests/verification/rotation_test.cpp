@@ -32,7 +32,7 @@ template <int Dim>
 void expect_full_turn_changes_nothing(const BodyOptions& body) {
   const TestScene scene = scene_of(body_scene(body));
   const auto model = model::build_model<Dim>(scene);
-  auto state = model::initial_state(model, scene);
+  auto state = model::initial_state(model);
   equilibrium::Equilibrium<Dim> equilibrium(model, state);
   move(equilibrium, increment_field(model, state, [](const fpm::Vector<Dim>& x) {
          return bending<Dim>(x, 0.02);
@@ -76,7 +76,7 @@ TEST(RigidRotation, FullTurnInThreeDimensionsDriftsByRoundOff) {
 TEST(RigidRotation, TurnsTheForcesOfBentYieldedBody) {
   const TestScene scene = scene_of(body_scene({}));
   const auto model = model::build_model<2>(scene);
-  auto state = model::initial_state(model, scene);
+  auto state = model::initial_state(model);
   equilibrium::Equilibrium<2> equilibrium(model, state);
   move(equilibrium,
        increment_field(model, state, [](const fpm::Vector<2>& x) { return bending<2>(x, 0.02); }));

@@ -16,7 +16,7 @@ struct Run {
   explicit Run(const TestScene& s)
       : scene(s),
         model(model::build_model<Dim>(scene)),
-        state(model::initial_state(model, scene)),
+        state(model::initial_state(model)),
         stepper(scene, model, state) {}
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;

@@ -66,7 +66,7 @@ Stretched stretched(const Patch& patch) {
       if (inside) free.push_back(k);
     }
   }
-  auto state = model::initial_state(model, scene);
+  auto state = model::initial_state(model);
   stepping::LoadStepper<Dim> stepper(scene, model, state);
   while (!stepper.finished()) {
     const auto result = stepper.advance();

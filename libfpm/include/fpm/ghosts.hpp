@@ -102,9 +102,9 @@ class Ghosts {
   std::vector<Vector<Dim>> plane_forces(const double* extended, Eigen::Index n,
                                         Eigen::Index stride) const;
 
-  /// The same by particle: what each particle's images carry onto planes is added to its row.
-  /// A plane of symmetry has no reaction.
-  void add_reactions(const double* extended, Eigen::Index n, Eigen::Index stride,
+  /// The same for one plane by particle: what each particle's images carry onto it is added to the
+  /// particle's row.
+  void add_reactions(std::size_t plane, const double* extended, Eigen::Index n, Eigen::Index stride,
                      Field<Dim>& reaction) const;
 
   /// Appends the image positions: rows [n, n + size()) of `extended` from rows [0, n); planes are

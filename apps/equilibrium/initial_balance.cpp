@@ -1,0 +1,77 @@
+#include "equilibrium/initial_balance.hpp"
+
+#include "constitutive/tensor.hpp"
+
+namespace equilibrium {
+namespace {
+
+constexpr int up = 1;
+
+// Nodal forces of the initial stress, extended to the images.
+template <int Dim>
+Eigen::VectorXd forces_of_stress(const model::Model<Dim>& model,
+                                 const fpm::MomentOperator<Dim>& op) {
+  const Eigen::Index n = model.size(), stride = op.stride();
+  Eigen::VectorXd generalised = Eigen::VectorXd::Zero(stride * op.stress_count());
+  for (Eigen::Index a = 0; a < n; ++a) {
+    const fpm::Tensor<Dim> sigma = constitutive::spatial_part<Dim>(
+        constitutive::StressVector<Dim>(model.initial_stress.col(a)));
+    for (int k = 0; k < Dim * Dim; ++k) {
+      generalised[k * stride + a] = model.particles.volume[a] * sigma.data()[k];
+    }
+  }
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(stride * Dim);
+  Eigen::VectorXd force(stride * Dim);
+  op.scatter(generalised.data(), nothing.data(), nothing.data(), force.data());
+  return force;
+}
+
+}  // namespace
+
+template <int Dim>
+InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
+                                           const fpm::MomentOperator<Dim>& op) {
+  const Eigen::Index n = model.size();
+  const Eigen::VectorXd force = forces_of_stress(model, op);
+  InitialBalance<Dim> balance;
+  balance.load.setZero(model.unknowns());
+  // What moves bears nothing at first.
+  fpm::Field<Dim> borne = fpm::Field<Dim>::Zero(n, Dim);
+  fpm::Field<Dim> by_moving = borne;
+  const auto& planes = model.ghosts.planes();
+  balance.plane_force.assign(model.plane_drive.size(), fpm::Vector<Dim>::Zero());
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    if (planes[p].symmetry) continue;
+    const bool moves = !model.plane_drive.empty() && !model.plane_drive[p].isZero();
+    model.ghosts.add_reactions(p, force.data(), n, op.stride(), moves ? by_moving : borne);
+    if (moves) balance.plane_force[p] = -model.ghosts.plane_forces(force.data(), n, op.stride())[p];
+  }
+  balance.reaction = -by_moving;
+  for (int i = 0; i < Dim; ++i) {
+    for (Eigen::Index a = 0; a < n; ++a) {
+      const Eigen::Index k = i * n + a;
+      const double difference = force[i * op.stride() + a] - model.initial_load[k];
+      const bool held = model.prescribed[static_cast<std::size_t>(k)] != 0 && model.drive[k] == 0.0;
+      if (held) {
+        borne(a, i) += difference;
+      } else {
+        balance.load[k] = difference;
+      }
+    }
+  }
+  // The supports bear weight and traction, to the last particle.
+  const double missing = -model.initial_load.segment(up * n, n).sum() - borne.col(up).sum();
+  if (borne.col(up).sum() != 0.0) {
+    balance.reaction.col(up) += missing / borne.col(up).sum() * borne.col(up);
+  }
+  return balance;
+}
+
+template struct InitialBalance<2>;
+template struct InitialBalance<3>;
+template InitialBalance<2> balance_initial_stress<2>(const model::Model<2>&,
+                                                     const fpm::MomentOperator<2>&);
+template InitialBalance<3> balance_initial_stress<3>(const model::Model<3>&,
+                                                     const fpm::MomentOperator<3>&);
+
+}  // namespace equilibrium

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fpm/moment_operator.hpp"
+#include "model/model.hpp"
+
+namespace equilibrium {
+
+/// What keeps a body at rest under its initial stress.
+///
+/// That stress is exact in the continuum; on particles its forces and the lumped weight differ by
+/// what the approximation makes of a stress that is not constant, mostly beside the faces. As a
+/// dead load of its own the difference lets nothing move that would not move in the continuum.
+template <int Dim>
+struct InitialBalance {
+  Eigen::VectorXd load;      // [N/m or N] dead load; none at unknowns that a support holds
+  fpm::Field<Dim> reaction;  // to be added to the supports', by particle: they bear the same in all
+  std::vector<fpm::Vector<Dim>> plane_force;  // likewise to that of each moving plane, or empty
+};
+
+/// @param op  on the initial rows, with the consistency correction if it is on
+template <int Dim>
+InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
+                                           const fpm::MomentOperator<Dim>& op);
+
+}  // namespace equilibrium

@@ -1,0 +1,77 @@
+#include "model/initial_stress.hpp"
+
+#include <algorithm>
+
+#include "model/side_points.hpp"
+#include "scene/derived.hpp"
+#include "scene/scene.hpp"
+
+namespace model {
+namespace {
+
+constexpr int up = 1;
+
+template <int Dim>
+constitutive::StressVector<Dim> geostatic(const scene::Scene& scene, const fpm::Vector<Dim>& place,
+                                          std::size_t material) {
+  const double vertical = scene::geostatic_stress(scene, {place.data(), Dim});
+  constitutive::StressVector<Dim> stress = constitutive::StressVector<Dim>::Zero();
+  stress.template head<3>().setConstant(scene::resolve_k0(scene, scene.material[material]) *
+                                        vertical);
+  stress[up] = vertical;
+  return stress;
+}
+
+// Sides that bear whatever stress there is across them.
+bool bears_across(const scene::Scene& scene, scene::Side side) {
+  const int axis = scene::axis_of(side);
+  const bool supported = std::ranges::any_of(scene.support, [&](const scene::Support& support) {
+    return support.side == side && support.method != scene::SupportMethod::penalty &&
+           std::ranges::count(support.directions, static_cast<scene::Axis>(axis)) > 0;
+  });
+  return supported || std::ranges::any_of(scene.symmetry, [&](const scene::Symmetry& mirror) {
+           return static_cast<int>(mirror.axis) == axis &&
+                  std::abs(mirror.position - scene::side_position(scene.geometry, side)) <=
+                      scene::same_place(scene.geometry);
+         });
+}
+
+}  // namespace
+
+template <int Dim>
+void add_initial_stress(const scene::Scene& scene, Model<Dim>& model) {
+  if (scene.initial_stress.kind != scene::InitialStressKind::geostatic) return;
+  const Eigen::Index n = model.size();
+  model.initial_stress.resize(constitutive::stress_size<Dim>, n);
+  for (Eigen::Index a = 0; a < n; ++a) {
+    model.initial_stress.col(a) = geostatic<Dim>(scene, model.particles.position.row(a).transpose(),
+                                                 model.material[static_cast<std::size_t>(a)]);
+  }
+  model.initial_load.setZero(model.unknowns());
+  Eigen::Map<fpm::Field<Dim>> load(model.initial_load.data(), n, Dim);
+  for (std::size_t i = 0; i < scene.gravity.acceleration.size(); ++i) {
+    load.col(static_cast<Eigen::Index>(i)) = model.mass * scene.gravity.acceleration[i];
+  }
+  for (int s = 0; s < 2 * Dim; ++s) {
+    const auto side = static_cast<scene::Side>(s);
+    if (bears_across(scene, side)) continue;
+    const SidePoints<Dim> face = side_points(scene, model, side, {}, {});
+    const int axis = scene::axis_of(side);
+    fpm::Field<Dim> force = fpm::Field<Dim>::Zero(face.points.size(), Dim);
+    for (fpm::Index c = 0; c < face.points.size(); ++c) {
+      const fpm::Vector<Dim> place = face.points.position.row(c).transpose();
+      // Of the material within, where the face ends at an interface.
+      fpm::Vector<Dim> within = place;
+      within[axis] += (scene::is_upper(side) ? -0.5 : 0.5) * model.spacing;
+      const auto stress =
+          geostatic<Dim>(scene, place, scene::material_at(scene, {within.data(), Dim}));
+      force(c, axis) = face.points.weight[c] * face.points.normal(c, axis) * stress[axis];
+    }
+    face.op.add_transposed_values(force, load);
+  }
+}
+
+template void add_initial_stress<2>(const scene::Scene&, Model<2>&);
+template void add_initial_stress<3>(const scene::Scene&, Model<3>&);
+
+}  // namespace model
