@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "model/planes.hpp"
 #include "model/selection.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
@@ -73,6 +74,12 @@ void Measures<Dim>::find_support(const scene::Scene& scene, const std::string& n
         measure.penalties.push_back(penalties);
         return;
       }
+      if (scene.support[i].method == scene::SupportMethod::ghosts) {
+        const scene::Side side = *scene.support[i].side;
+        measure.unknowns = borne_by_planes(model_, scene::axis_of(side),
+                                           scene::side_position(scene.geometry, side));
+        return;
+      }
       for (const Eigen::Index a : supported_particles(scene, scene.support[i], model_)) {
         for (const scene::Axis axis : scene.support[i].directions) {
           measure.unknowns.push_back(static_cast<int>(axis) * model_.size() + a);
@@ -87,7 +94,9 @@ void Measures<Dim>::find_support(const scene::Scene& scene, const std::string& n
 template <int Dim>
 void Measures<Dim>::find_side(const scene::Scene& scene, scene::Side side, Measure& measure) const {
   const Eigen::Index n = model_.size();
-  for (Eigen::Index a = 0; a < n; ++a) {
+  measure.unknowns =
+      borne_by_planes(model_, scene::axis_of(side), scene::side_position(scene.geometry, side));
+  for (Eigen::Index a = 0; a < n && measure.unknowns.empty(); ++a) {
     if (!on_side(scene, model_, side, a)) continue;
     for (int i = 0; i < Dim; ++i) measure.unknowns.push_back(i * n + a);
   }

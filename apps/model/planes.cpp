@@ -1,6 +1,8 @@
 #include "model/planes.hpp"
 
 #include <algorithm>
+#include <array>
+#include <set>
 
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
@@ -60,6 +62,31 @@ std::vector<fpm::GhostPlane<Dim>> ghost_planes(const scene::Scene& scene) {
   return planes;
 }
 
+template <int Dim>
+std::vector<Eigen::Index> borne_by_planes(const Model<Dim>& model, int axis, double position) {
+  const auto& planes = model.ghosts.planes();
+  std::array<std::set<fpm::Index>, static_cast<std::size_t>(Dim)> held_across;
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    if (planes[p].symmetry) continue;
+    const auto sources = model.ghosts.sources_of(p);
+    held_across[static_cast<std::size_t>(planes[p].axis)].insert(sources.begin(), sources.end());
+  }
+  std::set<Eigen::Index> unknowns;
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    if (planes[p].symmetry || planes[p].axis != axis || planes[p].position != position) continue;
+    for (const fpm::Index a : model.ghosts.sources_of(p)) {
+      for (int i = 0; i < Dim; ++i) {
+        const auto direction = static_cast<std::size_t>(i);
+        const bool other = i != axis && held_across[direction].contains(a);
+        if (planes[p].held[direction] && !other) unknowns.insert(i * model.size() + a);
+      }
+    }
+  }
+  return {unknowns.begin(), unknowns.end()};
+}
+
+template std::vector<Eigen::Index> borne_by_planes<2>(const Model<2>&, int, double);
+template std::vector<Eigen::Index> borne_by_planes<3>(const Model<3>&, int, double);
 template std::vector<fpm::GhostPlane<2>> ghost_planes<2>(const scene::Scene&);
 template std::vector<fpm::GhostPlane<3>> ghost_planes<3>(const scene::Scene&);
 

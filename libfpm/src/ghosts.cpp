@@ -1,5 +1,9 @@
 #include "fpm/ghosts.hpp"
 
+#include <set>
+#include <stdexcept>
+#include <string>
+
 namespace fpm {
 
 template <int Dim>
@@ -90,6 +94,17 @@ bool Ghosts<Dim>::within(const GhostPlane<Dim>& plane, const Vector<Dim>& x,
     if (at < plane.range_min[i] - slack_ || at > plane.range_max[i] + slack_) return false;
   }
   return true;
+}
+
+template <int Dim>
+std::vector<Index> Ghosts<Dim>::sources_of(std::size_t plane) const {
+  std::set<Index> sources;
+  for (Index g = 0; g < size(); ++g) {
+    for (const Share& share : shares(g)) {
+      if (share.plane == plane) sources.insert(source(g));
+    }
+  }
+  return {sources.begin(), sources.end()};
 }
 
 template <int Dim>

@@ -69,6 +69,9 @@ class Ghosts {
   /// Particle whose image ghost g is.
   Index source(Index g) const { return source_[static_cast<std::size_t>(g)]; }
 
+  /// Particles that have an image by a plane, ascending.
+  std::vector<Index> sources_of(std::size_t plane) const;
+
   /// Value of a vector field (n x Dim) that vanishes in the held directions at ghost g: the
   /// components of those directions change sign.
   Vector<Dim> image(const Field<Dim>& field, Index g) const {
