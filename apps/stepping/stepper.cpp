@@ -151,6 +151,7 @@ bool LoadStepper<Dim>::predict_by_tangent(double increment, Eigen::VectorXd& u,
   set_prescribed(increment, prescribed);
   Eigen::VectorXd action(u.size());
   equilibrium_->apply_motion(prescribed, action);
+  ++record.jacobian_actions;
   const Eigen::VectorXd rhs = -(residual + action);
   if (rhs.norm() <= rounding_) {  // of which a body that is hardly held would make a motion
     u = prescribed;
@@ -161,7 +162,7 @@ bool LoadStepper<Dim>::predict_by_tangent(double increment, Eigen::VectorXd& u,
   };
   const auto result = use_preconditioner_ ? jfnk::gmres(jacobian, rhs, u, options, *preconditioner_)
                                           : jfnk::gmres(jacobian, rhs, u, options);
-  record.jacobian_actions += result.iterations + 1;
+  record.jacobian_actions += result.iterations;
   u += prescribed;
   return u.allFinite();
 }

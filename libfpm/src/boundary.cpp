@@ -160,12 +160,13 @@ BoundaryPoints<Dim> boundary_quadrature(const BoundaryQuadratureOptions<Dim>& op
   points.normal.setZero(count.prod(), Dim);
   points.normal.col(axis).setConstant(upper ? 1.0 : -1.0);
   points.weight.setOnes(count.prod());
+  Vector<Dim> corner = options.min;
+  if (upper) corner[axis] = options.max[axis];
   Eigen::Index c = 0;
   for_each_combination<Dim>(count, [&](const auto& at) {
     for (int i = 0; i < Dim; ++i) {
       const auto k = static_cast<std::size_t>(at[i]);
-      points.position(c, i) =
-          (i == axis && upper ? options.max[i] : options.min[i]) + pieces[i].centre[k];
+      points.position(c, i) = corner[i] + pieces[i].centre[k];
       points.weight[c] *= pieces[i].width[k];
     }
     ++c;

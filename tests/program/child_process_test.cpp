@@ -11,6 +11,7 @@
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 
 #include "files/file_error.hpp"
@@ -53,6 +54,36 @@ class AChildProcess : public ::testing::Test {
   [[nodiscard]] std::filesystem::path output() const { return folder_ / "output"; }
   support::TemporaryFolder folder_;
 };
+
+/// Standard input of this process, of which a child could take a line, for as long as it lives.
+class Typed {
+ public:
+  explicit Typed(const std::string& line) {
+    int ends[2] = {-1, -1};
+    if (::pipe(ends) != 0 || ::write(ends[1], line.data(), line.size()) < 0) {
+      throw std::runtime_error("no pipe");
+    }
+    ::close(ends[1]);
+    ::dup2(ends[0], STDIN_FILENO);
+    ::close(ends[0]);
+  }
+  Typed(const Typed&) = delete;
+  Typed& operator=(const Typed&) = delete;
+  ~Typed() {
+    ::dup2(before_, STDIN_FILENO);
+    ::close(before_);
+  }
+
+ private:
+  int before_ = ::dup(STDIN_FILENO);
+};
+
+TEST_F(AChildProcess, LeavesWhatIsTypedToThisOne) {
+  const Typed typed("ours\n");
+  ChildProcess child("/bin/cat", {}, output());
+  EXPECT_EQ(end_of(child), 0);
+  EXPECT_EQ(text_of(output()), "");
+}
 
 TEST_F(AChildProcess, HasTheExitCodeOfItsProgram) {
   ChildProcess child(shell, {"-c", "exit 7"}, output());

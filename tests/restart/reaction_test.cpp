@@ -38,6 +38,10 @@ TEST_F(Reactions, OfACheckpointSumUpToTheReactionOfItsCurve) {
   const auto state = model::read_state(file, model, notes.schema);
   const Eigen::Map<const Eigen::VectorXd> reaction(state.reaction.data(), state.reaction.size());
   EXPECT_DOUBLE_EQ(model.measure.dot(reaction), notes.history.back().reaction);
+  for (Eigen::Index k = 0; k < reaction.size(); ++k) {
+    if (model.prescribed[static_cast<std::size_t>(k)] != 0) continue;
+    EXPECT_EQ(reaction[k], 0.0) << "what is left of the residual is no reaction";
+  }
 }
 
 TEST_F(Reactions, AreInTheCheckpointWithWhichABranchBegins) {

@@ -1,6 +1,6 @@
 #include "scene/print.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <filesystem>
 
@@ -36,6 +36,21 @@ TEST(EffectiveScene, KeepsAwkwardNumbersAndTexts) {
   const auto again = parse_scene(effective_toml(scene), "effective");
   ASSERT_TRUE(again.scene) << again.errors.front().text();
   EXPECT_EQ(*again.scene, scene);
+}
+
+// 0.05 m in increments of 0.02 of a spacing of 0.1 m are 25; Drucker-Prager in 2D is mixed at 0.01.
+TEST(EffectiveScene, SaysWhatIsMadeOfWhatTheSceneLeavesOpen) {
+  const auto lines_of = [](const std::vector<std::string>& settings) {
+    const auto reading = parse_scene(support::sample_scene, "s.toml", settings);
+    return effective_toml(*reading.scene);
+  };
+  using ::testing::ContainsRegex;
+  EXPECT_THAT(lines_of({}), ContainsRegex("\ncontrol = \"auto\" *# here mixed; "));
+  EXPECT_THAT(lines_of({}), ContainsRegex("\n# stiffness_ratio = *# here 0.01; "));
+  EXPECT_THAT(lines_of({}), ContainsRegex("\n# steps = *# here 25; "));
+  EXPECT_THAT(lines_of({"hourglass.control=incremental"}),
+              ContainsRegex("\n# stiffness_ratio = *# here 0.1; "));
+  EXPECT_THAT(lines_of({"programme.steps=7"}), ContainsRegex("\nsteps = 7 *# here 7; "));
 }
 
 // The text from a table's heading to the next one.
