@@ -79,6 +79,30 @@ void check_support_choice(const Scene& scene, const Support& support, const std:
   }
 }
 
+/// What is held by images is a whole side, and across it.
+void check_ghosts(const Scene& scene, const Support& support, const std::string& table,
+                  tables::Diagnosis& diagnosis) {
+  if (support.method != SupportMethod::ghosts) return;
+  const std::string key = table + ".method";
+  if (!diagnosis.good({key, table + ".side", table + ".directions", table})) return;
+  if (!support.side) {
+    diagnosis.error(key, "found ghosts without a side",
+                    "images lie behind a side: give one, or hold particles by direct");
+    return;
+  }
+  const auto across = static_cast<Axis>(axis_of(*support.side));
+  const bool held_across =
+      std::any_of(scene.support.begin(), scene.support.end(), [&](const Support& other) {
+        return other.side == support.side && other.method == SupportMethod::ghosts &&
+               std::count(other.directions.begin(), other.directions.end(), across) > 0;
+      });
+  if (held_across) return;
+  diagnosis.error(key,
+                  fmt::format("found ghosts, and {} not among the directions", name_of(across)),
+                  "images hold a side across it at least: add the direction, or hold particles by "
+                  "direct");
+}
+
 void check_support(const Scene& scene, std::size_t index, tables::Diagnosis& diagnosis) {
   const Support& support = scene.support[index];
   const std::string table = fmt::format("support.{}", index);
@@ -91,6 +115,7 @@ void check_support(const Scene& scene, std::size_t index, tables::Diagnosis& dia
       break;
     }
   }
+  check_ghosts(scene, support, table, diagnosis);
 }
 
 /// Whether anything keeps the body from moving freely along an axis.

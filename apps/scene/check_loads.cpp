@@ -214,9 +214,29 @@ void check_direction(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
 }
 
+/// A side driven by images is driven across it; the paper's viscosity knows no moving images.
+void check_driven_by_ghosts(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const Drive& drive = scene.drive;
+  const std::string key = "drive.method";
+  if (drive.method != DriveMethod::ghosts) return;
+  if (!diagnosis.good({key, "drive.side", "drive.direction", "drive.lateral"})) return;
+  const auto across = static_cast<std::size_t>(axis_of(drive.side));
+  if (drive.lateral == Lateral::free && across < drive.direction.size() &&
+      drive.direction[across] == 0.0) {
+    diagnosis.error(key, "found ghosts, with a drive along its side and lateral = \"free\"",
+                    "images hold a side across it at least: use lateral = \"fixed\", or direct");
+  }
+  if (diagnosis.good({"hourglass.control"}) &&
+      resolve_control(scene) == HourglassControl::viscosity) {
+    diagnosis.error(key, "found ghosts with hourglass.control = \"viscosity\"",
+                    "that control drives by direct only");
+  }
+}
+
 void check_displacement(const Scene& scene, tables::Diagnosis& diagnosis) {
   const Drive& drive = scene.drive;
   check_direction(scene, diagnosis);
+  check_driven_by_ghosts(scene, diagnosis);
   if (drive.target == 0.0 && diagnosis.good({"drive.target"})) {
     diagnosis.error("drive.target", diagnosis.given("drive.target") ? "found 0" : "is missing",
                     "a displacement needs how far it goes, a number > 0 [m]");

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <fpm/ghosts.hpp>
+#include <fpm/points.hpp>
 
 #include <map>
 
@@ -192,6 +193,165 @@ TEST(Ghosts, RefuseAnAxisThatDoesNotExist) {
   for (const int axis : {-1, 2}) {
     EXPECT_THAT([&] { Ghosts<2>(set.position, {symmetry_plane<2>(axis, 0.0)}, 0.24); },
                 ThrowsMessage<std::invalid_argument>(HasSubstr("in a space of dimension 2")));
+  }
+}
+
+// A box held on its lower face along y, held in all directions, and at its left one by symmetry.
+template <int Dim>
+std::vector<GhostPlane<Dim>> base_and_mirror(double low) {
+  GhostPlane<Dim> base;
+  base.axis = 1;
+  base.position = low;
+  base.held.fill(true);
+  return {base, symmetry_plane<Dim>(0, 0.0)};
+}
+
+template <int Dim>
+void expect_a_held_plane_moves_as_given(double jitter) {
+  auto options = lattice<Dim>(Dim == 2 ? Counts<Dim>::Constant(8) : Counts<Dim>::Constant(5));
+  options.jitter = jitter;
+  const auto set = fpm::make_lattice(options);
+  const auto rows_options = row_options<Dim>(options.spacing, false);
+  const Ghosts<Dim> ghosts(set.position, base_and_mirror<Dim>(0.0),
+                           2.0 * rows_options.support_radius);
+  const Rows<Dim> rows(set, ghosts, rows_options);
+  const MomentOperator<Dim> op(rows, ghosts, Channels{});
+  // u = v at y = 0, and the same strain on either side; symmetric at x = 0.
+  fpm::Vector<Dim> v = fpm::Vector<Dim>::Constant(0.01);
+  v[0] = 0.0;
+  Field<Dim> u(set.size(), Dim);
+  for (Index a = 0; a < set.size(); ++a) {
+    u.row(a) = v.transpose() * (1.0 + set.position(a, 1));
+  }
+  Eigen::VectorXd extended(op.stride() * Dim);
+  op.extend(u.data(), extended.data());
+  const Field<Dim> motion = ghosts.of_motion({v, fpm::Vector<Dim>::Zero()});
+  for (int i = 0; i < Dim; ++i) {
+    extended.segment(i * op.stride() + set.size(), ghosts.size()) += motion.col(i);
+  }
+  Eigen::VectorXd moments(op.channel_count() * Dim * MomentOperator<Dim>::block_stride);
+  fpm::Tensor<Dim> gradient = fpm::Tensor<Dim>::Zero();
+  gradient.col(1) = v;
+  for (Index block = 0; block < op.block_count(); ++block) {
+    op.gather(block, extended.data(), moments.data());
+    for (Index r = 0; r < op.block_size(block); ++r) {
+      for (int k = 0; k < Dim * Dim; ++k) {
+        EXPECT_NEAR(moments[k * MomentOperator<Dim>::block_stride + r], gradient.data()[k],
+                    round_off(100.0, 1.0));
+      }
+    }
+  }
+}
+
+TEST(HeldPlane, MovesAsGivenUnderAnyStrain) {
+  for (const double jitter : {0.0, 0.3}) {
+    expect_a_held_plane_moves_as_given<2>(jitter);
+    expect_a_held_plane_moves_as_given<3>(jitter);
+  }
+}
+
+TEST(HeldPlane, IsHeldByTheForcesThatWorkOnItsMotion) {
+  const auto set = fpm::make_lattice(lattice<2>({6, 6}));
+  const Index n = set.size();
+  const Ghosts<2> ghosts(set.position, base_and_mirror<2>(0.0), 0.48);
+  const Index total = n + ghosts.size();
+  const Field<2> force = random_field<2>(total, 73);
+  const std::vector<fpm::Vector<2>> motion{{0.3, -0.7}, {0.2, 0.0}};
+  const auto on_planes = ghosts.plane_forces(force.data(), n, total);
+  double of_planes = 0.0;
+  Field<2> by_particle = Field<2>::Zero(n, 2);
+  for (std::size_t p = 0; p < motion.size(); ++p) {
+    of_planes += motion[p].dot(on_planes[p]);
+    ghosts.add_reactions(p, force.data(), n, total, by_particle);
+  }
+  const double of_ghosts =
+      force.bottomRows(ghosts.size()).cwiseProduct(ghosts.of_motion(motion)).sum();
+  const double size = force.cwiseAbs().sum();
+  EXPECT_NEAR(of_planes, of_ghosts, round_off(8.0, size));
+  const fpm::Vector<2> sum = on_planes[0] + on_planes[1];
+  EXPECT_NEAR((by_particle.colwise().sum().transpose() - sum).norm(), 0.0, round_off(8.0, size));
+  // A body and its planes shifted as one: the forces on particles and planes sum up to those on
+  // all.
+  Field<2> folded = force;
+  ghosts.fold_forces(folded.data(), n, total);
+  const double shifted = folded.topRows(n).col(1).sum() + on_planes[0][1];
+  EXPECT_NEAR(shifted, force.col(1).sum(), round_off(8.0, size));
+  EXPECT_THROW((void)ghosts.of_motion({motion[0]}), fpm::ShapeError);
+}
+
+// A plate on the left half of the top: y = 0.6, x <= 0.3.
+GhostPlane<2> plate() {
+  GhostPlane<2> plane;
+  plane.axis = 1;
+  plane.position = 0.6;
+  plane.held = {true, true};
+  plane.range_max[0] = 0.3;
+  return plane;
+}
+
+TEST(Plate, HasImagesOverItsRangeAloneForRowsUnderIt) {
+  const auto set = fpm::make_lattice(lattice<2>({6, 6}));
+  const auto options = row_options<2>(0.1, false);
+  const Ghosts<2> ghosts(set.position, {plate()}, options.support_radius);
+  ASSERT_EQ(ghosts.size(), 6);  // three columns, two rows within 0.24 (0.05 and 0.15)
+  for (Index g = 0; g < ghosts.size(); ++g) {
+    EXPECT_LT(set.position(ghosts.source(g), 0), 0.3);
+    EXPECT_FALSE(ghosts.by_symmetry(g));
+    EXPECT_TRUE(ghosts.visible_from({0.25, 0.55}, g));
+    EXPECT_FALSE(ghosts.visible_from({0.35, 0.55}, g));
+    EXPECT_TRUE(ghosts.visible_from({0.35, 0.55}, g, {{0.1, 0.0}}));
+  }
+  const Rows<2> rows(set, ghosts, options);
+  for (Index a = 0; a < set.size(); ++a) {
+    for (const Index b : rows.neighbours(a)) {
+      if (b < set.size()) continue;
+      EXPECT_LT(set.position(a, 0), 0.3);
+    }
+  }
+}
+
+TEST(Plate, LosesTheImagesOfParticlesThatLeaveIt) {
+  const auto set = fpm::make_lattice(lattice<2>({6, 6}));
+  const Ghosts<2> ghosts(set.position, {plate()}, 0.24);
+  const std::vector<fpm::Vector<2>> down{{0.0, -0.04}};
+  EXPECT_TRUE(ghosts.stands_for({0.25, 0.55}, 0, down));
+  EXPECT_FALSE(ghosts.stands_for({0.31, 0.5}, 0, down));   // beside it
+  EXPECT_FALSE(ghosts.stands_for({0.25, 0.57}, 0, down));  // past it
+}
+
+TEST(Plate, IsNotInterpolatedAtPoints) {
+  const auto set = fpm::make_lattice(lattice<2>({6, 6}));
+  const auto options = row_options<2>(0.1, false);
+  const Ghosts<2> ghosts(set.position, {plate()}, 2.0 * options.support_radius);
+  Field<2> at(1, 2);
+  at << 0.2, 0.6;
+  const fpm::PointOperator<2> with(set, ghosts, at, options);
+  const fpm::PointOperator<2> without(set, {}, at, options);
+  const Field<2> u = random_field<2>(set.size(), 74);
+  EXPECT_EQ(with.value(0, u), without.value(0, u));
+}
+
+// What flows out from under a plate: its rows are rebuilt without the images it had.
+TEST(Plate, ServesNoRowThatHasLeftIt) {
+  const auto set = fpm::make_lattice(lattice<2>({8, 6}));
+  const auto options = row_options<2>(0.1, false);
+  const Ghosts<2> ghosts(set.position, {plate()}, 2.0 * options.support_radius);
+  Rows<2> rows(set, ghosts, options);
+  Field<2> now = set.position;
+  std::vector<Index> all;
+  for (Index a = 0; a < set.size(); ++a) {
+    all.push_back(a);
+    now(a, 0) += 0.2;
+  }
+  const std::vector<char> none(static_cast<std::size_t>(set.size()), 0);
+  const auto rebuilt = rows.research(all, now, set.volume, none, {fpm::Vector<2>::Zero()});
+  ASSERT_EQ(rebuilt.size(), all.size());
+  for (Index a = 0; a < set.size(); ++a) {
+    for (const Index b : rows.neighbours(a)) {
+      if (b < set.size()) continue;
+      EXPECT_LT(now(a, 0), 0.3);
+      EXPECT_LT(now(ghosts.source(b - set.size()), 0), 0.3);
+    }
   }
 }
 

@@ -54,61 +54,94 @@ TEST(Block, SettlesAsTheConfinedColumnAtFirstOrderWithoutConsistency) {
   EXPECT_NEAR(convergence_order(coarse.field, fine.field, 2.0), 1.0, order_tolerance);
 }
 
-// A column of soil under its geostatic stress: exact in the continuum, so that all that moves is
-// the integration's error, small against the settlement rho g H^2 / (2 M) of the same weight.
-std::string geostatic_scene(double spacing, const std::string& layout) {
+// Ground under its geostatic stress, which is in equilibrium with its weight: nothing may move.
+struct Ground {
+  int dimension = 2;
+  std::string layout = "cell";
+  std::string method = "direct";
+  double jitter = 0.0;
+  bool layered = false;
+  double surcharge = 0.0;  // [Pa]
+};
+
+std::string ground_scene(const Ground& ground) {
+  const bool flat = ground.dimension == 2;
   std::ostringstream text;
-  text << "[geometry]\ndimension=2\nmin=[0.0,-1.0]\nmax=[1.0,0.0]\nspacing=" << spacing
-       << "\nlayout=\"" << layout << "\"\n[approximation]\nconsistency=\""
-       << (layout == "vertex" ? "on" : "off") << "\"\n";
-  return text.str() + R"(
-[[material]]
-name = "soil"
-model = "drucker_prager"
-youngs_modulus = 50e6
-poissons_ratio = 0.3
-cohesion = 2.5e3
-friction_angle = 30.0
-dilation_angle = 0.0
-density = 1850.0
-[[support]]
-name = "base"
-side = "bottom"
-directions = ["x", "y"]
-[[support]]
-name = "left"
-side = "left"
-directions = ["x"]
-[[support]]
-name = "right"
-side = "right"
-directions = ["x"]
-[gravity]
-acceleration = [0.0, -9.81]
-[initial_stress]
-kind = "geostatic"
-[solver]
-tolerance = 1e-6
-)";
-}
-
-double geostatic_drift(double spacing, const std::string& layout) {
-  constexpr double confined = 50e6 * 0.7 / (1.3 * 0.4);
-  Run<2> run(scene_of(geostatic_scene(spacing, layout)));
-  run.complete();
-  const double drift =
-      run.state.displacement.cwiseAbs().maxCoeff() / (1850.0 * 9.81 / (2.0 * confined));
-  report("drift_" + layout + "_at_" + std::to_string(spacing), drift);
-  return drift;
-}
-
-TEST(Geostatic, DriftOfCellLatticeIsOfFirstOrder) {
-  for (const double spacing : {0.1, 0.05}) EXPECT_LT(geostatic_drift(spacing, "cell"), spacing);
-}
-TEST(Geostatic, DriftOfConsistentVertexLatticeIsOfSecondOrder) {
-  for (const double spacing : {0.1, 0.05}) {
-    EXPECT_LT(geostatic_drift(spacing, "vertex"), spacing * spacing);
+  text << "[geometry]\ndimension=" << ground.dimension << "\nmin=[0.0,-1.0" << (flat ? "" : ",0.0")
+       << "]\nmax=[0.8,0.0" << (flat ? "" : ",0.8") << "]\nspacing=" << (flat ? 0.1 : 0.2)
+       << "\nlayout=\"" << ground.layout << "\"\njitter=" << std::showpoint << ground.jitter
+       << "\n";
+  const auto material = [&](const std::string& name, double density, const std::string& region) {
+    text << "[[material]]\nname=\"" << name << "\"\nmodel=\"drucker_prager\"\n"
+         << "youngs_modulus=" << 10e6 * density / 1850.0
+         << "\npoissons_ratio=0.3\ncohesion=1e3\nfriction_angle=30.0\ndilation_angle=0.0\ndensity="
+         << density << "\n"
+         << region;
+  };
+  material("soil", 1850.0, "");
+  const std::string third = flat ? "" : ", 0.0", far = flat ? "" : ", 0.8";
+  if (ground.layered) {
+    material("rubble", 2700.0,
+             "region_min=[0.0, -0.4" + third + "]\nregion_max=[0.8, 0.0" + far + "]\n");
   }
+  const auto hold = [&](const std::string& side, const std::string& directions) {
+    text << "[[support]]\nname=\"" << side << "\"\nside=\"" << side << "\"\nmethod=\""
+         << ground.method << "\"\ndirections=[" << directions << "]\n";
+  };
+  hold("bottom", flat ? "\"x\", \"y\"" : "\"x\", \"y\", \"z\"");
+  for (const std::string side : {"left", "right"}) hold(side, "\"x\"");
+  for (const std::string side : {"front", "back"}) {
+    if (!flat) hold(side, "\"z\"");
+  }
+  text << "[gravity]\nacceleration=[0.0, -9.81" << third
+       << "]\n[initial_stress]\nkind=\"geostatic\"\nK0=0.5\nsurcharge=" << ground.surcharge << "\n";
+  if (ground.surcharge > 0.0) {
+    text << "[[traction]]\nname=\"q\"\nside=\"top\"\nvalue=[0.0, " << -ground.surcharge << third
+         << "]\n";
+  }
+  return text.str() + "[solver]\ntolerance=1e-9\n";
+}
+
+template <int Dim>
+void expect_rest(const Ground& ground) {
+  Run<Dim> run(scene_of(ground_scene(ground)));
+  run.complete();
+  // Against the settlement rho g H^2 / (2 M) of the same weight.
+  const double confined = 10e6 * 0.7 / (1.3 * 0.4);
+  const double settlement = 1850.0 * 9.81 / (2.0 * confined);
+  EXPECT_LT(run.state.displacement.cwiseAbs().maxCoeff(), 1e-9 * settlement);
+  EXPECT_EQ(run.state.plastic_strain.maxCoeff(), 0.0);
+  // The base bears what there is, to the last particle.
+  const double weight = 9.81 * run.model.mass.sum() + ground.surcharge * (Dim == 2 ? 0.8 : 0.64);
+  EXPECT_NEAR(run.state.reaction.col(1).sum() / weight, 1.0, 1e-9);
+}
+
+TEST(GroundAtRest, Stays) {
+  for (const std::string layout : {"cell", "vertex"}) {
+    for (const std::string method : {"direct", "ghosts"}) {
+      SCOPED_TRACE(layout + ", " + method);
+      expect_rest<2>({2, layout, method});
+      expect_rest<2>({2, layout, method, 0.3});
+      expect_rest<2>({2, layout, method, 0.0, true});
+      expect_rest<2>({2, layout, method, 0.0, false, 5e3});
+      expect_rest<3>({3, layout, method, 0.0, true});
+    }
+  }
+}
+
+// A side that is not held does not bear the stress across it, whatever the ground is said to have.
+TEST(GroundAtRest, MovesTowardsAFreeSide) {
+  std::string text = ground_scene({});
+  const std::string right =
+      "[[support]]\nname=\"right\"\nside=\"right\"\nmethod=\"direct\"\ndirections=[\"x\"]\n";
+  text.erase(text.find(right), right.size());
+  verification::Run<2> run(scene_of(text));
+  run.complete();
+  // The mean horizontal stress, K0 rho g H / 2, gone from a width of 0.8: of the order of
+  // sigma (1 - nu^2) / E times that width.
+  const double order = 0.5 * 1850.0 * 9.81 * 0.5 * (1.0 - 0.09) / 10e6 * 0.8;
+  const Eigen::Index corner = run.nearest({0.8, 0.0});
+  EXPECT_GT(run.state.displacement(corner, 0), 0.3 * order);
 }
 
 // A cube between smooth platens with free sides: a homogeneous state on the edge of the
