@@ -171,7 +171,10 @@ struct PreconditionerCourse {
   int stale = 0;                ///< Krylov iterations since then that new factors would have spared
   bool doubted = false;         ///< a round without it was tried
   bool suspended = false;       ///< such a round goes on
-  bool learning_tried = false;  ///< see Learning
+  bool learning_tried = false;  ///< and there is no more to be had; see Learning
+  bool pattern_known = false;   ///< of the Jacobian to be learnt
+  int groups = 0;               ///< products that it then costs; 0: not known
+  int next_try = 0;             ///< evaluations before another
 
   template <class Visitor>
   void for_each_field(Visitor& visit) {
@@ -182,6 +185,9 @@ struct PreconditionerCourse {
     visit(doubted);
     visit(suspended);
     visit(learning_tried);
+    visit(pattern_known);
+    visit(groups);
+    visit(next_try);
   }
 };
 

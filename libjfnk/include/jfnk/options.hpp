@@ -199,8 +199,8 @@ struct PseudoTransient {
 /// Whether and when Method::hybrid learns the Jacobian of an F on a lattice, where there is no
 /// preconditioner or none that helps any more.
 ///
-/// A few unknowns, moved one by one, show which components of F depend on them; how far off in the
-/// index these are tells which diagonals of J are occupied. If the diagonals are few, as on grids
+/// Unknowns that are moved, far from each other, show which components of F depend on them; how far
+/// off in the index these are tells which diagonals of J are occupied. If the diagonals are few, as on grids
 /// and chains whose nodes are numbered in order, J follows from some ten products J v (Curtis,
 /// Powell & Reid 1974). Its sparse LU factors are the preconditioner, renewed where that pays. F
 /// must not depend on an unknown by rounding alone. Not for residuals on several processes.
