@@ -81,8 +81,12 @@ class SlopeTest {
 
 Outcome look(Solve& solve, int cut) {
   Workspace& work = solve.work;
-  return solve.evaluator.evaluate(work.trial,
-                                  cut == 0 ? &Counts::newton_trials : &Counts::line_search);
+  int& left_domain = solve.course.newton.left_domain;
+  if (cut == 0) left_domain = 0;
+  const Outcome outcome = solve.evaluator.evaluate(
+      work.trial, cut == 0 ? &Counts::newton_trials : &Counts::line_search);
+  if (outcome == Outcome::out_of_domain) ++left_domain;
+  return outcome;
 }
 
 Ending refused(Outcome outcome) {

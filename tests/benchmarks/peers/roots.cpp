@@ -16,7 +16,7 @@ using peers::Vector;
 
 /// The lowest ||F|| over the goal on the way.
 double newton(const Problem& problem, bool damped) {
-  constexpr int most_steps = 120;
+  constexpr int most_steps = 60;
   constexpr double shortest = 1e-6;
   const peers::Trial trial(problem, false);
   Vector u = problem.start;
