@@ -111,6 +111,7 @@ struct NewtonCourse {
   double highest_full = 0.0;   ///< ||F|| after the first steps of an early try of full steps
   double lowest_full = 0.0;    ///< and the lowest since
   int left_domain = 0;         ///< trials of the last step where F had no value
+  double feasible = 0.0;       ///< length of the last step that had to be cut by them; 0: none
 
   template <class Visitor>
   void for_each_field(Visitor& visit) {
@@ -128,6 +129,7 @@ struct NewtonCourse {
     visit(highest_full);
     visit(lowest_full);
     visit(left_domain);
+    visit(feasible);
   }
 };
 

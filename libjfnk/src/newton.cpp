@@ -108,6 +108,7 @@ void begin_newton(Solve& solve, int steps) {
   course.newton.short_steps = 0;
   course.newton.by_full_steps = false;
   course.newton.since_best = 0;
+  course.newton.feasible = 0.0;
 }
 
 Ending newton_step(Solve& solve) {

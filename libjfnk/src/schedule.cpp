@@ -47,14 +47,20 @@ void begin_without_preconditioner(Solve& solve) {
   begin_multisecant(solve);
 }
 
-/// The preconditioner fits where it was set up: a round without it that failed is undone.
+/// The preconditioner fits where it was set up: a round without it that failed is undone, unless it
+/// came far.
 void end_without_preconditioner(Solve& solve) {
+  constexpr double far = 0.1;
   Course& course = solve.course;
   course.preconditioner.suspended = false;
   course.multisecant.mixing_known = false;
   solve.evaluator.resume_preconditioner();
   solve.work.secants.clear();
-  solve.undo_round();
+  if (solve.work.best.norm <= far * solve.work.aside.norm) {
+    solve.return_to_best();
+  } else {
+    solve.undo_round();
+  }
 }
 
 /// The caller's preconditioner about work.base.
