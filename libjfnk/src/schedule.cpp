@@ -287,6 +287,7 @@ Ending renew_preconditioner(Solve& solve) {
   course.newton.radius = 0.0;  // it is measured through the preconditioner
   // as are Broyden's updates
   solve.work.broyden.clear();
+  if (in_preconditioned_norm(solve)) solve.work.secants.clear();
   course.multisecant.inverted = false;
   return Ending::go_on;
 }

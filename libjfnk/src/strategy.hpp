@@ -73,6 +73,9 @@ struct LinearSolution {
 /// @param[out] ending  noise_floor if there is nothing to be had below it
 [[nodiscard]] bool adapt_to_noise(Solve& solve, Ending& ending);
 
+/// Whether the least squares of the multisecant stages are in the norm of P F.
+[[nodiscard]] bool in_preconditioned_norm(const Solve& solve);
+
 /// One iteration of each stage.
 [[nodiscard]] Ending multisecant_step(Solve& solve);
 [[nodiscard]] Ending newton_step(Solve& solve);

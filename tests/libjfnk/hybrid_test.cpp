@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 #include "jfnk/jfnk.hpp"
 #include "problems.hpp"
@@ -111,6 +113,7 @@ TEST(Multisecant, BroydensUpdatesSpareEvaluationsOnPlasticity) {
   truss.push(0.02);
   const CholeskyPreconditioner P(truss.elastic_stiffness());
   Options options;
+  options.learning.enabled = false;  // of the stiffness given alone
   Vector u = Vector::Zero(truss.size());
   const Report both = solve(truss, u, options, P);
   options.multisecant.broyden = false;
@@ -264,6 +267,67 @@ TEST(Hybrid, KeepsARoundWithoutThePreconditionerThatCameFar) {
     const Report report = jfnk::solve(F, u, options, P);
     EXPECT_TRUE(report.converged()) << report.reason;
     EXPECT_LE(report.counts.total(), bearable);
+  }
+}
+
+TEST(Hybrid, LeastSquaresInTheNormOfPFAreThoseOfTheResidualPF) {
+  // Anderson's iteration on P F without a preconditioner, step by step.
+  const jfnk_test::Bratu bratu(6, 5.0);
+  const CholeskyPreconditioner P(jfnk_test::laplacian(6));
+  const int n = 36;
+  constexpr int steps = 8;
+  constexpr double rounding = 1e-9;  // of the condition of the pairs, 1e4, and a little
+  Options options;
+  options.method = Method::multisecant;
+  options.tolerances.relative = 1e-13;
+  options.max_evaluations = steps + 1;
+  options.multisecant.broyden = false;
+  options.multisecant.scale_mixing = false;
+  std::vector<Vector> one;
+  std::vector<Vector> other;
+  const Vector start = Vector::LinSpaced(n, 0.0, 3.0);
+  const auto image = [&](const Vector& u, Vector& r) {
+    other.push_back(u);
+    Vector f(n);
+    bratu(u, f);
+    P.apply(f, r);
+  };
+  Vector u = start;
+  std::ignore = jfnk::solve(image, u, options);
+  options.multisecant.preconditioned_norm = true;
+  const auto F = [&](const Vector& v, Vector& r) {
+    one.push_back(v);
+    bratu(v, r);
+  };
+  u = start;
+  const Report report = jfnk::solve(F, u, options, P);
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_LT((one[i] - other[i]).norm(), rounding * start.norm()) << i;
+  }
+  // Two each, and one for the step that there was no evaluation left for.
+  EXPECT_EQ(report.counts.preconditioner, 2 * steps + 1);
+  // The default is another iteration.
+  options.multisecant.preconditioned_norm = false;
+  one.clear();
+  u = start;
+  std::ignore = jfnk::solve(F, u, options, P);
+  EXPECT_GT((one.back() - other.back()).norm(), 1e3 * rounding * start.norm());
+}
+
+TEST(Hybrid, LeastSquaresInTheNormOfPFSurviveNewPreconditioners) {
+  const jfnk_test::Bratu bratu(12, 6.5);
+  for (const bool broyden : {false, true}) {
+    Options options;
+    options.multisecant.preconditioned_norm = true;
+    options.multisecant.broyden = broyden;
+    options.tolerances.relative = 1e-10;
+    options.setup_cost = 0.0;
+    jfnk::ColouredJacobian jacobian(bratu, jfnk_test::laplacian(12));
+    Vector u = Vector::Zero(144);
+    const Report report = jfnk::solve(bratu, u, options, jacobian);
+    EXPECT_TRUE(report.converged()) << report.reason;
+    EXPECT_GT(report.counts.preconditioner_setups, 1);
   }
 }
 

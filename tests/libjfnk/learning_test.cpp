@@ -337,6 +337,21 @@ TEST(Learning, TakesFactorsThatExplainMostOfTheJacobian) {
   EXPECT_LE(report.counts.total(), 2 * 35);
 }
 
+TEST(Learning, ItsSecantsAreInTheNormOfPF) {
+  // Whether or not that is asked for, bit for bit.
+  const Bratu bratu(24, 6.5);
+  Vector u[2];
+  for (const bool asked : {false, true}) {
+    Options options;
+    options.multisecant.preconditioned_norm = asked;
+    u[asked] = Vector::Zero(24 * 24);
+    const Report report = jfnk::solve(bratu, u[asked], options);
+    EXPECT_TRUE(report.converged()) << report.reason;
+    EXPECT_GT(report.counts.learning, 0);
+  }
+  EXPECT_TRUE((u[0].array() == u[1].array()).all());
+}
+
 TEST(Learning, RespectsScalesAndBounds) {
   const int m = 20;
   const Bratu bratu(m, 6.0);
