@@ -108,6 +108,10 @@ struct NewtonCourse {
   bool by_lines = false;       ///< line searches only
   bool by_full_steps = false;  ///< no search, and a new preconditioner at every step
   int since_best = 0;          ///< full steps since the last lowest ||F||
+  double highest_full = 0.0;   ///< ||F|| after the first steps of an early try of full steps
+  double lowest_full = 0.0;    ///< and the lowest since
+  int left_domain = 0;         ///< trials of the last step where F had no value
+  double feasible = 0.0;       ///< length of the last step that had to be cut by them; 0: none
 
   template <class Visitor>
   void for_each_field(Visitor& visit) {
@@ -122,6 +126,10 @@ struct NewtonCourse {
     visit(by_lines);
     visit(by_full_steps);
     visit(since_best);
+    visit(highest_full);
+    visit(lowest_full);
+    visit(left_domain);
+    visit(feasible);
   }
 };
 
@@ -129,22 +137,26 @@ struct NewtonCourse {
 struct RescueCourse {
   Ending newton_failure = Ending::go_on;  ///< the first one, which the rescues shall mend
   double trouble_norm = 0.0;              ///< ||F|| where Report::trouble was met
+  double minimum_norm = 0.0;  ///< ||F|| at a minimum that a search has ended in; 0: none yet
   bool noise_measured = false;
   double noise_norm = 0.0;  ///< ||F|| where that was
   bool restarted = false;
   bool transient_tried = false;
-  bool full_steps_tried = false;
+  bool early_full_steps = false;  ///< were tried, or are
+  bool last_full_steps = false;
   int round_cost = 0;  ///< evaluations of the last round of Newton; 0: none yet
 
   template <class Visitor>
   void for_each_field(Visitor& visit) {
     visit(newton_failure);
     visit(trouble_norm);
+    visit(minimum_norm);
     visit(noise_measured);
     visit(noise_norm);
     visit(restarted);
     visit(transient_tried);
-    visit(full_steps_tried);
+    visit(early_full_steps);
+    visit(last_full_steps);
     visit(round_cost);
   }
 };
@@ -171,7 +183,10 @@ struct PreconditionerCourse {
   int stale = 0;                ///< Krylov iterations since then that new factors would have spared
   bool doubted = false;         ///< a round without it was tried
   bool suspended = false;       ///< such a round goes on
-  bool learning_tried = false;  ///< see Learning
+  bool learning_tried = false;  ///< and there is no more to be had; see Learning
+  bool pattern_known = false;   ///< of the Jacobian to be learnt
+  int groups = 0;               ///< products that it then costs; 0: not known
+  int next_try = 0;             ///< evaluations before another
 
   template <class Visitor>
   void for_each_field(Visitor& visit) {
@@ -182,6 +197,9 @@ struct PreconditionerCourse {
     visit(doubted);
     visit(suspended);
     visit(learning_tried);
+    visit(pattern_known);
+    visit(groups);
+    visit(next_try);
   }
 };
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "strategy.hpp"
@@ -15,6 +16,28 @@ constexpr double radius_growth = 4.0;
 
 // Parabola and dogleg give up at this part of the full step: what is gained there is not progress.
 constexpr double least_fraction = 1e-6;
+
+// After a step that left the domain the next one is at most so many times as long at first.
+constexpr double growth_at_edge = 2.0;
+
+/// The longest step worth a try, by where the domain ended last; none known: infinite.
+double reach(const Solve& solve) {
+  const double feasible = solve.course.newton.feasible;
+  return feasible > 0.0 ? growth_at_edge * feasible : std::numeric_limits<double>::infinity();
+}
+
+/// Remembers how long a step was in the end, if it had to be cut by the domain; a whole one tells
+/// that the edge is no more near.
+void remember_domain(Solve& solve, double step_norm, bool whole) {
+  NewtonCourse& course = solve.course.newton;
+  if (course.left_domain > 0) {
+    course.feasible = step_norm;
+  } else if (whole) {
+    course.feasible = 0.0;
+  } else if (course.feasible > 0.0) {
+    course.feasible = std::max(course.feasible, step_norm);
+  }
+}
 
 /// What a trial must not exceed: the highest of the last norms.
 double yardstick(const Solve& solve) {
@@ -81,8 +104,12 @@ class SlopeTest {
 
 Outcome look(Solve& solve, int cut) {
   Workspace& work = solve.work;
-  return solve.evaluator.evaluate(work.trial,
-                                  cut == 0 ? &Counts::newton_trials : &Counts::line_search);
+  int& left_domain = solve.course.newton.left_domain;
+  if (cut == 0) left_domain = 0;
+  const Outcome outcome = solve.evaluator.evaluate(
+      work.trial, cut == 0 ? &Counts::newton_trials : &Counts::line_search);
+  if (outcome == Outcome::out_of_domain) ++left_domain;
+  return outcome;
 }
 
 Ending refused(Outcome outcome) {
@@ -123,8 +150,9 @@ Ending search_line(Solve& solve, Iteration& line) {
   const double gain = rule.sufficient_decrease * (1.0 - rho);
   const double highest = yardstick(solve);
   SlopeTest test(work.base.norm);
-  double lambda = 1.0;
-  double last = 1.0;
+  const double first = std::min(1.0, reach(solve) / direction_norm);
+  double lambda = first;
+  double last = first;
   for (int cut = 0; cut <= rule.max_cuts; ++cut) {
     last = lambda;
     work.trial.u = work.base.u + last * work.direction;
@@ -136,6 +164,7 @@ Ending search_line(Solve& solve, Iteration& line) {
     if (outcome == Outcome::ok && falls) {
       take_trial(solve, lambda, line);
       line.step_norm = lambda * direction_norm;
+      remember_domain(solve, line.step_norm, lambda == 1.0);
       return Ending::go_on;
     }
     const double predicted = work.base.norm * (1.0 - lambda * (1.0 - rho));
@@ -178,8 +207,9 @@ Ending search_dogleg(Solve& solve, Iteration& line) {
       if (ratio < poor) {
         course.newton.radius = rule.greatest_cut * length;
       } else if (ratio > good || cut == 0) {
+        const double growth = course.newton.left_domain > 0 ? growth_at_edge : radius_growth;
         course.newton.radius = std::max(course.newton.radius > 0.0 ? course.newton.radius : full,
-                                        (ratio > good ? radius_growth : 1.0) * length);
+                                        (ratio > good ? growth : 1.0) * length);
       } else {
         course.newton.radius = length;
       }
@@ -201,13 +231,15 @@ Ending take_whole_step(Solve& solve, Iteration& line) {
   Workspace& work = solve.work;
   const Globalisation& rule = solve.options.globalisation;
   solve.evaluator.filter(work.base.u, work.direction);
-  double lambda = 1.0;
+  const double direction_norm = solve.evaluator.product().norm(work.direction);
+  double lambda = std::min(1.0, reach(solve) / direction_norm);
   for (int cut = 0; cut <= rule.max_cuts; ++cut) {
     work.trial.u = work.base.u + lambda * work.direction;
     const Outcome outcome = look(solve, cut);
     if (outcome == Outcome::stopped || outcome == Outcome::limit) return refused(outcome);
     if (outcome == Outcome::ok) {
-      line.step_norm = lambda * solve.evaluator.product().norm(work.direction);
+      line.step_norm = lambda * direction_norm;
+      remember_domain(solve, line.step_norm, lambda == 1.0);
       take_trial(solve, lambda, line);
       return Ending::go_on;
     }

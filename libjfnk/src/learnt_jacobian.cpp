@@ -18,42 +18,29 @@ bool has_gap(const Eigen::SparseMatrix<double>& matrix) {
   return std::find(occupied.begin(), occupied.end(), false) != occupied.end();
 }
 
+int number_of(const std::vector<int>& groups) {
+  return *std::max_element(groups.begin(), groups.end()) + 1;
+}
+
 }  // namespace
 
 void LearntJacobian::reset(Eigen::Index n) {
   n_ = n;
-  diagonals_.assign(1, 0);
+  pattern_.reset(n);
   group_of_.clear();
   groups_ = 0;
   matrix_.resize(0, 0);
   shift_ = 0.0;
 }
 
-bool LearntJacobian::learn_column(Eigen::Index j, const Vector& column) {
-  const std::size_t known = diagonals_.size();
-  for (Eigen::Index i = 0; i < n_; ++i) {
-    if (column[i] == 0.0) continue;
-    for (const Eigen::Index diagonal : {i - j, j - i}) {
-      const auto place = std::lower_bound(diagonals_.begin(), diagonals_.end(), diagonal);
-      if (place == diagonals_.end() || *place != diagonal) diagonals_.insert(place, diagonal);
-    }
-  }
-  return diagonals_.size() > known;
+void LearntJacobian::group_columns() {
+  matrix_ = pattern_.matrix();
+  group_of_ = colour_columns(matrix_);
+  groups_ = number_of(group_of_);
 }
 
-void LearntJacobian::group_columns() {
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(n_) * diagonals_.size());
-  for (Eigen::Index column = 0; column < n_; ++column) {
-    for (const Eigen::Index diagonal : diagonals_) {
-      const Eigen::Index row = column + diagonal;
-      if (row >= 0 && row < n_) entries.emplace_back(row, column, 0.0);
-    }
-  }
-  matrix_.resize(n_, n_);
-  matrix_.setFromTriplets(entries.begin(), entries.end());
-  group_of_ = colour_columns(matrix_);
-  groups_ = *std::max_element(group_of_.begin(), group_of_.end()) + 1;
+int LearntJacobian::groups_to_come() const {
+  return number_of(colour_columns(pattern_.matrix()));
 }
 
 void LearntJacobian::write_group(int group, Vector& v) const {

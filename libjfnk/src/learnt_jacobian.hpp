@@ -2,31 +2,28 @@
 
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
-#include <cstdint>
 #include <vector>
 
 #include "factor_cost.hpp"
 #include "jfnk/residual.hpp"
+#include "lattice_pattern.hpp"
 
 namespace jfnk::detail {
 
-/// A sparse Jacobian whose entries lie on few diagonals, as those of systems on lattices and chains
-/// do, numbered node by node or field by field.
-///
-/// Single columns of J tell which diagonals are occupied; the entries then follow from as many
-/// products as there are colours of columns without a common row. All in the solver's units.
+/// A sparse Jacobian whose entries are where a `LatticePattern` expects them; they follow from as
+/// many products as there are colours of columns without a common row. All in the solver's units.
 class LearntJacobian {
  public:
-  /// Forgets everything; for n unknowns. The main diagonal is known.
+  /// Forgets everything; for n unknowns.
   void reset(Eigen::Index n);
 
-  /// Learns from column j of J which diagonals are occupied; their mirror images count as well.
-  /// @param column  J e_j, n; zero where F does not depend on the unknown
-  /// @return whether any was new
-  bool learn_column(Eigen::Index j, const Vector& column);
+  /// Where entries are expected, to be learnt before `group_columns`.
+  [[nodiscard]] LatticePattern& pattern() { return pattern_; }
 
-  /// Groups the columns; after the last `learn_column`.
+  /// Groups the columns; after the last change of the pattern.
   void group_columns();
+  /// Groups that `group_columns` would make now.
+  [[nodiscard]] int groups_to_come() const;
   /// Groups of columns, each of which costs a product.
   [[nodiscard]] int groups() const { return groups_; }
   /// The sum of the unit vectors of a group, n.
@@ -45,18 +42,10 @@ class LearntJacobian {
   /// z = (J + shift I)^-1 r; after `factorise`.
   void apply(const Vector& r, Vector& z) const { z = factors_.solve(r); }
 
-  /// Calls `walk` on every number that decides what `apply` does, for saving and loading; `reset`
-  /// must have been called.
+  /// Calls `walk` on every number that decides what `apply` does, for saving and loading; the
+  /// pattern must have been walked before.
   template <class Walker>
   void for_each_field(Walker& walk) {
-    std::int64_t count = static_cast<std::int64_t>(diagonals_.size());
-    walk(count);
-    if (count < 1 || count > 2 * n_) count = 1;  // damaged, as the reader will find out
-    diagonals_.resize(static_cast<std::size_t>(count));
-    for (Eigen::Index& diagonal : diagonals_) {
-      walk(diagonal);
-      if (diagonal < -n_ || diagonal > n_) diagonal = 0;
-    }
     if (groups_ == 0) group_columns();
     for (Eigen::Index k = 0; k < matrix_.nonZeros(); ++k) walk(matrix_.valuePtr()[k]);
     walk(shift_);
@@ -66,8 +55,8 @@ class LearntJacobian {
 
  private:
   Eigen::Index n_ = 0;
-  std::vector<Eigen::Index> diagonals_;  // row - column, ascending
-  std::vector<int> group_of_;            // of each column
+  LatticePattern pattern_;
+  std::vector<int> group_of_;  // of each column
   int groups_ = 0;
   Eigen::SparseMatrix<double> matrix_;
   double shift_ = 0.0;

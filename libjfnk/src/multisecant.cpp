@@ -38,10 +38,16 @@ bool has_broyden(const Solve& solve) {
   return solve.options.multisecant.broyden && !solve.evaluator.preconditioner().is_identity();
 }
 
-/// H r = dU gamma + mixing P (r - dF gamma), gamma = argmin ||r - dF gamma||.
+/// H r = dU gamma + mixing P (r - dF gamma), gamma = argmin ||r - dF gamma||, or of P times that.
 void invert_by_least_squares(Solve& solve, const Vector& r, Vector& z) {
   Workspace& work = solve.work;
   Vector& remainder = work.evaluator.probe;
+  if (in_preconditioned_norm(solve)) {
+    solve.evaluator.precondition(r, work.direction);
+    work.secants.project(work.direction, z, remainder, solve.evaluator.product());
+    z = solve.course.multisecant.mixing * remainder - z;
+    return;
+  }
   work.secants.project(r, z, remainder, solve.evaluator.product());
   solve.evaluator.precondition(remainder, work.direction);
   z = solve.course.multisecant.mixing * work.direction - z;
@@ -143,7 +149,10 @@ double move(Solve& solve, Iteration& line) {
   Vector& difference = work.evaluator.probe;
   difference = work.base.r - work.trial.r;
   const double change = product.norm(difference);
-  work.secants.add(work.step, difference, solve.options.multisecant.max_condition, product);
+  const bool by_image = in_preconditioned_norm(solve);
+  if (by_image) solve.evaluator.precondition(difference, work.direction);
+  work.secants.add(work.step, by_image ? work.direction : difference,
+                   solve.options.multisecant.max_condition, product);
   return change;
 }
 
@@ -200,6 +209,13 @@ bool adapts_to_noise(Solve& solve, Ending& ending) {
 
 }  // namespace
 
+bool in_preconditioned_norm(const Solve& solve) {
+  // Of learnt factors it is known that they were the inverse Jacobian: P F is then the error.
+  return (solve.options.multisecant.preconditioned_norm &&
+          !solve.evaluator.preconditioner().is_identity()) ||
+         solve.evaluator.preconditioned_by_learning();
+}
+
 void begin_multisecant(Solve& solve) {
   Course& course = solve.course;
   const bool alone = solve.options.method == Method::multisecant;
@@ -216,7 +232,11 @@ void begin_multisecant(Solve& solve) {
   course.multisecant.mark = solve.work.best.norm;
   course.multisecant.last_fall = solve.evaluations();
   solve.work.broyden.clear();
-  if (solve.options.multisecant.renew && solve.work.gmres.can_shorten()) renew_memory(solve);
+  if (in_preconditioned_norm(solve)) {
+    solve.work.secants.clear();  // the preconditioner may be another by now
+  } else if (solve.options.multisecant.renew && solve.work.gmres.can_shorten()) {
+    renew_memory(solve);
+  }
 }
 
 Ending multisecant_step(Solve& solve) {

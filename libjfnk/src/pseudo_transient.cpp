@@ -20,6 +20,8 @@ constexpr int max_cuts = 12;
 constexpr double hardly_any = 1e-6;
 constexpr int most_idle_steps = 8;
 constexpr double linear_tolerance = 0.1;
+// Beyond this times its first ||F|| the flow runs away.
+constexpr double far_away = 1e3;
 
 /// With the learnt Jacobian: factors of J + shift I, J as new as that pays.
 Ending renew_shifted_factors(Solve& solve, double shift) {
@@ -97,7 +99,8 @@ Ending pseudo_transient_step(Solve& solve) {
         std::swap(work.base, work.trial);
         ++solve.report.pseudo_transient_steps;
         const Ending ending = solve.accept_base(line);
-        const bool given_up = course.transient.idle_steps >= most_idle_steps;
+        const bool given_up = course.transient.idle_steps >= most_idle_steps ||
+                              work.base.norm > far_away * course.stage.start_norm;
         return ending == Ending::go_on && given_up ? Ending::transient_failed : ending;
       }
     }

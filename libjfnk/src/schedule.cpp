@@ -47,14 +47,26 @@ void begin_without_preconditioner(Solve& solve) {
   begin_multisecant(solve);
 }
 
-/// The preconditioner fits where it was set up: a round without it that failed is undone.
+/// The preconditioner fits where it was set up: a round without it that failed is undone, unless it
+/// came far.
 void end_without_preconditioner(Solve& solve) {
+  constexpr double far = 0.1;
   Course& course = solve.course;
   course.preconditioner.suspended = false;
   course.multisecant.mixing_known = false;
   solve.evaluator.resume_preconditioner();
   solve.work.secants.clear();
-  solve.undo_round();
+  if (solve.work.best.norm <= far * solve.work.aside.norm) {
+    solve.return_to_best();
+  } else {
+    solve.undo_round();
+  }
+}
+
+/// The caller's preconditioner about work.base.
+void set_up(Solve& solve) {
+  solve.work.setup_point = solve.work.base.u;
+  solve.evaluator.setup(solve.work.base.u);
 }
 
 /// The next round, or the last Newton steps.
@@ -108,27 +120,6 @@ bool try_first_point_by_lines(Solve& solve) {
   return true;
 }
 
-/// Last of all, where there are factors that can be had anew at each step: full steps from the
-/// first point, without regard to ||F||, as semismooth systems want them.
-bool try_full_steps(Solve& solve) {
-  Course& course = solve.course;
-  Workspace& work = solve.work;
-  const bool renewable = work.evaluator_state.learnt || solve.evaluator.caller_can_set_up();
-  if (!solve.options.stagnation.restart || course.rescue.full_steps_tried || !renewable ||
-      solve.options.globalisation.rule == Globalisation::Rule::full_steps) {
-    return false;
-  }
-  course.rescue.full_steps_tried = true;
-  course.stage.round = solve.options.hybrid.rounds;
-  solve.evaluator.resume_preconditioner();
-  begin_newton(solve, final_newton_steps(solve.options));
-  work.base = work.first;
-  solve.evaluator.accept(work.base.u);
-  course.newton.by_lines = false;
-  course.newton.by_full_steps = true;
-  return true;
-}
-
 /// The plain method and its rescues, as if nothing had been learnt.
 void begin_unlearnt(Solve& solve) {
   solve.course.rescue.restarted = false;
@@ -138,14 +129,31 @@ void begin_unlearnt(Solve& solve) {
 
 /// With factors of the Jacobian itself another path is the better hope, and cheap.
 void rescue_with_learnt_factors(Solve& solve) {
-  if (!try_transient(solve) && !try_first_point_by_lines(solve)) begin_unlearnt(solve);
+  if (try_transient(solve)) return;
+  if (try_full_steps_amid_rescues(solve)) return;
+  if (!try_first_point_by_lines(solve)) begin_unlearnt(solve);
+}
+
+/// Whether two searches have come down to the same minimum of ||F||: another would, too. With
+/// learnt factors there are better hopes, and what looks like a minimum may be a kink.
+bool is_minimum_again(Solve& solve) {
+  constexpr double alike = 1e-6;
+  constexpr double down = 0.9;
+  RescueCourse& course = solve.course.rescue;
+  const double norm = solve.work.base.norm;
+  const bool at_minimum = solve.report.trouble == Trouble::minimum && course.trouble_norm == norm &&
+                          norm < down * solve.work.first.norm && !solve.work.evaluator_state.learnt;
+  if (!at_minimum) return false;
+  const bool again = std::abs(norm - course.minimum_norm) <= alike * norm;
+  course.minimum_norm = norm;
+  return again;
 }
 
 /// What is left when Newton has failed where it stands: another start, then another path.
 Ending rescue(Solve& solve, Ending failure) {
   Course& course = solve.course;
   if (course.rescue.newton_failure == Ending::go_on) course.rescue.newton_failure = failure;
-  if (course.newton.by_full_steps) return course.rescue.newton_failure;  // the last rescue
+  if (is_minimum_again(solve)) return failure;
   if (solve.evaluator.preconditioned_by_learning()) {
     rescue_with_learnt_factors(solve);
     return Ending::go_on;
@@ -155,12 +163,35 @@ Ending rescue(Solve& solve, Ending failure) {
     return Ending::go_on;
   }
   if (try_first_point_by_lines(solve) || try_transient(solve)) return Ending::go_on;
-  if (try_full_steps(solve)) return Ending::go_on;
+  if (try_full_steps_at_last(solve)) return Ending::go_on;
   return course.rescue.newton_failure;
+}
+
+/// Full steps have failed: the end if they were the last rescue, else the next round.
+Ending after_full_steps(Solve& solve) {
+  Course& course = solve.course;
+  const Ending failure = course.rescue.newton_failure;
+  if (course.rescue.last_full_steps) return failure;
+  course.newton.by_full_steps = false;
+  solve.return_to_best();
+  // The factors are of a point far off.
+  if (solve.evaluator.preconditioned_by_learning()) {
+    course.preconditioner.stale = solve.work.evaluator.learnt.groups();
+  } else {
+    set_up(solve);
+  }
+  if (failure != Ending::go_on) return rescue(solve, failure);
+  if (alone(solve)) {
+    begin_newton(solve, final_newton_steps(solve.options));
+  } else {
+    next_round(solve);
+  }
+  return Ending::go_on;
 }
 
 Ending after_newton(Solve& solve, Ending ending) {
   Course& course = solve.course;
+  if (course.newton.by_full_steps) return after_full_steps(solve);
   course.rescue.round_cost = solve.evaluations() - course.stage.start_evaluations;
   if (ending == Ending::schedule_done) {
     if (in_final_newton(solve)) return ending;
@@ -189,7 +220,7 @@ Ending after_pseudo_transient(Solve& solve) {
   const bool gained = solve.work.best.norm < solve.course.stage.start_norm;
   const bool learnt = solve.evaluator.preconditioned_by_learning();
   if (!gained && learnt) return rescue(solve, solve.course.rescue.newton_failure);
-  if (!gained && try_full_steps(solve)) return Ending::go_on;
+  if (!gained && try_full_steps_at_last(solve)) return Ending::go_on;
   if (!gained) return solve.course.rescue.newton_failure;
   if (learnt)
     solve.course.preconditioner.stale =
@@ -248,8 +279,7 @@ Ending renew_preconditioner(Solve& solve) {
       return Ending::go_on;
     }
   } else {
-    solve.work.setup_point = solve.work.base.u;
-    solve.evaluator.setup(solve.work.base.u);
+    set_up(solve);
   }
   course.preconditioner.setup_evaluations = solve.evaluations();
   course.preconditioner.setup_norm = solve.work.best.norm;
@@ -257,6 +287,7 @@ Ending renew_preconditioner(Solve& solve) {
   course.newton.radius = 0.0;  // it is measured through the preconditioner
   // as are Broyden's updates
   solve.work.broyden.clear();
+  if (in_preconditioned_norm(solve)) solve.work.secants.clear();
   course.multisecant.inverted = false;
   return Ending::go_on;
 }
@@ -296,6 +327,7 @@ Ending advance(Solve& solve) {
   if (wants_to_learn(solve)) {
     if (const Ending ending = learn(solve); ending != Ending::go_on) return ending;
   }
+  try_full_steps_early(solve);
   Ending ending = renew_preconditioner(solve);
   if (ending != Ending::go_on) return ending;
   switch (course.stage.kind) {

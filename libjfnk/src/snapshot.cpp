@@ -10,7 +10,7 @@ namespace detail {
 namespace {
 
 // First integer of a snapshot; raised when its fields change.
-constexpr std::int64_t snapshot_version = 4;
+constexpr std::int64_t snapshot_version = 5;
 
 struct Writer {
   Snapshot& out;
@@ -110,7 +110,7 @@ bool plausible_course(const Course& c) {
   const auto kept = static_cast<int>(c.newton.last_norms.size());
   return c.stage.kind >= Stage::multisecant && c.stage.kind < Stage::ended &&
          c.newton.last_norms_count >= 0 && c.newton.last_norms_count <= kept &&
-         c.stage.round >= 0 && c.stage.iterations >= 0;
+         c.stage.round >= 0 && c.stage.iterations >= 0 && c.preconditioner.groups >= 0;
 }
 
 /// Whether the counts can be those of a solve.
@@ -144,7 +144,8 @@ void walk_state(Walker& walk, Workspace& work, Course& course, Report& report) {
   walk(work.evaluator_state.noise);
   walk(work.evaluator_state.without_preconditioner);
   walk(work.setup_point);
-  if (work.evaluator_state.learnt) work.evaluator.learnt.for_each_field(walk);
+  if (course.preconditioner.pattern_known) walk(work.evaluator.learnt.pattern());
+  if (work.evaluator_state.learnt) walk(work.evaluator.learnt);
   work.secants.for_each_field(walk);
   work.broyden.for_each_field(walk);
   walk(work.by_least_squares);
@@ -206,10 +207,8 @@ void Solver::load(const Snapshot& snapshot) {
   detail::resize(m.work, n, std::max<std::int64_t>(n, capacity), m.options, setup_size > 0);
   m.work.secants.resize(n, static_cast<int>(capacity));
   m.work.setup_point.resize(setup_size);
-  if (learnt) {
-    m.work.evaluator.learnt.reset(n);
-    detail::use_learnt_jacobian(m.work, m.options);
-  }
+  m.work.evaluator.learnt.reset(n);
+  if (learnt) detail::use_learnt_jacobian(m.work, m.options);
   m.report.history.resize(static_cast<std::size_t>(lines));
   detail::walk_state(read, m.work, m.course, m.report);
   if (read.integer != snapshot.integers.size() || read.real != snapshot.reals.size() ||

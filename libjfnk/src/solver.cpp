@@ -170,6 +170,8 @@ Status status_of(Ending ending, const Report& report) {
     case Ending::transient_failed:
       return at_local_minimum(report) ? Status::local_minimum : Status::line_search_failed;
     case Ending::stagnated:
+      // Steps that the domain cuts to nothing are a search that fails, slowly.
+      if (report.trouble == Trouble::domain_edge) return Status::line_search_failed;
       return at_local_minimum(report) ? Status::local_minimum : Status::stagnated;
     case Ending::krylov_stalled:
       return report.trouble == Trouble::minimum ? Status::local_minimum : Status::krylov_stalled;

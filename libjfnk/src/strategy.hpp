@@ -73,6 +73,9 @@ struct LinearSolution {
 /// @param[out] ending  noise_floor if there is nothing to be had below it
 [[nodiscard]] bool adapt_to_noise(Solve& solve, Ending& ending);
 
+/// Whether the least squares of the multisecant stages are in the norm of P F.
+[[nodiscard]] bool in_preconditioned_norm(const Solve& solve);
+
 /// One iteration of each stage.
 [[nodiscard]] Ending multisecant_step(Solve& solve);
 [[nodiscard]] Ending newton_step(Solve& solve);
@@ -87,6 +90,14 @@ void begin_pseudo_transient(Solve& solve);
 
 /// Whether Newton steps are taken whole.
 [[nodiscard]] bool by_full_steps(const Solve& solve);
+
+/// Begins full steps from the first point if the last Newton step was cut short before anything has
+/// failed and the caller's preconditioner can be set up at each; watched closely.
+void try_full_steps_early(Solve& solve);
+/// The same among the rescues, with any factors that can be had anew; false if it was tried.
+[[nodiscard]] bool try_full_steps_amid_rescues(Solve& solve);
+/// The same as the last rescue, watched as the options say.
+[[nodiscard]] bool try_full_steps_at_last(Solve& solve);
 
 /// The rounds of multisecant and Newton from the best point, remembering nothing.
 void begin_rounds(Solve& solve);

@@ -39,6 +39,30 @@ TEST(Domain, NewtonHalvesAStepThatLeavesIt) {
   EXPECT_NEAR(u[0], 1.0, 1e-5);
 }
 
+TEST(Domain, ItsEdgeIsRememberedFromStepToStep) {
+  // Newton's steps for logarithms leave the domain again and again. The first one, 160 long from
+  // 20, is halved four times; every other one begins at twice what was left of the one before.
+  constexpr int first = 4;
+  using Rule = jfnk::Globalisation::Rule;
+  for (const Rule rule : {Rule::backtracking, Rule::parabola}) {
+    int refused = 0;
+    const auto F = [&](const Vector& u, Vector& r) {
+      if (!(u.minCoeff() > 0.0)) {
+        ++refused;
+        return false;
+      }
+      for (int i = 0; i < u.size(); ++i) r[i] = std::log(u[i]) - 0.3 * i + 5.0;
+      return true;
+    };
+    Options options = jfnk::newton_krylov();
+    options.globalisation.rule = rule;
+    Vector u = Vector::Constant(20, 20.0);
+    const Report report = solve(F, u, options);
+    EXPECT_TRUE(report.converged()) << report.reason;
+    EXPECT_LE(refused, first + report.newton_iterations);
+  }
+}
+
 TEST(Domain, NanIsTreatedAsARefusal) {
   const auto F = [](const Vector& u, Vector& r) { r = u.array().log(); };
   Vector u = Vector::LinSpaced(6, 0.2, 9.0);

@@ -216,4 +216,33 @@ TEST(Endings, UnknownsFarApartAreAHintAtScales) {
   EXPECT_TRUE(report.converged()) << report.reason;
 }
 
+TEST(Endings, AMinimumThatTwoSearchesEndInIsTheEnd) {
+  // A hundred is what the two of them take; the third, by a flow that runs away, took as many
+  // again.
+  for (const int n : {1, 5}) {
+    const auto F = [](const Vector& u, Vector& r) { r = u.array().square() + 1.0; };
+    for (const Options& options : {jfnk::hybrid(), jfnk::newton_krylov()}) {
+      Vector u = Vector::Constant(n, 1.3);
+      const Report report = jfnk::solve(F, u, options);
+      EXPECT_EQ(report.status, Status::local_minimum) << report.reason;
+      EXPECT_EQ(report.trouble, Trouble::minimum);
+      EXPECT_LE(report.counts.total(), 110);
+      EXPECT_LT(u.cwiseAbs().maxCoeff(), 0.01);
+    }
+  }
+}
+
+TEST(Endings, AFlowThatRunsAwayIsLeft) {
+  // u' = -F(u) with F > 0 goes to minus infinity, where F grows, too.
+  const auto F = [](const Vector& u, Vector& r) { r = u.array().square() + 1.0; };
+  Options options = jfnk::newton_krylov();
+  options.stagnation.restart = false;
+  Vector u = Vector::Constant(1, 1.3);
+  const Report report = jfnk::solve(F, u, options);
+  EXPECT_EQ(report.status, Status::local_minimum) << report.reason;
+  // Each step multiplies ||F|| by 1.3 or more, up to a thousand: ln 1000 / ln 1.3 = 27.
+  EXPECT_GT(report.pseudo_transient_steps, 0);
+  EXPECT_LE(report.pseudo_transient_steps, 27);
+}
+
 }  // namespace

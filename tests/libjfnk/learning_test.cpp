@@ -34,7 +34,8 @@ Report solve_from(F&& residual, Vector u, const Options& options, P&& preconditi
 void learn(LearntJacobian& learnt, const Sparse& matrix,
            std::initializer_list<Eigen::Index> columns) {
   learnt.reset(matrix.cols());
-  for (const Eigen::Index j : columns) learnt.learn_column(j, matrix.col(j));
+  jfnk::detail::LatticePattern& pattern = learnt.pattern();
+  for (const Eigen::Index j : columns) pattern.learn(pattern.read(j, matrix.col(j), matrix.cols()));
   learnt.group_columns();
   Vector v(matrix.cols());
   for (int group = 0; group < learnt.groups(); ++group) {
@@ -83,6 +84,31 @@ TEST(LearntJacobian, KnowsFieldsNumberedNodeByNodeOrOneAfterTheOther) {
     LearntJacobian learnt;
     learn(learnt, matrix, {20, 41});
     EXPECT_LT((learnt.multiply(x) - matrix * x).norm(), 1e-13 * (matrix * x).norm());
+  }
+}
+
+TEST(LearntJacobian, TellsColumnsOfOneProductApart) {
+  // The first differences of a ring and of the line that it is cut into.
+  const int n = 40;
+  for (const bool ring : {true, false}) {
+    Sparse matrix(n, n);
+    for (int i = 0; i < n; ++i) {
+      matrix.insert(i, i) = 3.0;
+      if (ring || i > 0) matrix.insert(i, (i + n - 1) % n) = -1.0;
+      if (ring || i + 1 < n) matrix.insert(i, (i + 1) % n) = -2.0;
+    }
+    Vector v = Vector::Zero(n);
+    for (const int j : {0, 10, 20, 30}) v[j] = 1.0;
+    const Vector product = matrix * v;
+    jfnk::detail::LatticePattern pattern;
+    pattern.reset(n);
+    for (const int j : {0, 10, 20, 30}) {
+      const auto column = pattern.read(j, product, 4);
+      EXPECT_EQ(pattern.width(column), 1);
+      EXPECT_EQ(column.offsets.size(), Vector(matrix.col(j)).cwiseAbs().count());
+      pattern.learn(column);
+    }
+    EXPECT_EQ(pattern.matrix().nonZeros(), matrix.nonZeros());
   }
 }
 
@@ -223,6 +249,107 @@ TEST(Learning, FindsTheRowsWhoseEntriesLieElsewhere) {
   EXPECT_TRUE(report.converged()) << report.reason;
   EXPECT_GT(report.counts.learning, 0);
   EXPECT_LT(report.counts.total(), plain.counts.total());
+}
+
+/// Bratu's equation on the nodes of a lattice that `inside` says yes to; the others are no
+/// unknowns.
+template <class Inside>
+class PartOfLattice {
+ public:
+  PartOfLattice(int m, double lambda, const Inside& inside)
+      : bratu_(m, lambda), whole_(m * m), images_(m * m) {
+    for (int k = 0; k < m * m; ++k) {
+      if (inside(k % m, k / m)) nodes_.push_back(k);
+    }
+  }
+  [[nodiscard]] int size() const { return static_cast<int>(nodes_.size()); }
+  void operator()(const Vector& u, Vector& r) {
+    whole_.setZero();
+    whole_(nodes_) = u;
+    bratu_(whole_, images_);
+    r = images_(nodes_);
+  }
+
+ private:
+  Bratu bratu_;
+  std::vector<int> nodes_;
+  Vector whole_;
+  Vector images_;
+};
+
+TEST(Learning, SeesWhereEliminatedUnknownsShiftDiagonals) {
+  // Every row of nodes across the hole is of another length.
+  const int m = 40;
+  PartOfLattice F(m, 6.0, [](int i, int j) { return std::hypot(i - 19.5, j - 19.5) > 8.0; });
+  const Report plain = solve_from(F, Vector::Zero(F.size()), without_learning());
+  const Report report = solve_from(F, Vector::Zero(F.size()), Options{});
+  ASSERT_TRUE(report.converged()) << report.reason;
+  EXPECT_GT(report.counts.learning, 0);
+  EXPECT_LT(report.counts.total(), plain.counts.total());
+}
+
+TEST(Learning, IsTriedAgainWhereItHasComeToPay) {
+  // Factors are dear here, and few evaluations seem to be left at first; then secants fail.
+  const Bratu bratu(32, 6.0);
+  const Vector start = Vector::Zero(32 * 32);
+  Options options;
+  options.tolerances.relative = 1e-10;
+  options.multisecant.patience = 4;
+  options.learning.operations = 2.0;
+  jfnk::Solver solver(options);
+  std::vector<int> learnt;
+  jfnk::Snapshot between;
+  for (bool more = solver.start(bratu, start); more; more = solver.step(bratu)) {
+    const int count = solver.report().counts.learning;
+    if (learnt.empty() || learnt.back() != count) learnt.push_back(count);
+    if (learnt.size() == 2) between = solver.save();
+  }
+  ASSERT_TRUE(solver.report().converged()) << solver.report().reason;
+  // A point off the base and three columns; then, by the diagonals of before, products alone: five
+  // entries of a row want five groups at least, and one product tests them.
+  ASSERT_GE(learnt.size(), 3U);
+  EXPECT_EQ(learnt[1], 4);
+  EXPECT_GE(learnt[2] - learnt[1], 6);
+  EXPECT_LE(learnt[2] - learnt[1], 10);
+  options.learning.enabled = false;
+  const Report plain = solve_from(bratu, start, options);
+  EXPECT_LT(2 * solver.report().counts.total(), plain.counts.total());
+  // What is known between the tries goes through a snapshot.
+  options.learning.enabled = true;
+  jfnk::Solver other(options);
+  other.load(between);
+  while (other.step(bratu)) {
+  }
+  EXPECT_EQ(other.report().counts.total(), solver.report().counts.total());
+  EXPECT_TRUE((other.solution().array() == solver.solution().array()).all());
+}
+
+TEST(Learning, TakesFactorsThatExplainMostOfTheJacobian) {
+  // The last of the rows is held here and there, so that its unknowns are out of step: the few
+  // rows that see them are wrong, which is no reason to pay for all diagonals.
+  const int m = 20;
+  PartOfLattice F(m, 6.0, [](int i, int j) { return j + 1 < m || i % 3 == 0; });
+  const Report report = solve_from(F, Vector::Zero(F.size()), Options{});
+  ASSERT_TRUE(report.converged()) << report.reason;
+  // As for the whole lattice, twice.
+  EXPECT_GT(report.counts.learning, 0);
+  EXPECT_LE(report.counts.learning, 2 * 15);
+  EXPECT_LE(report.counts.total(), 2 * 35);
+}
+
+TEST(Learning, ItsSecantsAreInTheNormOfPF) {
+  // Whether or not that is asked for, bit for bit.
+  const Bratu bratu(24, 6.5);
+  Vector u[2];
+  for (const bool asked : {false, true}) {
+    Options options;
+    options.multisecant.preconditioned_norm = asked;
+    u[asked] = Vector::Zero(24 * 24);
+    const Report report = jfnk::solve(bratu, u[asked], options);
+    EXPECT_TRUE(report.converged()) << report.reason;
+    EXPECT_GT(report.counts.learning, 0);
+  }
+  EXPECT_TRUE((u[0].array() == u[1].array()).all());
 }
 
 TEST(Learning, RespectsScalesAndBounds) {

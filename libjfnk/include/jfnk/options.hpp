@@ -157,6 +157,11 @@ struct Multisecant {
   /// y) and was smaller there than by least squares. Costs three applications of the preconditioner
   /// per iteration instead of one, and twice the memory.
   bool broyden = true;
+  /// With a preconditioner P, let gamma minimise ||P (F - dF gamma)|| instead of ||F - dF gamma||,
+  /// as KINSOL's Anderson does on u - P F. Suits flows and contact, where P F is an error and F is
+  /// not; all else is still judged by ||F||. Costs another application of P per iteration. Done
+  /// with learnt factors in any case.
+  bool preconditioned_norm = false;
   /// After Newton steps begin with the Krylov space of the last one instead of the pairs of before.
   bool renew = true;
   /// Halvings towards the best point after leaving the domain of F. Range [0, inf).
@@ -199,11 +204,11 @@ struct PseudoTransient {
 /// Whether and when Method::hybrid learns the Jacobian of an F on a lattice, where there is no
 /// preconditioner or none that helps any more.
 ///
-/// A few unknowns, moved one by one, show which components of F depend on them; how far off in the
-/// index these are tells which diagonals of J are occupied. If the diagonals are few, as on grids
-/// and chains whose nodes are numbered in order, J follows from some ten products J v (Curtis,
-/// Powell & Reid 1974). Its sparse LU factors are the preconditioner, renewed where that pays. F
-/// must not depend on an unknown by rounding alone. Not for residuals on several processes.
+/// Unknowns that are moved, far from each other, show which components of F depend on them; how far
+/// off in the index these are tells which diagonals of J are occupied. If the diagonals are few, as
+/// on grids and chains whose nodes are numbered in order, J follows from some ten products J v
+/// (Curtis, Powell & Reid 1974). Its sparse LU factors are the preconditioner, renewed where that
+/// pays. F must not depend on an unknown by rounding alone. Not for residuals on several processes.
 struct Learning {
   bool enabled = true;
   /// Evaluations before, without and with a preconditioner of the caller's (or its first failure).

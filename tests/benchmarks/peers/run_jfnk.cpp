@@ -19,6 +19,7 @@ std::string purposes(const jfnk::Report& report) {
   if (c.pseudo_transient > 0) {
     text += ", " + std::to_string(c.pseudo_transient) + " pseudo-transient";
   }
+  if (c.learning > 0) text += ", " + std::to_string(c.learning) + " to learn";
   if (c.noise > 0) text += ", " + std::to_string(c.noise) + " noise";
   if (!report.converged()) text += ": " + std::string(jfnk::to_string(report.status));
   return text;
