@@ -48,6 +48,19 @@ TEST(Slope, ThatIsGentleHasTheSpiralsFactorAboveItsLowerBound) {
   EXPECT_GT(*found.lower, spiral * (1.0 - 2.0 * options().gap));
 }
 
+// What next to no cohesion carries beside friction is all or nothing: the multiplier of the weights
+// falls from no end to next to nothing within a few hundredths of the factor.
+TEST(Slope, OfNextToNoCohesionIsCertifiedOnBothSides) {
+  const auto problem = shipped("slope_gentle", {"material.soil.cohesion=50"});
+  ASSERT_TRUE(problem);
+  const bracket::Solution found = bracket::solution_of(problem->associated, options(), {});
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_TRUE(found.bracket.reached);
+  // Friction alone holds a skin of the face.
+  EXPECT_GT(*found.upper, 2.0 * std::tan(25.0 * std::numbers::pi / 180.0));
+  EXPECT_LT(*found.lower, *found.upper);
+}
+
 TEST(Slope, KeepsToItsBudgetAndSaysWhatWasCertified) {
   const auto problem = shipped("slope_gentle");
   ASSERT_TRUE(problem);
