@@ -255,6 +255,10 @@ problem::Units units_of(const problem::Problem& problem, double length) {
                (surcharge + unit_weight * length) * std::sin(soil.friction_angle)) /
               static_cast<double>(problem.soils.size());
   }
+  // Clay that just stands has a fifth or so of the weight of the whole height, two lengths: divided
+  // by the factor, the strength is no less, however soft it is.
+  constexpr double of_weight = 0.36;
+  if (problem.most_multiplier) stress = std::max(stress, of_weight * live_stress(problem, length));
   problem::Units units{length, stress, 1.0 / live_stress(problem, length)};
   return units;
 }

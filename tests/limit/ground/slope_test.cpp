@@ -59,11 +59,29 @@ TEST(Slope, OfNextToNoCohesionIsCertifiedOnBothSides) {
   // From a start at all of the load, centring does not end at many of the factors.
   for (const bracket::Attempt& attempt : found.bracket.attempts) {
     EXPECT_NE(attempt.status, solver::SolverStatus::capped);
-    EXPECT_NE(attempt.status, solver::SolverStatus::failed);
   }
   // Friction alone holds a skin of the face.
   EXPECT_GT(*found.upper, 2.0 * std::tan(25.0 * std::numbers::pi / 180.0));
   EXPECT_LT(*found.lower, *found.upper);
+}
+
+// Without friction the factor is in proportion to the cohesion, and no harder to find.
+TEST(Slope, OfSoftClayIsAsEasyAsOneOfHardClay) {
+  std::vector<bracket::Solution> found;
+  for (const char* cohesion : {"material.soil.cohesion=20e3", "material.soil.cohesion=20"}) {
+    const auto problem = shipped("slope_gentle", {"material.soil.friction_angle=0", cohesion});
+    ASSERT_TRUE(problem);
+    found.push_back(bracket::solution_of(problem->associated, options(), {}));
+    ASSERT_TRUE(found.back().bracket.reached);
+  }
+  EXPECT_LT(*found[1].lower, *found[0].upper / 1e3);
+  EXPECT_GT(*found[1].upper, *found[0].lower / 1e3);
+  const auto iterations = [](const bracket::Solution& solution) {
+    int sum = 0;
+    for (const bracket::Attempt& attempt : solution.bracket.attempts) sum += attempt.iterations;
+    return sum;
+  };
+  EXPECT_LT(iterations(found[1]), 2 * iterations(found[0]));
 }
 
 TEST(Slope, KeepsToItsBudgetAndSaysWhatWasCertified) {
