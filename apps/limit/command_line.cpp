@@ -47,7 +47,9 @@ constexpr std::string_view examples =
     "  fpm-limit --strip --c 1e4 --smooth --gap 1% --json limit.json\n"
     "  fpm-limit share/scenes/limit/slope_safety.toml --set material.soil.cohesion=12e3\n"
     "\n"
-    "Any consistent units do: with kPa, m and kN/m3 the answer is in kPa.\n"
+    "Any consistent units do, nothing is converted: the table [units] of a scene of polygons and\n"
+    "--units of --strip name those that are printed, Pa and m by default. Unit weights are stress\n"
+    "over length: kPa/m is kN/m3, psf/ft is pcf.\n"
     "\n"
     "Exit codes: 0 certified and as close as asked, 1 internal error, 2 input refused,\n"
     "3 certified but wider than asked (the bounds are printed), or not certified.\n";
@@ -72,9 +74,11 @@ po::options_description options() {
       ("surcharge", po::value<double>()->value_name("PA")->default_value(0.0, "0"),
        "pressure on the surface beside the footing")  //
       ("half-width", po::value<double>()->value_name("M")->default_value(1.0, "1"),
-       "half the width of the footing")                                        //
-      ("rough", po::bool_switch(), "base with the soil's strength (default)")  //
-      ("smooth", po::bool_switch(), "base without shear stress")               //
+       "half the width of the footing")  //
+      ("units", po::value<std::string>()->value_name("STRESS,LENGTH")->default_value("Pa,m"),
+       "what the numbers of --strip are in, to be printed; e.g. kPa,m or psf,ft")  //
+      ("rough", po::bool_switch(), "base with the soil's strength (default)")      //
+      ("smooth", po::bool_switch(), "base without shear stress")                   //
       ("no-tension", po::bool_switch(),
        "the footing (of --strip or of a scene of fpm-run) may lift off; default: the soil holds it "
        "down, up to its strength")  //
@@ -150,6 +154,15 @@ problem::Strip strip_of(const po::variables_map& values) {
   return strip;
 }
 
+problem::UnitNames unit_names(const po::variables_map& values) {
+  const auto text = values["units"].as<std::string>();
+  const auto comma = text.find(',');
+  if (comma == 0 || comma == std::string::npos || comma + 1 == text.size()) {
+    throw UsageError(fmt::format("--units: found {}; allowed is STRESS,LENGTH, e.g. kPa,m", text));
+  }
+  return {text.substr(0, comma), text.substr(comma + 1)};
+}
+
 std::optional<problem::Box> box_of(const po::variables_map& values, const problem::Strip& strip) {
   if (values.count("box-width") == 0 && values.count("box-depth") == 0) return std::nullopt;
   problem::Box box = problem::box_of(strip);
@@ -176,7 +189,7 @@ Input input_of_strip(const po::variables_map& values) {
   const problem::Strip strip = strip_of(values);
   const std::optional<problem::Box> box = box_of(values, strip);
   Input input;
-  input.cases.associated = problem::strip_case(strip, box);
+  input.cases.associated = problem::strip_case(strip, box, unit_names(values));
   if (values.count("psi") == 0) return input;
   const double psi = values["psi"].as<double>() * degree;
   if (!(psi >= 0.0) || psi > strip.soil.friction_angle) {
@@ -185,7 +198,7 @@ Input input_of_strip(const po::variables_map& values) {
   if (psi == strip.soil.friction_angle) return input;
   problem::Strip weaker = strip;
   weaker.soil = problem::davis_reduced(strip.soil, psi);
-  input.cases.davis = problem::strip_case(weaker, box);
+  input.cases.davis = problem::strip_case(weaker, box, unit_names(values));
   // Both in the same units, for one report.
   input.cases.davis->units = input.cases.associated.units;
   return input;
@@ -225,7 +238,7 @@ std::optional<Input> input_of(const po::variables_map& values, std::ostream& err
   }
   if (scenes.size() > 1) throw UsageError(fmt::format("{}: one SCENE at a time", scenes[1]));
   for (const char* name : {"strip", "c", "phi", "psi", "gamma", "surcharge", "half-width", "rough",
-                           "smooth", "box-width", "box-depth"}) {
+                           "smooth", "box-width", "box-depth", "units"}) {
     if (values.count(name) == 0 || values[name].defaulted()) continue;
     throw UsageError(fmt::format("--{} and a SCENE exclude each other", name));
   }

@@ -80,10 +80,11 @@ void write_fields(const std::filesystem::path& file, const problem::Case& proble
       ratio.push_back(strength > 0.0 ? radius / strength : 1.0);
     }
   }
-  const std::vector<files::PointField> fields{{"stress", "Pa", 6, std::move(stress)},
-                                              {"principal_stresses", "Pa", 3, std::move(principal)},
-                                              {"principal_direction", "", 3, std::move(direction)},
-                                              {"yield_ratio", "", 1, std::move(ratio)}};
+  const std::vector<files::PointField> fields{
+      {"stress", problem.names.stress, 6, std::move(stress)},
+      {"principal_stresses", problem.names.stress, 3, std::move(principal)},
+      {"principal_direction", "", 3, std::move(direction)},
+      {"yield_ratio", "", 1, std::move(ratio)}};
   write_grid(file, points, fields, {.type = 5, .points = 3}, {});
 }
 

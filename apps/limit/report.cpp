@@ -76,8 +76,8 @@ ordered_json as_json(const problem::Case& problem, const bracket::Solution& solu
   if (bracket.lower) {
     const certificate::LowerCertificate& found = bracket.lower->certificate;
     json["lower_certificate"] = {
-        {"equilibrium_residual_Pa", found.residual * stress},
-        {"yield_excess_Pa", found.yield_excess * stress},
+        {"equilibrium_residual_" + problem.names.stress, found.residual * stress},
+        {"yield_excess_" + problem.names.stress, found.yield_excess * stress},
         {"shrink_factor", found.kept},
         {with_unit("before_shrinking", problem), found.proposed * multiplier}};
     json["lower_solver"] = as_json(problem, bracket.lower->attempt);
@@ -141,10 +141,11 @@ void say_certificates(std::string& text, const problem::Case& problem,
   if (bracket.lower) {
     const certificate::LowerCertificate& found = bracket.lower->certificate;
     fmt::format_to(out,
-                   "  stress field   {} triangles; equilibrium to {:.1e} Pa, yield excess before "
-                   "shrinking {:.1e} Pa, shrunk by {:.1e}\n",
+                   "  stress field   {} triangles; equilibrium to {:.1e} {}, yield excess before "
+                   "shrinking {:.1e} {}, shrunk by {:.1e}\n",
                    bracket.lower->mesh.triangles.size(), found.residual * stress,
-                   found.yield_excess * stress, 1.0 - found.kept);
+                   problem.names.stress, found.yield_excess * stress, problem.names.stress,
+                   1.0 - found.kept);
   }
   if (bracket.upper) {
     const certificate::UpperCertificate& found = bracket.upper->certificate;
@@ -218,7 +219,8 @@ std::string text_report(const problem::Case& problem, const Answer& answer,
   }
   if (!problem.hand.empty()) text += "By hand (none of them a bound):\n";
   for (const problem::HandFormula& formula : problem.hand) {
-    fmt::format_to(out, "  {:<30}{:>10.5g} Pa\n", formula.name, formula.pressure);
+    fmt::format_to(out, "  {:<30}{:>10.5g} {}\n", formula.name, formula.pressure,
+                   problem.names.stress);
   }
   return text;
 }
@@ -239,7 +241,7 @@ std::string json_report(const problem::Case& problem, const Answer& answer,
   json["assumptions"] = problem.assumptions;
   if (!problem.notes.empty()) json["notes"] = problem.notes;
   for (const problem::HandFormula& formula : problem.hand) {
-    json["hand_formulas_Pa"][formula.name] = formula.pressure;
+    json["hand_formulas_" + problem.names.stress][formula.name] = formula.pressure;
   }
   json["attempts"] = ordered_json::array();
   for (const bracket::Attempt& attempt : answer.found.bracket.attempts) {

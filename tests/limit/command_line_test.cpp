@@ -7,11 +7,15 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "support/temporary_folder.hpp"
+
 namespace {
 
 using program::ExitCode;
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Outcome {
   ExitCode code;
@@ -44,12 +48,35 @@ TEST(FpmLimit, RefusesWhatItCannotBracketWithTheReason) {
            {{"--strip", "--c", "1", "--box-depth", "inf"}, "box: found"},
            {{"--strip", "--c", "1", "--surchage", "1"}, "did you mean \"--surcharge\""},
            {{"--strip", "--c", "1", "--solver", "mosek"}, "--solver: found mosek"},
+           {{"--strip", "--c", "1", "--units", "psf"}, "--units: found psf"},
+           {{FPM_SHARE_DIR "/scenes/footing.toml", "--units", "kPa,m"}, "exclude each other"},
            {{"--strip", "--c", "1", "--max-triangles", "0"}, "--max-triangles: found 0"}}) {
     const Outcome refused = run(arguments);
     EXPECT_EQ(refused.code, ExitCode::input_refused) << reason;
     EXPECT_THAT(refused.err, HasSubstr(reason));
     EXPECT_EQ(refused.out, "");
   }
+}
+
+// Nothing is converted: what is named is printed, and no other unit is.
+void expect_pounds_and_feet(const std::vector<std::string>& arguments,
+                            const std::filesystem::path& file) {
+  const Outcome done = run(arguments);
+  EXPECT_THAT(done.out, AllOf(HasSubstr(" psf"), HasSubstr(" psf/ft")));
+  std::stringstream json;
+  json << std::ifstream(file).rdbuf();
+  EXPECT_EQ(nlohmann::json::parse(json.str())["unit"], "psf");
+  for (const std::string& text : {done.out, json.str()}) {
+    EXPECT_THAT(text, Not(AnyOf(HasSubstr(" Pa"), HasSubstr("_Pa"), HasSubstr("N/m3")))) << text;
+  }
+}
+
+TEST(FpmLimit, PrintsTheUnitsThatAreNamed) {
+  const support::TemporaryFolder folder;
+  const auto file = folder.path() / "limit.json";
+  expect_pounds_and_feet({"--strip", "--c", "200", "--gamma", "110", "--half-width", "4", "--gap",
+                          "20%", "--units", "psf,ft", "--json", file.string()},
+                         file);
 }
 
 // Whatever a scene lacks is the user's matter, with file, line and key; what an invalid argument

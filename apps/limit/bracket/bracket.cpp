@@ -18,12 +18,15 @@ Bracket bracket(problem::Problem lower, problem::Problem upper, const BracketOpt
   };
   Bracket result;
   Side below(std::move(lower), true), above(std::move(upper), false);
+  // What fails on one mesh after the other is not for solvers.
+  constexpr int most_failures = 4;
   below.attempt(result, remaining(), watch);
   above.attempt(result, remaining(), watch);
   while (result.gap() > options.gap && spent() < options.max_seconds) {
     std::vector<Side*> sides;
     for (Side* side : {&below, &above}) {
-      if (side->can_refine() && side->triangles() < options.max_triangles) sides.push_back(side);
+      if (!side->can_refine() || side->failures() >= most_failures) continue;
+      if (side->triangles() < options.max_triangles) sides.push_back(side);
     }
     if (sides.empty()) break;
     Side& next = **std::max_element(sides.begin(), sides.end(),

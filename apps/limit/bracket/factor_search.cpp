@@ -46,6 +46,12 @@ double FactorSearch::root() const {
   return std::exp(known.x + std::clamp(step, -farthest, farthest));
 }
 
+double FactorSearch::root_towards(bool carried, double share) const {
+  if (!carried_ || !failed_) return root();
+  const double end = carried ? carried_->x : failed_->x;
+  return std::exp((1.0 - share) * std::log(root()) + share * end);
+}
+
 double FactorSearch::width() const {
   if (!carried_ || !failed_) return std::numeric_limits<double>::infinity();
   return (failed_->x - carried_->x) / 2.0;

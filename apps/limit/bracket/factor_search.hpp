@@ -19,6 +19,10 @@ class FactorSearch {
   /// The factor at which the multiplier should be one; the first one if nothing is known.
   [[nodiscard]] double root() const;
 
+  /// The root moved by a share of the way to the factor, of those that enclose it, that is carried
+  /// or is not; the root itself unless it is enclosed.
+  [[nodiscard]] double root_towards(bool carried, double share) const;
+
   /// How far the root may be from the nearer of the two factors that enclose it, as a share of it;
   /// infinite unless it is enclosed.
   [[nodiscard]] double width() const;

@@ -61,7 +61,11 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
   const double began = processor_seconds();
   const programme::ConeProgram program = is_lower_ ? programme::lower_bound_program(problem_)
                                                    : programme::upper_bound_program(problem_);
-  const std::vector<solver::ConeForm> forms = forms_of(is_lower_, options.engine);
+  std::vector<solver::ConeForm> forms = forms_of(is_lower_, options.engine);
+  std::erase_if(forms, [&](solver::ConeForm form) {
+    return std::find(given_up_.begin(), given_up_.end(), form) != given_up_.end();
+  });
+  ++failures_;
   for (const solver::ConeForm form : forms) {
     solver::SolverOptions solver;
     solver.form = form;
@@ -83,8 +87,12 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
     attempt.seconds = processor_seconds() - start;
     bracket.attempts.push_back(attempt);
     if (watch) watch(attempt);
-    const bool is_over = solution.status == solver::SolverStatus::timed_out || !options.fall_back;
-    if (is_good(attempt, before) || is_over) break;
+    if (is_good(attempt, before)) {
+      failures_ = 0;
+      break;
+    }
+    if (form != forms.front()) given_up_.push_back(form);
+    if (solution.status == solver::SolverStatus::timed_out || !options.fall_back) break;
   }
   const std::optional<double> after = best(bracket);
   const double seconds = std::max(1e-3, processor_seconds() - began);

@@ -20,6 +20,8 @@ class Side {
   /// Relative gain per second of the last attempt; infinite as long as it is not known.
   [[nodiscard]] double promise() const { return promise_; }
   [[nodiscard]] bool can_refine() const { return !indicators_.empty(); }
+  /// Attempts in a row without a good answer.
+  [[nodiscard]] int failures() const { return failures_; }
   /// The same ground with other strengths, on the mesh as it is.
   void set_soils(const std::vector<problem::Soil>& soils);
 
@@ -27,7 +29,8 @@ class Side {
   void refine();
 
   /// Asks the solvers in turn until one has a good answer; what they certify is kept in the bracket
-  /// if it is better than what is there, and each attempt is noted.
+  /// if it is better than what is there, and each attempt is noted. A fall-back that has failed
+  /// here is not asked again: it costs many times what the first solver does.
   void attempt(Bracket& bracket, const BracketOptions& options,
                const std::function<void(const Attempt&)>& watch);
 
@@ -39,6 +42,8 @@ class Side {
   problem::Problem problem_;
   bool is_lower_;
   std::vector<double> indicators_;
+  std::vector<solver::ConeForm> given_up_;
+  int failures_ = 0;
   double promise_ = std::numeric_limits<double>::infinity();
 };
 

@@ -80,7 +80,7 @@ class Flank {
     // To the side on which the certificate decides, by less than what is asked for.
     const double aside = std::exp((is_lower_ ? -0.25 : 0.25) * near);
     for (int step = 0; step < most_steps && failures_ < most_failures; ++step) {
-      const double target = search_.root() * aside * nudge();
+      const double target = next_factor() * aside;
       const bool is_near = factor_ && std::abs(std::log(target / *factor_)) < near;
       if (is_near && step > 0) break;
       if (factor_ && 2.0 * search_.width() < near && is_near) break;
@@ -104,7 +104,9 @@ class Flank {
     Bracket found;
     BracketOptions once = options;
     // Another factor close by costs less than another solver, and mostly helps.
-    once.fall_back = failures_ > 1;
+    once.fall_back = failures_ > 2;
+    constexpr int enough = 300;  // what takes more, ends nowhere
+    once.max_iterations = std::min(once.max_iterations, enough);
     side_.attempt(found, once, watch);
     attempts.insert(attempts.end(), found.attempts.begin(), found.attempts.end());
     learn(factor, found);
@@ -114,10 +116,13 @@ class Flank {
  private:
   static constexpr int most_failures = 4;  // in a row
 
-  // Away from where a solver has just failed.
-  [[nodiscard]] double nudge() const {
-    constexpr double step = 0.004;
-    return 1.0 + (is_lower_ ? -step : step) * failures_;
+  // Away from where a solver has just failed, to the side on which an answer is a bound. Where next
+  // to no cohesion makes the multiplier of the loads a matter of all or nothing, solvers fail
+  // between the two, and what either side of them decides is all there is to know.
+  [[nodiscard]] double next_factor() const {
+    constexpr double step = 0.004, share = 0.2;
+    const double away = 1.0 + (is_lower_ ? -step : step) * failures_;
+    return search_.root_towards(is_lower_, share * failures_) * away;
   }
 
   void learn(double factor, const Bracket& found) {

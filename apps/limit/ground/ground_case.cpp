@@ -255,6 +255,10 @@ problem::Units units_of(const problem::Problem& problem, double length) {
                (surcharge + unit_weight * length) * std::sin(soil.friction_angle)) /
               static_cast<double>(problem.soils.size());
   }
+  // Clay that just stands has a fifth or so of the weight of the whole height, two lengths: divided
+  // by the factor, the strength is no less, however soft it is.
+  constexpr double of_weight = 0.36;
+  if (problem.most_multiplier) stress = std::max(stress, of_weight * live_stress(problem, length));
   problem::Units units{length, stress, 1.0 / live_stress(problem, length)};
   return units;
 }
@@ -304,9 +308,9 @@ bool is_unit_traction(const GroundScene& scene) {
 void describe(const GroundScene& scene, problem::Case& result) {
   for (const GroundMaterial& material : scene.materials) {
     result.data.emplace_back(
-        material.name,
-        fmt::format("c = {:g} Pa, phi = {:g} deg, {:g} N/m3", material.soil.cohesion,
-                    material.soil.friction_angle / degree, material.soil.unit_weight));
+        material.name, fmt::format("c = {:g} {}, phi = {:g} deg, {:g} {}", material.soil.cohesion,
+                                   scene.units.stress, material.soil.friction_angle / degree,
+                                   material.soil.unit_weight, scene.units.unit_weight()));
   }
   switch (scene.load.sought) {
     case Sought::footing:
@@ -316,7 +320,8 @@ void describe(const GroundScene& scene, problem::Case& result) {
                                  fmt::format("{:g} deg", scene.load.inclination / degree));
       }
       if (scene.load.eccentricity != 0.0) {
-        result.data.emplace_back("eccentricity", fmt::format("{:g} m", scene.load.eccentricity));
+        result.data.emplace_back(
+            "eccentricity", fmt::format("{:g} {}", scene.load.eccentricity, scene.units.length));
       }
       return;
     case Sought::traction:
@@ -341,6 +346,8 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
                       const std::optional<Base>& base, bool reduce, tables::Diagnosis& diagnosis) {
   problem::Case result;
   result.title = scene.title.empty() ? "ground of polygons" : scene.title;
+  result.names = scene.units;
+  result.unit = scene.units.stress;
   describe(scene, result);
   result.lower = loads_of(scene, base, reduce, diagnosis);
   if (diagnosis.errors().empty()) require_live_load(scene, base, result.lower, diagnosis);

@@ -78,11 +78,42 @@ bool needs_two_stresses(const GroundScene& scene, const GroundOutline& outline,
          least.norm() > large * values.norm();
 }
 
+// Whether soil there is held by hardly more than friction. Its stress grows with the distance from
+// a corner of free faces, and from where another soil crops out, and turns around that point: only
+// rays can follow it, down to a scale of cohesion / unit weight.
+bool leans_on_friction(const GroundScene& scene, const GroundOutline& outline,
+                       const GroundSegment& segment) {
+  constexpr double hardly = 0.05;  // of the weight over the length of the face
+  const std::size_t region = static_cast<std::size_t>(segment.left);
+  const problem::Soil& soil = scene.materials[scene.regions[region].material].soil;
+  const double length = (outline.at(segment.second) - outline.at(segment.first)).norm();
+  return soil.friction_angle > 0.0 && soil.cohesion < hardly * soil.unit_weight * length;
+}
+
+bool is_corner_of_friction(const GroundScene& scene, const GroundOutline& outline,
+                           const Corner& corner, double turn) {
+  const auto is_face = [&](const GroundSegment& segment) {
+    const SideKind kind = scene.sides[static_cast<std::size_t>(segment.side)].kind;
+    return kind == SideKind::free || kind == SideKind::loaded;
+  };
+  if (!is_face(*corner.before) || !is_face(*corner.after)) return false;
+  if (!leans_on_friction(scene, outline, *corner.before) &&
+      !leans_on_friction(scene, outline, *corner.after)) {
+    return false;
+  }
+  const auto material = [&](const GroundSegment& segment) {
+    return scene.regions[static_cast<std::size_t>(segment.left)].material;
+  };
+  return std::abs(corner.angle(outline) - pi) > turn ||
+         material(*corner.before) != material(*corner.after);
+}
+
 bool is_singular(const GroundScene& scene, const GroundOutline& outline, const Corner& corner) {
   // Less is a step of a polygon that stands for a curve.
   constexpr double turn = 10.0 * pi / 180.0;
   const double angle = corner.angle(outline);
   if (angle > pi + turn) return true;
+  if (is_corner_of_friction(scene, outline, corner, turn)) return true;
   // Flatter corners have several triangles anyway.
   if (angle < pi - turn && needs_two_stresses(scene, outline, corner)) return true;
   const GroundSide& before = scene.sides[static_cast<std::size_t>(corner.before->side)];

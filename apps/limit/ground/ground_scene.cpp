@@ -31,6 +31,15 @@ GroundTable top_level() {
       .build();
 }
 
+GroundTable units() {
+  return Builder<problem::UnitNames>("units", &GroundScene::units,
+                                     "what the scene's numbers are in, any consistent units: "
+                                     "nothing is converted, unit weights are stress over length")
+      .key("stress", &problem::UnitNames::stress, {.doc = "e.g. kPa, psf; default Pa"})
+      .key("length", &problem::UnitNames::length, {.doc = "e.g. ft; default m"})
+      .build();
+}
+
 GroundTable load() {
   return Builder<GroundLoad>("load", &GroundScene::load, "what grows until collapse")
       .required()
@@ -108,7 +117,8 @@ GroundTable side() {
 }
 
 const std::vector<GroundTable>& ground_tables() {
-  static const std::vector<GroundTable> all{top_level(), load(), material(), region(), side()};
+  static const std::vector<GroundTable> all{top_level(), units(),  load(),
+                                            material(),  region(), side()};
   return all;
 }
 

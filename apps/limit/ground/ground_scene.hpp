@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "limit/problem/case.hpp"
 #include "limit/problem/problem.hpp"
 #include "tables/problem.hpp"
 
@@ -77,6 +78,7 @@ struct GroundLoad {
 /// Ground of polygons, its sides and its load, as a scene of fpm-limit's own describes it.
 struct GroundScene {
   std::string title;
+  problem::UnitNames units;
   std::vector<GroundMaterial> materials;
   std::vector<GroundRegion> regions;
   std::vector<GroundSide> sides;

@@ -8,18 +8,24 @@
 
 namespace limit::problem {
 
-Case strip_case(const Strip& strip, std::optional<Box> wanted) {
+std::string UnitNames::unit_weight() const {
+  return stress == "Pa" && length == "m" ? "N/m3" : stress + "/" + length;
+}
+
+Case strip_case(const Strip& strip, std::optional<Box> wanted, const UnitNames& names) {
   if (const auto objection = objection_to(strip)) throw std::invalid_argument(objection->text());
   const Box box = wanted.value_or(box_of(strip));
   Case result;
+  result.names = names;
+  result.unit = names.stress;
   result.title = fmt::format("strip footing, {}", strip.rough ? "rough" : "smooth");
   const Soil& soil = strip.soil;
   result.data = {
-      {"half width", fmt::format("{:g} m", strip.half_width)},
-      {"cohesion", fmt::format("{:g} Pa", soil.cohesion)},
+      {"half width", fmt::format("{:g} {}", strip.half_width, names.length)},
+      {"cohesion", fmt::format("{:g} {}", soil.cohesion, names.stress)},
       {"friction angle", fmt::format("{:g} deg", soil.friction_angle * 180.0 / std::numbers::pi)},
-      {"unit weight", fmt::format("{:g} N/m3", soil.unit_weight)},
-      {"surcharge", fmt::format("{:g} Pa", strip.surcharge)}};
+      {"unit weight", fmt::format("{:g} {}", soil.unit_weight, names.unit_weight())},
+      {"surcharge", fmt::format("{:g} {}", strip.surcharge, names.stress)}};
   result.assumptions = {
       "plane strain, rigid-plastic soil, associated flow, no change of geometry",
       fmt::format("ground {:.4g} half widths wide from the axis and {:.4g} deep, rigid beyond; the "

@@ -11,11 +11,20 @@
 
 namespace limit::problem {
 
+/// What the numbers of a case are called. Any consistent units do: nothing is converted.
+struct UnitNames {
+  std::string stress = "Pa", length = "m";
+
+  /// A stress over a length; for pascals and metres newtons per cubic metre, the same.
+  [[nodiscard]] std::string unit_weight() const;
+};
+
 /// A collapse problem with all that a report says about it.
 struct Case {
   std::string title;
   std::string quantity = "mean pressure at collapse";  // what is bracketed
-  std::string unit = "Pa";                             // of it; "" for a number
+  UnitNames names;
+  std::string unit = names.stress;  // of what is bracketed; "" for a number
   bool seeks_strength = false;  // the factor that divides the strength, with the live loads at 1
   std::vector<std::pair<std::string, std::string>> data;  // what, value with unit
   std::vector<std::string> assumptions;
@@ -37,7 +46,8 @@ struct Cases {
 
 /// A strip footing as a case; `box` absent: box_of(strip).
 /// @throws std::invalid_argument if there is an objection to the strip.
-[[nodiscard]] Case strip_case(const Strip& strip, std::optional<Box> box);
+[[nodiscard]] Case strip_case(const Strip& strip, std::optional<Box> box,
+                              const UnitNames& names = {});
 
 /// What is assumed of a footing's base, for a report.
 [[nodiscard]] std::string base_assumption(bool rough, bool tension);

@@ -3,16 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace limit::programme {
 
 Overburden::Overburden(const problem::Problem& problem) {
-  constexpr double of_most = 0.25;
+  // Next to no load: soil of next to no cohesion may carry no more, and centring crawls from where
+  // all of the load is to where hardly any is, while the way up is short.
+  constexpr double of_most = 0.0025;
   if (problem.most_multiplier) multiplier_ = of_most * *problem.most_multiplier;
   top_ = bottom_ = problem.mesh.nodes.front().y();
   for (const mesh::Point& node : problem.mesh.nodes) {
     top_ = std::max(top_, node.y());
     bottom_ = std::min(bottom_, node.y());
+  }
+  for (const mesh::BoundaryEdge& edge : problem.mesh.boundary) {
+    mesh::Point first = problem.mesh.nodes[static_cast<std::size_t>(edge.first)],
+                second = problem.mesh.nodes[static_cast<std::size_t>(edge.second)];
+    if (first.x() > second.x()) std::swap(first, second);
+    outline_.emplace_back(first, second);
   }
   for (const problem::Boundary& boundary : problem.boundaries) {
     const double live = multiplier_.value_or(0.0) * boundary.live_normal_stress;
@@ -20,8 +29,19 @@ Overburden::Overburden(const problem::Problem& problem) {
   }
 }
 
+double Overburden::surface_above(const mesh::Point& place) const {
+  double surface = place.y();
+  for (const auto& [first, second] : outline_) {
+    if (place.x() < first.x() || place.x() > second.x()) continue;
+    const double width = second.x() - first.x();
+    const double share = width > 0.0 ? (place.x() - first.x()) / width : 0.0;
+    surface = std::max(surface, first.y() + share * (second.y() - first.y()));
+  }
+  return surface;
+}
+
 double Overburden::at(const problem::Soil& soil, const mesh::Point& place) const {
-  const double depth = top_ - place.y();
+  const double depth = surface_above(place) - place.y();
   double stress = load_ + soil.unit_weight * depth;
   if (multiplier_) {
     stress += *multiplier_ * soil.live_unit_weight * depth;

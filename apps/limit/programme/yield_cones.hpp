@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "limit/problem/problem.hpp"
 #include "limit/programme/cone_program.hpp"
@@ -8,15 +10,19 @@
 namespace limit::programme {
 
 /// A rough guess of the compressive vertical stress, for scales and starts: the weight up to the
-/// highest node, and the largest compressive stress prescribed on the outline. A live weight is
+/// surface above, and the largest compressive stress prescribed on the outline. A live weight is
 /// taken to grow until a vertical cut as high as the body would fail, gamma H = 4 c tan(45 +
-/// phi/2), or, if the multiplier ends somewhere, to the fourth part of that.
+/// phi/2), or, if the multiplier ends somewhere, to a small part of that.
 class Overburden {
  public:
   explicit Overburden(const problem::Problem& problem);
   [[nodiscard]] double at(const problem::Soil& soil, const mesh::Point& place) const;
 
  private:
+  // The highest point of the outline over a place, its face where that is inclined.
+  [[nodiscard]] double surface_above(const mesh::Point& place) const;
+
+  std::vector<std::pair<mesh::Point, mesh::Point>> outline_;  // each piece from left to right
   double top_ = 0.0, bottom_ = 0.0;
   double load_ = 0.0;
   std::optional<double> multiplier_;  // of live loads

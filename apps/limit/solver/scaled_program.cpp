@@ -12,6 +12,9 @@ ScaledProgram::ScaledProgram(const programme::ConeProgram& program)
       row_scale(Eigen::VectorXd::Ones(program.equations.rows())) {
   for (std::size_t k = 0; k < cones.size(); ++k) {
     column_scale.segment<3>(3 * static_cast<Eigen::Index>(k)).setConstant(cones[k].scale);
+    // The mean stress of soil without friction is in no cone: it is of the size of the loads,
+    // however soft the soil.
+    if (cones[k].slope == 0.0) column_scale[3 * static_cast<Eigen::Index>(k)] = 1.0;
     cones[k].strength /= cones[k].scale;
     cones[k].scale = 1.0;
   }

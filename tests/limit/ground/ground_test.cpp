@@ -245,6 +245,10 @@ TEST(GroundMesh, HasAFanAtEverySingularPointAndNowhereElse) {
     crest.emplace_back(setting);
   }
   EXPECT_EQ(singular(sheared, crest), (Places{{0.0, 1.0}}));
+  // Where faces of soil that leans on friction meet, and where it crops out beside another one.
+  EXPECT_EQ(singular(cut, {"material.0.cohesion=0.1", "material.0.friction_angle=30",
+                           "material.0.unit_weight=18"}),
+            (Places{{0.0, 0.0}, {0.0, 1.0}}));
   // As many triangles meet there as rays have been asked for: 1.5 x 24 over 270 degrees.
   const mesh::Mesh mesh = read(cut).found->associated.lower.mesh;
   int at_toe = 0;
@@ -254,6 +258,21 @@ TEST(GroundMesh, HasAFanAtEverySingularPointAndNowhereElse) {
     }
   }
   EXPECT_EQ(at_toe, 36);
+}
+
+TEST(Ground, IsReportedInTheUnitsOfItsScene) {
+  const auto problem = shipped("eccentric", {"units.stress=psf", "units.length=ft"});
+  ASSERT_TRUE(problem);
+  EXPECT_EQ(problem->associated.unit, "psf");
+  std::string said;
+  for (const auto& [what, value] : problem->associated.data) said += value + '\n';
+  EXPECT_NE(said.find("psf/ft"), std::string::npos) << said;
+  EXPECT_NE(said.find(" ft"), std::string::npos) << said;
+  for (const char* other : {" Pa", " m\n", "N/m3"}) {
+    EXPECT_EQ(said.find(other), std::string::npos) << said;
+  }
+  // A factor has none.
+  EXPECT_EQ(shipped("slope_safety", {"units.stress=psf"})->associated.unit, "");
 }
 
 // On the meshes to begin with; what is asserted is that the known value lies inside.

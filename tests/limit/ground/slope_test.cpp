@@ -48,6 +48,42 @@ TEST(Slope, ThatIsGentleHasTheSpiralsFactorAboveItsLowerBound) {
   EXPECT_GT(*found.lower, spiral * (1.0 - 2.0 * options().gap));
 }
 
+// What next to no cohesion carries beside friction is all or nothing: the multiplier of the weights
+// falls from no end to next to nothing within a few hundredths of the factor.
+TEST(Slope, OfNextToNoCohesionIsCertifiedOnBothSides) {
+  const auto problem = shipped("slope_gentle", {"material.soil.cohesion=50"});
+  ASSERT_TRUE(problem);
+  const bracket::Solution found = bracket::solution_of(problem->associated, options(), {});
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_TRUE(found.bracket.reached);
+  // From a start at all of the load, centring does not end at many of the factors.
+  for (const bracket::Attempt& attempt : found.bracket.attempts) {
+    EXPECT_NE(attempt.status, solver::SolverStatus::capped);
+  }
+  // Friction alone holds a skin of the face.
+  EXPECT_GT(*found.upper, 2.0 * std::tan(25.0 * std::numbers::pi / 180.0));
+  EXPECT_LT(*found.lower, *found.upper);
+}
+
+// Without friction the factor is in proportion to the cohesion, and no harder to find.
+TEST(Slope, OfSoftClayIsAsEasyAsOneOfHardClay) {
+  std::vector<bracket::Solution> found;
+  for (const char* cohesion : {"material.soil.cohesion=20e3", "material.soil.cohesion=20"}) {
+    const auto problem = shipped("slope_gentle", {"material.soil.friction_angle=0", cohesion});
+    ASSERT_TRUE(problem);
+    found.push_back(bracket::solution_of(problem->associated, options(), {}));
+    ASSERT_TRUE(found.back().bracket.reached);
+  }
+  EXPECT_LT(*found[1].lower, *found[0].upper / 1e3);
+  EXPECT_GT(*found[1].upper, *found[0].lower / 1e3);
+  const auto iterations = [](const bracket::Solution& solution) {
+    int sum = 0;
+    for (const bracket::Attempt& attempt : solution.bracket.attempts) sum += attempt.iterations;
+    return sum;
+  };
+  EXPECT_LT(iterations(found[1]), 2 * iterations(found[0]));
+}
+
 TEST(Slope, KeepsToItsBudgetAndSaysWhatWasCertified) {
   const auto problem = shipped("slope_gentle");
   ASSERT_TRUE(problem);

@@ -1,0 +1,75 @@
+// Soils side by side of very different strength, and solvers that fail.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "limit/bracket/bracket.hpp"
+#include "limit/problem/case.hpp"
+
+namespace {
+
+using namespace limit;
+
+// A strip on clay of cohesion 1 with a layer of next to none at 0.6 to 0.9 half widths.
+problem::Problem on_a_soft_layer(double cohesion) {
+  problem::Strip strip;
+  strip.soil = {1.0, 0.0, 0.0};
+  const problem::Box box = problem::box_of(strip);
+  problem::Problem problem =
+      problem::strip_problem(strip, mesh::even_fan(box.width, box.depth, 24, 8, 1.5));
+  problem.soils.push_back({cohesion, 0.0, 0.0});
+  for (mesh::Triangle& triangle : problem.mesh.triangles) {
+    double depth = 0.0;
+    for (const int node : triangle.nodes) {
+      depth -= problem.mesh.nodes[static_cast<std::size_t>(node)].y() / 3.0;
+    }
+    if (depth > 0.6 && depth < 0.9) triangle.region = 1;
+  }
+  return problem;
+}
+
+// The strength of a soil is no measure of the pressure it is under: that of its neighbours' load.
+TEST(Layers, OfAHundredthOfTheStrengthBesideThemNeedNoFallBack) {
+  for (const double cohesion : {1e-2, 1e-3}) {
+    bracket::BracketOptions options;
+    options.gap = 1e-6;
+    options.max_triangles = 1;
+    const problem::Problem problem = on_a_soft_layer(cohesion);
+    const bracket::Bracket found = bracket::bracket(problem, problem, options);
+    ASSERT_TRUE(found.lower && found.upper) << cohesion;
+    EXPECT_EQ(found.attempts.size(), 2U) << cohesion;
+    for (const bracket::Attempt& attempt : found.attempts) {
+      EXPECT_EQ(attempt.status, solver::SolverStatus::solved) << attempt.message << cohesion;
+    }
+    // Prandtl's load of the harder clay alone.
+    EXPECT_LT(found.lower_bound(), 2.0 + std::numbers::pi);
+    EXPECT_LE(found.lower_bound(), found.upper_bound());
+  }
+}
+
+TEST(Layers, AFallBackThatHasFailedIsNotAskedOnTheNextMesh) {
+  bracket::BracketOptions options;
+  options.max_iterations = 9;  // certified bounds, but too few iterations for any solver
+  const problem::Problem problem = on_a_soft_layer(0.5);
+  const bracket::Bracket found = bracket::bracket(problem, problem, options);
+  ASSERT_GT(found.attempts.back().triangles, found.attempts.front().triangles);
+  for (const bool is_lower : {true, false}) {
+    for (const solver::ConeForm form :
+         {solver::ConeForm::inequality, solver::ConeForm::quadratic, solver::ConeForm::barrier}) {
+      EXPECT_LE(std::count_if(found.attempts.begin(), found.attempts.end(),
+                              [&](const bracket::Attempt& attempt) {
+                                return attempt.is_lower == is_lower && attempt.form == form;
+                              }),
+                1);
+    }
+    EXPECT_LE(std::count_if(found.attempts.begin(), found.attempts.end(),
+                            [&](const bracket::Attempt& attempt) {
+                              return attempt.is_lower == is_lower &&
+                                     attempt.form == solver::ConeForm::cones;
+                            }),
+              4);
+  }
+}
+
+}  // namespace
