@@ -73,6 +73,7 @@ std::string ground_scene(const Ground& ground) {
        << "\n";
   const auto material = [&](const std::string& name, double density, const std::string& region) {
     text << "[[material]]\nname=\"" << name << "\"\nmodel=\"drucker_prager\"\n"
+         << (flat ? "" : "match=\"compression_cone\"\n")
          << "youngs_modulus=" << 10e6 * density / 1850.0
          << "\npoissons_ratio=0.3\ncohesion=1e3\nfriction_angle=30.0\ndilation_angle=0.0\ndensity="
          << density << "\n"
@@ -135,13 +136,14 @@ TEST(GroundAtRest, MovesTowardsAFreeSide) {
   const std::string right =
       "[[support]]\nname=\"right\"\nside=\"right\"\nmethod=\"direct\"\ndirections=[\"x\"]\n";
   text.erase(text.find(right), right.size());
-  verification::Run<2> run(scene_of(text));
+  verification::Run<2> run(
+      scene_of(text, {"material.0.cohesion=20e3", "solver.tolerance=1e-3"}));  // a cut that stands
   run.complete();
   // The mean horizontal stress, K0 rho g H / 2, gone from a width of 0.8: of the order of
   // sigma (1 - nu^2) / E times that width.
   const double order = 0.5 * 1850.0 * 9.81 * 0.5 * (1.0 - 0.09) / 10e6 * 0.8;
   const Eigen::Index corner = run.nearest({0.8, 0.0});
-  EXPECT_GT(run.state.displacement(corner, 0), 0.3 * order);
+  EXPECT_GT(run.state.displacement(corner, 0), 0.1 * order);  // nothing, were the stress borne
 }
 
 // A cube between smooth platens with free sides: a homogeneous state on the edge of the
