@@ -48,6 +48,11 @@ const std::vector<Case> cases{
     {"mohr_coulomb", &footing, {"material.0.model=mohr_coulomb"}, 20, true},
     {"newton_krylov", &footing, {"solver.method=newton_krylov"}, 20, true},
     {"consistency", &footing, {"approximation.consistency=on"}, 20, true},
+    {"ghosts",
+     &footing,
+     {"support.0.method=ghosts", "drive.method=ghosts", "approximation.consistency=on"},
+     20,
+     true},
     {"block_3d", &block, {}, 6},
 };
 
