@@ -73,6 +73,12 @@ std::vector<Case> cases() {
       }
     }
   }
+  BodyOptions held;
+  held.jitter = 0.1;
+  held.control = "mixed";
+  held.extra =
+      "[[support]]\nname=\"base\"\nside=\"bottom\"\ndirections=[\"x\", \"y\"]\nmethod=\"ghosts\"\n";
+  all.push_back({held, "held_by_ghosts"});
   return all;
 }
 
