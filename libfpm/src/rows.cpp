@@ -172,7 +172,15 @@ std::vector<Index> Rows<Dim>::research(const std::vector<Index>& rows, const Fie
   }
   if (rebuilt.empty()) return rebuilt;
 
-  // Write all rows anew: old ones as they were, rebuilt ones from the lists above.
+  rewrite(rebuilt, new_lists, new_geometry);
+  return rebuilt;
+}
+
+// Old rows as they were, rebuilt ones from their new lists.
+template <int Dim>
+void Rows<Dim>::rewrite(const std::vector<Index>& rebuilt,
+                        const std::vector<std::vector<Index>>& new_lists,
+                        const std::vector<RowGeometry<Dim>>& new_geometry) {
   const Rows<Dim> old = *this;
   row_offset_.assign(1, 0);
   neighbour_.clear();
@@ -198,7 +206,6 @@ std::vector<Index> Rows<Dim>::research(const std::vector<Index>& rows, const Fie
     if (is_new) ++next;
   }
   index_searched_rows();
-  return rebuilt;
 }
 
 template <int Dim>

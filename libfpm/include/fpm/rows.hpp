@@ -96,6 +96,8 @@ class Rows {
 
  private:
   bool accept(const RowGeometry<Dim>& geometry, RowWeights<Dim>& scratch) const;
+  void rewrite(const std::vector<Index>& rebuilt, const std::vector<std::vector<Index>>& new_lists,
+               const std::vector<RowGeometry<Dim>>& new_geometry);
   void index_searched_rows();
   void set_initial(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts);
 
