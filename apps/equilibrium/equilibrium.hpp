@@ -65,6 +65,8 @@ class Equilibrium {
 
   /// Full residual of the latest evaluation, reactions included.
   const Eigen::VectorXd& unmasked_residual() const { return evaluation_.unmasked; }
+  /// Dead loads of the step, what keeps the initial stress at rest among them.
+  const Eigen::VectorXd& external_load() const { return step_.external; }
   const EvaluationFailure& failure() const { return failure_; }
   const fpm::MomentOperator<Dim>& moment_operator() const { return operator_; }
   /// Memory of the operator, the viscosity and all arrays [bytes].

@@ -96,7 +96,8 @@ void Measures<Dim>::find_side(const scene::Scene& scene, scene::Side side, Measu
   const Eigen::Index n = model_.size();
   measure.unknowns =
       borne_by_planes(model_, scene::axis_of(side), scene::side_position(scene.geometry, side));
-  for (Eigen::Index a = 0; a < n && measure.unknowns.empty(); ++a) {
+  const bool by_planes = !measure.unknowns.empty();
+  for (Eigen::Index a = 0; a < n && !by_planes; ++a) {
     if (!on_side(scene, model_, side, a)) continue;
     for (int i = 0; i < Dim; ++i) measure.unknowns.push_back(i * n + a);
   }

@@ -11,7 +11,7 @@ namespace {
 using namespace equilibrium;
 
 // All sizes differ, so that one taken for another shows.
-constexpr ArraySizes distinct = {101, 131, 23, 103, 107, 109, 113, 127, 211, 223};
+constexpr ArraySizes distinct = {101, 131, 23, 103, 107, 109, 113, 127, 211, 223, 227, 229};
 
 // A struct is its sizes, its arrays and `others` bytes: an array that the list forgets shows as a
 // size that nobody accounts for.

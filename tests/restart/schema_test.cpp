@@ -50,7 +50,9 @@ TEST_P(Schema, IsReadWithItsNotesAndItsState) {
 }
 
 // Not bit by bit: the numerics have gone on since. The solver's tolerance is 1e-3 of the residual;
-// a percent of the pressure is ten times what it leaves open in a step.
+// a percent of the pressure is ten times what it leaves open in a step. Ground at rest is kept by a
+// load that these files' runs did not have: 0.41 rho g dx at the plate, 2 % of the pressure on
+// particles this coarse.
 TEST_P(Schema, IsResumedToItsEnd) {
   record::CheckpointNotes notes;
   (void)record::open_checkpoint(stored(GetParam()), notes);
@@ -60,7 +62,7 @@ TEST_P(Schema, IsResumedToItsEnd) {
   ASSERT_EQ(outcome.code, program::ExitCode::done) << outcome.err;
   const auto rows = record::read_curve(folder / "run" / "curve.csv");
   EXPECT_EQ(rows.back().load_parameter, 1.0);
-  EXPECT_NEAR(rows.back().mean_pressure, pressure_of_step_10, 0.01 * pressure_of_step_10);
+  EXPECT_NEAR(rows.back().mean_pressure, pressure_of_step_10, 0.03 * pressure_of_step_10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Versions, Schema,
