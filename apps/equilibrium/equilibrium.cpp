@@ -66,7 +66,7 @@ Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>&
     potential_ = fpm::consistency_potential(initial, model_.ghosts, model_.area_vector);
   }
   rebuild_operator();
-  if (model_.initial_stress.size() > 0) {
+  if (model_.initial_stress.size() > 0 && state_.programme.balanced != 0) {
     balance_ = balance_initial_stress(model_, initial_operator());
   }
   const ArraySizes sizes = array_sizes(model_, operator_);
@@ -241,7 +241,7 @@ double Equilibrium<Dim>::take_plane_reactions() {
     model_.ghosts.add_reactions(p, evaluation_.force.data(), model_.size(), stride,
                                 evaluation_.plane_reaction);
   }
-  plane_force_ = model_.ghosts.plane_forces(evaluation_.force.data(), model_.size(), stride);
+  model_.ghosts.plane_forces(evaluation_.force.data(), model_.size(), stride, plane_force_);
   for (std::size_t p = 0; p < balance_.plane_force.size(); ++p) {
     plane_force_[p] += balance_.plane_force[p];
   }
@@ -249,11 +249,11 @@ double Equilibrium<Dim>::take_plane_reactions() {
 }
 
 template <int Dim>
-bool Equilibrium<Dim>::linearise_at_start(Eigen::VectorXd& residual) {
-  const Eigen::VectorXd still = Eigen::VectorXd::Zero(model_.unknowns());
+bool Equilibrium<Dim>::linearise_before_motion(const Eigen::VectorXd& increment,
+                                               Eigen::VectorXd& residual) {
   fpm::Field<Dim> motion;
   motion.swap(step_.image_motion);
-  const bool could = (*this)(still, residual) == jfnk::Evaluation::ok && linearise(still);
+  const bool could = (*this)(increment, residual) == jfnk::Evaluation::ok && linearise(increment);
   motion.swap(step_.image_motion);
   return could;
 }

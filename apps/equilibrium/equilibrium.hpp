@@ -49,9 +49,9 @@ class Equilibrium {
   bool linearise(const Eigen::VectorXd& increment);
   void apply_jacobian(const Eigen::VectorXd& v, Eigen::VectorXd& jv);
 
-  /// Residual and linearisation where the step begins, before anything prescribed has moved.
+  /// Residual and linearisation at an increment, the planes of images being where the step begins.
   /// @returns whether both could be had
-  bool linearise_at_start(Eigen::VectorXd& residual);
+  bool linearise_before_motion(const Eigen::VectorXd& increment, Eigen::VectorXd& residual);
   /// Action of the Jacobian on what is prescribed for the step: entries of `prescribed`, and the
   /// motion of the planes of images.
   void apply_motion(const Eigen::VectorXd& prescribed, Eigen::VectorXd& jv);

@@ -40,11 +40,13 @@ InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
   fpm::Field<Dim> by_moving = borne;
   const auto& planes = model.ghosts.planes();
   balance.plane_force.assign(model.plane_drive.size(), fpm::Vector<Dim>::Zero());
+  std::vector<fpm::Vector<Dim>> on_planes;
+  model.ghosts.plane_forces(force.data(), n, op.stride(), on_planes);
   for (std::size_t p = 0; p < planes.size(); ++p) {
     if (planes[p].symmetry) continue;
     const bool moves = !model.plane_drive.empty() && !model.plane_drive[p].isZero();
     model.ghosts.add_reactions(p, force.data(), n, op.stride(), moves ? by_moving : borne);
-    if (moves) balance.plane_force[p] = -model.ghosts.plane_forces(force.data(), n, op.stride())[p];
+    if (moves) balance.plane_force[p] = -on_planes[p];
   }
   balance.reaction = -by_moving;
   for (int i = 0; i < Dim; ++i) {

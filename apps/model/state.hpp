@@ -28,6 +28,9 @@ struct ProgrammeState {
   std::int64_t re_searches = 0;
   double hourglass_work = 0.0;  // [J/m or J] accumulated
   double external_work = 0.0;   // [J/m or J] accumulated work of the reactions and loads
+  // Whether a dead load keeps the initial stress at rest. Runs of earlier schemas began without
+  // one, and go on as they began.
+  std::int64_t balanced = 1;
 
   template <class Visitor>
   void for_each_field(Visitor&& visit) {
@@ -39,6 +42,7 @@ struct ProgrammeState {
     visit("research_events", "-", re_searches);  // the name in files of the first schema
     visit("hourglass_work", "J", hourglass_work);
     visit("external_work", "J", external_work);
+    visit("balanced", "-", balanced);
   }
   bool operator==(const ProgrammeState&) const = default;
 };

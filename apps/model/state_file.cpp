@@ -17,6 +17,8 @@ const std::string programme_group = "/state/programme/";
 
 // The reactions were no part of the state before this schema.
 constexpr std::int64_t schema_of_reactions = 3;
+// Before this schema no load kept the initial stress at rest.
+constexpr std::int64_t schema_of_balance = 4;
 const std::string shown_reactions = "/VTKHDF/PointData/reaction";
 
 template <class Values>
@@ -185,9 +187,11 @@ State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model, std:
   if (!has_reactions) reader.template read_shown_reactions<Dim>(state.reaction);
   state.rows.for_each_field(
       [&](const char* name, const char* /*unit*/, auto& list) { reader.read_list(name, list); });
+  const bool has_balance = schema >= schema_of_balance;
   state.programme.for_each_field([&](const char* name, const char* /*unit*/, auto& number) {
-    reader.read_number(name, number);
+    if (has_balance || name != std::string_view("balanced")) reader.read_number(name, number);
   });
+  if (!has_balance) state.programme.balanced = 0;
   require_sane(file, state.programme);
   try {
     state.rows.restore(model.particles, model.ghosts, model.row_options);

@@ -146,7 +146,7 @@ bool LoadStepper<Dim>::predict_by_tangent(double increment, Eigen::VectorXd& u,
   u.setZero();
   Eigen::VectorXd residual(u.size());
   ++record.residual_evaluations;
-  if (!equilibrium_->linearise_at_start(residual)) return false;
+  if (!equilibrium_->linearise_before_motion(u, residual)) return false;
   Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(u.size());
   set_prescribed(increment, prescribed);
   Eigen::VectorXd action(u.size());

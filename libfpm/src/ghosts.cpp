@@ -152,9 +152,9 @@ Field<Dim> Ghosts<Dim>::of_motion(const std::vector<Vector<Dim>>& motion) const 
 }
 
 template <int Dim>
-std::vector<Vector<Dim>> Ghosts<Dim>::plane_forces(const double* extended, Eigen::Index n,
-                                                   Eigen::Index stride) const {
-  std::vector<Vector<Dim>> force(planes_.size(), Vector<Dim>::Zero());
+void Ghosts<Dim>::plane_forces(const double* extended, Eigen::Index n, Eigen::Index stride,
+                               std::vector<Vector<Dim>>& force) const {
+  force.assign(planes_.size(), Vector<Dim>::Zero());
   for (Index g = 0; g < size(); ++g) {
     for (const Share& share : shares(g)) {
       for (int i = 0; i < Dim; ++i) {
@@ -162,7 +162,6 @@ std::vector<Vector<Dim>> Ghosts<Dim>::plane_forces(const double* extended, Eigen
       }
     }
   }
-  return force;
 }
 
 template <int Dim>

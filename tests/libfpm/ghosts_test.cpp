@@ -257,7 +257,8 @@ TEST(HeldPlane, IsHeldByTheForcesThatWorkOnItsMotion) {
   const Index total = n + ghosts.size();
   const Field<2> force = random_field<2>(total, 73);
   const std::vector<fpm::Vector<2>> motion{{0.3, -0.7}, {0.2, 0.0}};
-  const auto on_planes = ghosts.plane_forces(force.data(), n, total);
+  std::vector<fpm::Vector<2>> on_planes;
+  ghosts.plane_forces(force.data(), n, total, on_planes);
   double of_planes = 0.0;
   Field<2> by_particle = Field<2>::Zero(n, 2);
   for (std::size_t p = 0; p < motion.size(); ++p) {

@@ -102,8 +102,9 @@ class Ghosts {
 
   /// The transposed map: the force by which each plane holds the body, in the held directions.
   /// @param extended  forces on the nodes; rows [n, n + size()), the ghosts', are read
-  std::vector<Vector<Dim>> plane_forces(const double* extended, Eigen::Index n,
-                                        Eigen::Index stride) const;
+  /// @param[out] force  one per plane; nothing is allocated if it has that size
+  void plane_forces(const double* extended, Eigen::Index n, Eigen::Index stride,
+                    std::vector<Vector<Dim>>& force) const;
 
   /// The same for one plane by particle: what each particle's images carry onto it is added to the
   /// particle's row.
