@@ -63,7 +63,7 @@ Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>&
   if (model_.consistency) {
     // The correction belongs to the initial configuration, whatever was re-searched since.
     const fpm::Rows<Dim> initial(model_.particles, model_.ghosts, model_.row_options);
-    potential_ = fpm::consistency_potential(initial, model_.ghosts, model_.area_vector);
+    correction_ = fpm::consistency_correction(initial, model_.ghosts, model_.area_vector);
   }
   rebuild_operator();
   if (model_.initial_stress.size() > 0 && state_.programme.balanced != 0) {
@@ -79,7 +79,7 @@ Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>&
 template <int Dim>
 fpm::MomentOperator<Dim> Equilibrium<Dim>::initial_operator() const {
   return {fpm::Rows<Dim>(model_.particles, model_.ghosts, model_.row_options), model_.ghosts,
-          model_.channels, potential_};
+          model_.channels, correction_};
 }
 
 template <int Dim>
@@ -89,7 +89,7 @@ LoopData<Dim> Equilibrium<Dim>::loop_data() {
 
 template <int Dim>
 void Equilibrium<Dim>::rebuild_operator() {
-  operator_ = fpm::MomentOperator<Dim>(state_.rows, model_.ghosts, model_.channels, potential_);
+  operator_ = fpm::MomentOperator<Dim>(state_.rows, model_.ghosts, model_.channels, correction_);
   if (model_.control != scene::HourglassControl::viscosity) return;
   Eigen::VectorXd modulus(model_.size());
   for (Eigen::Index a = 0; a < modulus.size(); ++a) {
@@ -393,7 +393,7 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
 template <int Dim>
 std::size_t Equilibrium<Dim>::bytes() const {
   return operator_.bytes() + viscosity_.bytes() + bytes_of(step_) + bytes_of(evaluation_) +
-         bytes_of(tangents_) + static_cast<std::size_t>(potential_.size()) * sizeof(double);
+         bytes_of(tangents_) + correction_.bytes();
 }
 
 template class Equilibrium<2>;

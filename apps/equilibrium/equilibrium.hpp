@@ -90,7 +90,7 @@ class Equilibrium {
   const model::Model<Dim>& model_;
   model::State<Dim>& state_;
   fpm::MomentOperator<Dim> operator_;
-  fpm::Field<Dim> potential_;    // of the consistency correction, kept for rebuilds
+  fpm::ConsistencyCorrection<Dim> correction_;  // of the first rows, kept for rebuilds
   InitialBalance<Dim> balance_;  // of the initial stress, if there is one
   fpm::PairViscosity<Dim> viscosity_;
   LawLoops<Dim> loops_;

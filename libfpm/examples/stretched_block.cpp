@@ -20,8 +20,8 @@ int main() {
   const BoundaryQuadratureOptions<2> faces{.max = box.max, .spacing = box.spacing};
   const auto points = boundary_quadrature(faces, {{0, true}, {1, true}});
   const PointOperator<2> at_points(set, ghosts, points.position, options);
-  const auto potential = consistency_potential(rows, ghosts, area_vectors(at_points, points));
-  const MomentOperator<2> op(rows, ghosts, {}, potential);
+  const auto correction = consistency_correction(rows, ghosts, area_vectors(at_points, points));
+  const MomentOperator<2> op(rows, ghosts, {}, correction);
 
   // f = W^T V sigma(W u): gather gradients, apply Hooke's law, scatter forces.
   const double mu = young / (2.0 + 2.0 * nu), lambda = 2.0 * mu * nu / (1.0 - 2.0 * nu);

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
+#include <optional>
 #include <stdexcept>
-#include <string>
 #include <utility>
+#include <vector>
 
 #include "fpm/stencil.hpp"
 
@@ -38,10 +38,33 @@ Eigen::MatrixXd row_matrix(const RowGeometry<Dim>& geometry, const RowWeights<Di
   return matrix;
 }
 
-// S for one component; an image enters as its source, with the sign of that component.
+// Whether the first moment of a neighbourhood vanishes, as it does inside a lattice.
+template <int Dim>
+bool is_balanced(const RowGeometry<Dim>& geometry, const RowWeights<Dim>& weights) {
+  constexpr double round_off = 1e3 * std::numeric_limits<double>::epsilon();
+  const Vector<Dim> first = geometry.offset * weights.kappa;
+  return first.norm() <= round_off * weights.kappa.sum() * geometry.support_radius;
+}
+
+// The rows whose neighbourhoods are cut by a face or irregular.
+template <int Dim>
+std::vector<char> unbalanced_rows(const Rows<Dim>& rows) {
+  std::vector<char> unbalanced(static_cast<std::size_t>(rows.size()));
+  RowGeometry<Dim> geometry;
+  RowWeights<Dim> weights;
+  for (Index a = 0; a < rows.size(); ++a) {
+    rows.geometry(a, geometry);
+    compute_weights(geometry, rows.options().kernel, false, weights);
+    unbalanced[static_cast<std::size_t>(a)] = is_balanced(geometry, weights) ? 0 : 1;
+  }
+  return unbalanced;
+}
+
+// S of the corrected rows for one component; an image enters as its source, with the sign of that
+// component.
 template <int Dim>
 Eigen::SparseMatrix<double> assemble(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
-                                     int component) {
+                                     const std::vector<char>& corrected, int component) {
   const Index n = rows.size();
   std::vector<Eigen::Triplet<double>> entries;
   RowGeometry<Dim> geometry;
@@ -49,6 +72,8 @@ Eigen::SparseMatrix<double> assemble(const Rows<Dim>& rows, const Ghosts<Dim>& g
   std::vector<Index> id;
   std::vector<double> sign;
   for (Index a = 0; a < n; ++a) {
+    entries.emplace_back(a, a, 0.0);  // the diagonal is there, whatever is corrected
+    if (corrected[static_cast<std::size_t>(a)] == 0) continue;
     rows.geometry(a, geometry);
     compute_weights(geometry, rows.options().kernel, false, weights);
     id.assign(1, a);
@@ -89,7 +114,8 @@ class RegularisedSolver {
   }
 
   /// @param round_off  residual below which the right-hand side means nothing
-  Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side, double round_off) const {
+  /// @returns nothing if the right-hand side is not in the range of S
+  std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& right_hand_side, double round_off) const {
     constexpr double tolerance = 1e-10;  // of the residual, relative; the loads' error in a patch
     constexpr int max_refinements = 50;
     const double target = std::max(tolerance * right_hand_side.norm(), round_off);
@@ -99,9 +125,7 @@ class RegularisedSolver {
       if (residual.norm() <= target) return x;
       x += factor_.solve(residual);
     }
-    throw std::runtime_error(
-        "the consistency correction did not reach its tolerance; do the area " +
-        std::string("vectors close the surface of the particles' volume?"));
+    return std::nullopt;
   }
 
  private:
@@ -153,26 +177,51 @@ Field<Dim> consistency_defect(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
   return defect;
 }
 
+namespace {
+
 template <int Dim>
-Field<Dim> consistency_potential(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
-                                 const Field<Dim>& area_vector) {
-  const Field<Dim> missing = -consistency_defect(rows, ghosts, area_vector);
+std::optional<Field<Dim>> solve_for_potential(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
+                                              const std::vector<char>& corrected,
+                                              const Field<Dim>& missing, double round_off) {
   Field<Dim> potential(rows.size(), Dim);
-  const double round_off = defect_round_off(rows, area_vector);
-  std::unique_ptr<const RegularisedSolver> solver;
+  std::optional<const RegularisedSolver> solver;
   for (int i = 0; i < Dim; ++i) {
     // Without images S is the same for all components.
-    if (i == 0 || ghosts.size() > 0) {
-      solver = std::make_unique<RegularisedSolver>(assemble(rows, ghosts, i));
-    }
-    potential.col(i) = solver->solve(missing.col(i), round_off);
+    if (i == 0 || ghosts.size() > 0) solver.emplace(assemble(rows, ghosts, corrected, i));
+    const auto column = solver->solve(missing.col(i), round_off);
+    if (!column) return std::nullopt;
+    potential.col(i) = *column;
   }
   return potential;
 }
 
+}  // namespace
+
+template <int Dim>
+ConsistencyCorrection<Dim> consistency_correction(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
+                                                  const Field<Dim>& area_vector) {
+  const Field<Dim> missing = -consistency_defect(rows, ghosts, area_vector);
+  const double round_off = defect_round_off(rows, area_vector);
+  ConsistencyCorrection<Dim> correction;
+  if (missing.colwise().norm().maxCoeff() <= round_off) return correction;
+  correction.corrected = unbalanced_rows(rows);
+  auto potential = solve_for_potential(rows, ghosts, correction.corrected, missing, round_off);
+  if (!potential) {
+    correction.corrected.assign(correction.corrected.size(), 1);
+    potential = solve_for_potential(rows, ghosts, correction.corrected, missing, round_off);
+  }
+  if (!potential) {
+    throw std::runtime_error(
+        "the consistency correction did not reach its tolerance; do the area vectors close the "
+        "surface of the particles' volume?");
+  }
+  correction.potential = std::move(*potential);
+  return correction;
+}
+
 template Field<2> consistency_defect<2>(const Rows<2>&, const Ghosts<2>&, const Field<2>&);
 template Field<3> consistency_defect<3>(const Rows<3>&, const Ghosts<3>&, const Field<3>&);
-template Field<2> consistency_potential<2>(const Rows<2>&, const Ghosts<2>&, const Field<2>&);
-template Field<3> consistency_potential<3>(const Rows<3>&, const Ghosts<3>&, const Field<3>&);
+template ConsistencyCorrection<2> consistency_correction<2>(const Rows<2>&, const Ghosts<2>&, const Field<2>&);
+template ConsistencyCorrection<3> consistency_correction<3>(const Rows<3>&, const Ghosts<3>&, const Field<3>&);
 
 }  // namespace fpm

@@ -39,9 +39,14 @@ void add_consistency(const Ghosts<Dim>& ghosts, const Field<Dim>& potential, Ind
 
 template <int Dim>
 MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
-                                    Channels channels, const Field<Dim>& potential)
+                                    Channels channels,
+                                    const ConsistencyCorrection<Dim>& correction)
     : size_(rows.size()), channels_(channels), ghosts_(ghosts) {
-  if (potential.size() > 0) require_size("consistency potential", potential.rows(), size_);
+  const Field<Dim>& potential = correction.potential;
+  if (potential.size() > 0) {
+    require_size("consistency potential", potential.rows(), size_);
+    require_size("corrected rows", static_cast<Eigen::Index>(correction.corrected.size()), size_);
+  }
   detail::WeightedRows weighted;
   weighted.channels = channel_count();
   if (channels.pair) {
@@ -59,7 +64,7 @@ MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const Ghosts<Dim>& gh
     const auto neighbours = rows.neighbours(a);
     rows.geometry(a, geometry);
     compute_weights(geometry, rows.options().kernel, channels.second, weights);
-    if (potential.size() > 0 && !rows.searched(a)) {
+    if (correction.corrects(a) && !rows.searched(a)) {
       add_consistency(ghosts_, potential, a, neighbours, geometry, weights);
     }
     weighted.id.insert(weighted.id.end(), neighbours.begin(), neighbours.end());

@@ -27,7 +27,7 @@ struct Corrected {
   fpm::BoundaryPoints<Dim> points;
   PointOperator<Dim> at_points;
   Field<Dim> area;
-  Field<Dim> potential;
+  fpm::ConsistencyCorrection<Dim> correction;
   MomentOperator<Dim> op;
 
   Corrected(const LatticeOptions<Dim>& lattice, bool symmetric)
@@ -55,8 +55,8 @@ struct Corrected {
                                      row_options<Dim>(box.spacing));
       area = area_vectors(at_points, points);
     }
-    potential = consistency_potential(model.rows, model.ghosts, area);
-    op = MomentOperator<Dim>(model.rows, model.ghosts, {}, potential);
+    correction = consistency_correction(model.rows, model.ghosts, area);
+    op = MomentOperator<Dim>(model.rows, model.ghosts, {}, correction);
   }
 
   Index size() const { return op.size(); }
@@ -184,8 +184,8 @@ TEST(Consistency, LeavesAloneWhatOnlyRoundsOff) {
   const Field<2> none = Field<2>::Zero(80, 2);
   const double round_off_of_defect = 1e3 * epsilon * 0.1 * 9.0;  // |V G| summed over all rows
   EXPECT_LE(consistency_defect(m.rows, m.ghosts, none).norm(), round_off_of_defect);
-  const Field<2> potential = consistency_potential(m.rows, m.ghosts, none);
-  const MomentOperator<2> corrected(m.rows, m.ghosts, {}, potential);
+  const auto correction = consistency_correction(m.rows, m.ghosts, none);
+  const MomentOperator<2> corrected(m.rows, m.ghosts, {}, correction);
   const MomentOperator<2> plain(m.rows, m.ghosts, {});
   const Field<2> u = random_field<2>(80, 3);
   const Eigen::MatrixXd expected = gathered(plain, u);
@@ -196,8 +196,28 @@ TEST(Consistency, SaysSoIfTheAreaVectorsCloseNoSurface) {
   const auto box = lattice<2>({10, 8}, 0.1, LatticeLayout::vertex);
   const Model<2> m(box);
   const Field<2> open = fpm::tributary_area_vectors(box, {{0, false}, {0, true}, {1, false}});
-  EXPECT_THAT([&] { consistency_potential(m.rows, m.ghosts, open); },
+  EXPECT_THAT([&] { consistency_correction(m.rows, m.ghosts, open); },
               testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("close the surface")));
+}
+
+TEST(Consistency, LeavesTheStencilsOfALatticeShared) {
+  // Rows of the two layers next to a face are cut by it (support 2.4 spacings); the others are not.
+  const Corrected<2> body(lattice<2>({40, 30}), false);
+  const MomentOperator<2> plain(body.model.rows, body.model.ghosts, {});
+  const auto weights = [](const MomentOperator<2>& op, Index row) {
+    std::vector<double> all;
+    op.for_each_entry(row, [&](Index, const double* g) { all.insert(all.end(), g, g + 2); });
+    return all;
+  };
+  Index corrected = 0;
+  for (Index a = 0; a < body.size(); ++a) {
+    const auto x = body.model.set.position.row(a) / 0.1;
+    const bool cut = x[0] < 2.0 || x[0] > 38.0 || x[1] < 2.0 || x[1] > 28.0;
+    EXPECT_EQ(body.correction.corrects(a), cut) << a;
+    EXPECT_EQ(weights(body.op, a) == weights(plain, a), !cut) << a;
+    if (cut) ++corrected;
+  }
+  EXPECT_EQ(corrected, 40 * 30 - 36 * 26);
 }
 
 TEST(Consistency, DefectVanishesInsideARegularLattice) {
@@ -230,7 +250,7 @@ TEST(Consistency, ResearchedRowsDropIt) {
   const auto rebuilt =
       body.model.rows.research({0, 54}, body.model.set.position, body.model.set.volume, excluded);
   ASSERT_EQ(rebuilt.size(), 2U);
-  const MomentOperator<2> after(body.model.rows, body.model.ghosts, {}, body.potential);
+  const MomentOperator<2> after(body.model.rows, body.model.ghosts, {}, body.correction);
   const MomentOperator<2> plain(body.model.rows, body.model.ghosts, {});
   const auto weights = [](const MomentOperator<2>& op, Index row) {
     std::vector<double> all;
@@ -248,7 +268,7 @@ TEST(Consistency, RefusesAreaVectorsOfAnotherSize) {
   const Model<2> m(lattice<2>({8, 8}));
   const Field<2> few = Field<2>::Zero(63, 2);
   EXPECT_THROW(consistency_defect(m.rows, m.ghosts, few), fpm::ShapeError);
-  EXPECT_THROW(consistency_potential(m.rows, m.ghosts, few), fpm::ShapeError);
+  EXPECT_THROW(consistency_correction(m.rows, m.ghosts, few), fpm::ShapeError);
 }
 
 }  // namespace

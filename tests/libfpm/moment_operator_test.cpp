@@ -264,7 +264,7 @@ TEST(MomentOperator, IncrementsLoseNoDigitsToTheDistanceFromTheOrigin) {
 
 TEST(MomentOperator, RefusesAPotentialOfAnotherSize) {
   const Model<2> m(lattice<2>({9, 7}));
-  EXPECT_THROW(MomentOperator<2>(m.rows, m.ghosts, {}, Field<2>(Field<2>::Zero(62, 2))),
+  EXPECT_THROW(MomentOperator<2>(m.rows, m.ghosts, {}, {Field<2>::Zero(62, 2), {}}),
                fpm::ShapeError);
 }
 

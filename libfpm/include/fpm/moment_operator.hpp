@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "fpm/consistency.hpp"
 #include "fpm/ghosts.hpp"
 #include "fpm/rows.hpp"
 #include "fpm/stencil.hpp"
@@ -53,10 +54,9 @@ class MomentOperator {
   MomentOperator() = default;
 
   /// Builds the layout from the rows.
-  /// @param potential  n x Dim potential of the consistency correction, or empty for none; rows
-  ///   that were re-searched ignore it (see consistency.hpp)
+  /// @param correction  of the first rows, or none; rows that were re-searched ignore it
   MomentOperator(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Channels channels,
-                 const Field<Dim>& potential = {});
+                 const ConsistencyCorrection<Dim>& correction = {});
 
   Index size() const { return size_; }
   Channels channels() const { return channels_; }
