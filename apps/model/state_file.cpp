@@ -19,6 +19,8 @@ const std::string programme_group = "/state/programme/";
 constexpr std::int64_t schema_of_reactions = 3;
 // Before this schema no load kept the initial stress at rest.
 constexpr std::int64_t schema_of_balance = 4;
+// Before this schema re-searched rows lost the consistency correction.
+constexpr std::int64_t schema_of_corrections = 5;
 const std::string shown_reactions = "/VTKHDF/PointData/reaction";
 
 template <class Values>
@@ -185,8 +187,12 @@ State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model, std:
     if (has_reactions || name != std::string_view("reaction")) reader.read_particles(name, field);
   });
   if (!has_reactions) reader.template read_shown_reactions<Dim>(state.reaction);
-  state.rows.for_each_field(
-      [&](const char* name, const char* /*unit*/, auto& list) { reader.read_list(name, list); });
+  const bool has_corrections = schema >= schema_of_corrections;
+  state.rows.for_each_field([&](std::string_view name, const char* /*unit*/, auto& list) {
+    if (has_corrections || (name != "corrected_row" && name != "correction")) {
+      reader.read_list(std::string(name), list);
+    }
+  });
   const bool has_balance = schema >= schema_of_balance;
   state.programme.for_each_field([&](const char* name, const char* /*unit*/, auto& number) {
     if (has_balance || name != std::string_view("balanced")) reader.read_number(name, number);

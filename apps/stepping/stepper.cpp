@@ -9,6 +9,7 @@
 
 #include "equilibrium/equilibrium.hpp"
 #include "equilibrium/preconditioner.hpp"
+#include "fpm/carried_consistency.hpp"
 #include "jfnk/gmres.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
@@ -313,6 +314,10 @@ Eigen::Index LoadStepper<Dim>::re_search() {
   for (fpm::Vector<Dim>& motion : plane_motion) motion *= state_.programme.load;
   const auto rebuilt =
       state_.rows.research(rows, position, volume, model_.driven_particle, plane_motion);
+  if (model_.consistency) {
+    fpm::carry_consistency<Dim>(equilibrium_->moment_operator(), model_.ghosts, rebuilt,
+                                {volume, state_.deformation_gradient}, state_.rows);
+  }
   for (const fpm::Index a : rebuilt) {
     state_.searched_volume_ratio[a] *= ratio[a];
     Eigen::Map<fpm::Tensor<Dim>>(state_.deformation_gradient.col(a).data()).setIdentity();

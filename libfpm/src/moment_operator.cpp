@@ -1,8 +1,8 @@
 #include "fpm/moment_operator.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 
+#include "consistency_system.hpp"
 #include "operator_kernels.hpp"
 #include "segmented_rows.hpp"
 
@@ -16,31 +16,22 @@ void add_consistency(const Ghosts<Dim>& ghosts, const Field<Dim>& potential, Ind
                      RowWeights<Dim>& weights) {
   const Index n = static_cast<Index>(potential.rows());
   const Eigen::Index count = geometry.size();
-  Tensor<Dim> spread = Tensor<Dim>::Zero();
-  Tensor<Dim> fit = Tensor<Dim>::Zero();  // row J: sum kappa X (nu_b - nu_a)_J
   Eigen::Matrix<double, Dim, Eigen::Dynamic> difference(Dim, count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const Index b = neighbours[static_cast<std::size_t>(k)];
     Vector<Dim> other =
         b < n ? Vector<Dim>(potential.row(b).transpose()) : ghosts.image(potential, b - n);
     difference.col(k) = other - potential.row(row).transpose();
-    const auto x = geometry.offset.col(k);
-    spread += weights.kappa[k] * x * x.transpose();
-    fit += weights.kappa[k] * difference.col(k) * x.transpose();
   }
-  const Tensor<Dim> slope = fit * spread.inverse();
-  for (Eigen::Index k = 0; k < count; ++k) {
-    weights.gradient.col(k) += geometry.own_volume * weights.kappa[k] *
-                               (difference.col(k) - slope * geometry.offset.col(k));
-  }
+  weights.gradient +=
+      geometry.own_volume * detail::weighted_remainder(geometry, weights, difference);
 }
 
 }  // namespace
 
 template <int Dim>
 MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
-                                    Channels channels,
-                                    const ConsistencyCorrection<Dim>& correction)
+                                    Channels channels, const ConsistencyCorrection<Dim>& correction)
     : size_(rows.size()), channels_(channels), ghosts_(ghosts) {
   const Field<Dim>& potential = correction.potential;
   if (potential.size() > 0) {
@@ -64,7 +55,10 @@ MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const Ghosts<Dim>& gh
     const auto neighbours = rows.neighbours(a);
     rows.geometry(a, geometry);
     compute_weights(geometry, rows.options().kernel, channels.second, weights);
-    if (correction.corrects(a) && !rows.searched(a)) {
+    if (const auto carried = rows.correction(a); !carried.empty()) {
+      weights.gradient += Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>>(
+          carried.data(), Dim, geometry.size());
+    } else if (correction.corrects(a) && !rows.searched(a)) {
       add_consistency(ghosts_, potential, a, neighbours, geometry, weights);
     }
     weighted.id.insert(weighted.id.end(), neighbours.begin(), neighbours.end());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -112,6 +113,36 @@ void Rows<Dim>::geometry(Index row, RowGeometry<Dim>& geometry) const {
 }
 
 template <int Dim>
+std::span<const double> Rows<Dim>::correction(Index row) const {
+  const auto at = std::ranges::lower_bound(corrected_row_, row);
+  if (at == corrected_row_.end() || *at != row) return {};
+  const auto k = static_cast<std::size_t>(at - corrected_row_.begin());
+  return {correction_.data() + correction_slot_[k], neighbours(row).size() * Dim};
+}
+
+template <int Dim>
+void Rows<Dim>::correct(const std::vector<Index>& rows,
+                        const std::vector<Eigen::Matrix<double, Dim, Eigen::Dynamic>>& weights) {
+  require_size("corrections", static_cast<Eigen::Index>(weights.size()),
+               static_cast<Eigen::Index>(rows.size()));
+  std::map<Index, std::vector<double>> all;
+  for (const Index a : corrected_row_) {
+    const auto kept = correction(a);
+    all[a].assign(kept.begin(), kept.end());
+  }
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    all[rows[k]].assign(weights[k].data(), weights[k].data() + weights[k].size());
+  }
+  corrected_row_.clear();
+  correction_.clear();
+  for (const auto& [row, values] : all) {
+    corrected_row_.push_back(row);
+    correction_.insert(correction_.end(), values.begin(), values.end());
+  }
+  index_corrected_rows();
+}
+
+template <int Dim>
 bool Rows<Dim>::accept(const RowGeometry<Dim>& row, RowWeights<Dim>& scratch) const {
   if (row.size() < options_.min_neighbours<Dim>()) return false;
   compute_weights(row, options_.kernel, options_.second, scratch);
@@ -187,6 +218,8 @@ void Rows<Dim>::rewrite(const std::vector<Index>& rebuilt,
   searched_row_.clear();
   searched_offset_.clear();
   searched_volume_.clear();
+  corrected_row_.clear();
+  correction_.clear();
   RowGeometry<Dim> kept;
   std::size_t next = 0;
   for (Index a = 0; a < size(); ++a) {
@@ -194,6 +227,10 @@ void Rows<Dim>::rewrite(const std::vector<Index>& rebuilt,
     const auto list = is_new ? std::span<const Index>(new_lists[next]) : old.neighbours(a);
     neighbour_.insert(neighbour_.end(), list.begin(), list.end());
     row_offset_.push_back(static_cast<Index>(neighbour_.size()));
+    if (const auto correction = old.correction(a); !is_new && !correction.empty()) {
+      corrected_row_.push_back(a);
+      correction_.insert(correction_.end(), correction.begin(), correction.end());
+    }
     if (!is_new && !old.searched(a)) continue;
     if (!is_new) old.geometry(a, kept);
     const RowGeometry<Dim>& row = is_new ? new_geometry[next] : kept;
@@ -206,6 +243,25 @@ void Rows<Dim>::rewrite(const std::vector<Index>& rebuilt,
     if (is_new) ++next;
   }
   index_searched_rows();
+  index_corrected_rows();
+}
+
+template <int Dim>
+void Rows<Dim>::index_corrected_rows() {
+  if (std::ranges::adjacent_find(corrected_row_, std::greater_equal<>()) != corrected_row_.end()) {
+    throw ShapeError("corrected rows must ascend");
+  }
+  correction_slot_.clear();
+  std::size_t at = 0;
+  for (const Index a : corrected_row_) {
+    if (a < 0 || a >= size()) {
+      throw ShapeError("corrected row " + std::to_string(a) + " of " + std::to_string(size()));
+    }
+    correction_slot_.push_back(at);
+    at += neighbours(a).size() * Dim;
+  }
+  require_size("corrections of rows", static_cast<Eigen::Index>(correction_.size()),
+               static_cast<Eigen::Index>(at));
 }
 
 template <int Dim>
@@ -260,6 +316,7 @@ void Rows<Dim>::restore(const ParticleSet<Dim>& particles, const Ghosts<Dim>& gh
     }
   }
   index_searched_rows();
+  index_corrected_rows();
 }
 
 template class Rows<2>;

@@ -1,90 +1,13 @@
 // The consistency correction: what it mends, and what it must not spoil.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <fpm/boundary.hpp>
-#include <fpm/boundary_loads.hpp>
 #include <fpm/consistency.hpp>
 
-#include "operator_reference.hpp"
+#include "corrected_body.hpp"
 
 namespace {
 
 using namespace fpm_test;
-using fpm::BoundaryQuadratureOptions;
-using fpm::Face;
-using fpm::MomentOperator;
-using fpm::PointOperator;
-
-// The relative residual that the solver promises for each component, in the 2-norm.
-constexpr double solver_tolerance = 1e-10;
-
-/// A box of particles, its boundary and its correction; x = box.min[0] may be a plane of symmetry.
-template <int Dim>
-struct Corrected {
-  LatticeOptions<Dim> box;
-  Model<Dim> model;
-  std::vector<Face> faces;
-  fpm::BoundaryPoints<Dim> points;
-  PointOperator<Dim> at_points;
-  Field<Dim> area;
-  fpm::ConsistencyCorrection<Dim> correction;
-  MomentOperator<Dim> op;
-
-  Corrected(const LatticeOptions<Dim>& lattice, bool symmetric)
-      : box(lattice),
-        model(
-            box, false,
-            symmetric ? std::vector<SymmetryPlane>{{0, box.min[0]}} : std::vector<SymmetryPlane>{}),
-        faces(fpm::all_faces<Dim>()) {
-    if (symmetric) faces.erase(faces.begin());
-    if (box.layout == LatticeLayout::vertex && box.jitter == 0.0 && !symmetric) {
-      area = fpm::tributary_area_vectors(box, faces);
-      std::vector<Index> particles;
-      for (const Face& face : faces) {
-        const auto tributary = fpm::tributary_points(box, face);
-        points.append(tributary.points);
-        particles.insert(particles.end(), tributary.particle.begin(), tributary.particle.end());
-      }
-      at_points = PointOperator<Dim>::at_particles(model.set, model.ghosts, particles,
-                                                   row_options<Dim>(box.spacing));
-    } else {
-      points = boundary_quadrature(
-          BoundaryQuadratureOptions<Dim>{.min = box.min, .max = box.max, .spacing = box.spacing},
-          faces);
-      at_points = PointOperator<Dim>(model.set, model.ghosts, points.position,
-                                     row_options<Dim>(box.spacing));
-      area = area_vectors(at_points, points);
-    }
-    correction = consistency_correction(model.rows, model.ghosts, area);
-    op = MomentOperator<Dim>(model.rows, model.ghosts, {}, correction);
-  }
-
-  Index size() const { return op.size(); }
-
-  /// Internal force of a constant stress, by either operator.
-  Field<Dim> internal_force(const MomentOperator<Dim>& by, const Tensor<Dim>& stress) const {
-    const Eigen::MatrixXd all =
-        model.set.volume * Eigen::RowVectorXd(stress.reshaped().transpose());
-    const Field<Dim> zero = Field<Dim>::Zero(size(), Dim);
-    return scattered(by, all, zero, zero);
-  }
-
-  /// Force of the tractions sigma n on the faces.
-  Field<Dim> external_force(const Tensor<Dim>& stress) const {
-    Field<Dim> force = Field<Dim>::Zero(size(), Dim);
-    add_traction(at_points, points, Field<Dim>(points.normal * stress.transpose()), force);
-    return force;
-  }
-};
-
-/// A symmetric stress; with a plane of symmetry normal to x, one that it admits.
-template <int Dim>
-Tensor<Dim> some_stress(bool symmetric) {
-  Tensor<Dim> stress = some_tensor<Dim>() + some_tensor<Dim>().transpose();
-  for (int i = 1; i < Dim && symmetric; ++i) stress(0, i) = stress(i, 0) = 0.0;
-  return stress;
-}
-
 template <int Dim>
 void expect_force_patch_test(const LatticeOptions<Dim>& box, bool symmetric) {
   const Corrected<Dim> body(box, symmetric);
@@ -204,17 +127,12 @@ TEST(Consistency, LeavesTheStencilsOfALatticeShared) {
   // Rows of the two layers next to a face are cut by it (support 2.4 spacings); the others are not.
   const Corrected<2> body(lattice<2>({40, 30}), false);
   const MomentOperator<2> plain(body.model.rows, body.model.ghosts, {});
-  const auto weights = [](const MomentOperator<2>& op, Index row) {
-    std::vector<double> all;
-    op.for_each_entry(row, [&](Index, const double* g) { all.insert(all.end(), g, g + 2); });
-    return all;
-  };
   Index corrected = 0;
   for (Index a = 0; a < body.size(); ++a) {
     const auto x = body.model.set.position.row(a) / 0.1;
     const bool cut = x[0] < 2.0 || x[0] > 38.0 || x[1] < 2.0 || x[1] > 28.0;
     EXPECT_EQ(body.correction.corrects(a), cut) << a;
-    EXPECT_EQ(weights(body.op, a) == weights(plain, a), !cut) << a;
+    EXPECT_EQ(gradient_weights(body.op, a) == gradient_weights(plain, a), !cut) << a;
     if (cut) ++corrected;
   }
   EXPECT_EQ(corrected, 40 * 30 - 36 * 26);
@@ -252,16 +170,11 @@ TEST(Consistency, ResearchedRowsDropIt) {
   ASSERT_EQ(rebuilt.size(), 2U);
   const MomentOperator<2> after(body.model.rows, body.model.ghosts, {}, body.correction);
   const MomentOperator<2> plain(body.model.rows, body.model.ghosts, {});
-  const auto weights = [](const MomentOperator<2>& op, Index row) {
-    std::vector<double> all;
-    op.for_each_entry(row, [&](Index, const double* g) { all.insert(all.end(), g, g + 2); });
-    return all;
-  };
   for (const Index a : rebuilt) {
-    EXPECT_EQ(weights(after, a), weights(plain, a));
-    EXPECT_NE(weights(after, a), weights(body.op, a));
+    EXPECT_EQ(gradient_weights(after, a), gradient_weights(plain, a));
+    EXPECT_NE(gradient_weights(after, a), gradient_weights(body.op, a));
   }
-  EXPECT_EQ(weights(after, 53), weights(body.op, 53));
+  EXPECT_EQ(gradient_weights(after, 53), gradient_weights(body.op, 53));
 }
 
 TEST(Consistency, RefusesAreaVectorsOfAnotherSize) {

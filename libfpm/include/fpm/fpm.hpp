@@ -3,6 +3,7 @@
 // Everything of the library.
 #include "fpm/boundary.hpp"
 #include "fpm/boundary_loads.hpp"
+#include "fpm/carried_consistency.hpp"
 #include "fpm/consistency.hpp"
 #include "fpm/ghosts.hpp"
 #include "fpm/hourglass.hpp"

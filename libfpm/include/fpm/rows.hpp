@@ -60,6 +60,17 @@ class Rows {
   /// Offsets and volumes of a row's neighbours in its reference configuration.
   void geometry(Index row, RowGeometry<Dim>& geometry) const;
 
+  /// What a row's gradient weights have been given besides (carried_consistency.hpp), Dim per
+  /// neighbour; empty for nothing.
+  std::span<const double> correction(Index row) const;
+
+  /// Gives rows such weights, in place of those they had.
+  /// @param rows  ascending
+  /// @param weights  [1/m] of each of them, Dim x neighbours
+  /// @throws ShapeError if sizes disagree, a row does not exist or rows do not ascend.
+  void correct(const std::vector<Index>& rows,
+               const std::vector<Eigen::Matrix<double, Dim, Eigen::Dynamic>>& weights);
+
   /// [m^Dim] Volume of each particle in its row's reference configuration, Vref.
   const Eigen::VectorXd& reference_volume() const { return reference_volume_; }
 
@@ -86,6 +97,8 @@ class Rows {
     visit("searched_row", "-", searched_row_);
     visit("searched_offset", "m", searched_offset_);
     visit("searched_volume", "m^d", searched_volume_);
+    visit("corrected_row", "-", corrected_row_);
+    visit("correction", "1/m", correction_);
   }
 
   /// Rebuilds what follows from the visited fields; call after reading them.
@@ -99,6 +112,7 @@ class Rows {
   void rewrite(const std::vector<Index>& rebuilt, const std::vector<std::vector<Index>>& new_lists,
                const std::vector<RowGeometry<Dim>>& new_geometry);
   void index_searched_rows();
+  void index_corrected_rows();
   void set_initial(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts);
 
   RowOptions options_;
@@ -114,7 +128,10 @@ class Rows {
   std::vector<Index> searched_row_;      // ascending
   std::vector<double> searched_offset_;  // Dim per neighbour of the searched rows, in their order
   std::vector<double> searched_volume_;
-  std::vector<Index> slot_;  // per row: start in searched_volume_, or -1
+  std::vector<Index> slot_;                   // per row: start in searched_volume_, or -1
+  std::vector<Index> corrected_row_;          // ascending
+  std::vector<double> correction_;            // Dim per neighbour of those rows, in their order
+  std::vector<std::size_t> correction_slot_;  // of each of those rows: start in correction_
 };
 
 }  // namespace fpm
