@@ -59,7 +59,7 @@ ArraySizes array_sizes(const model::Model<Dim>& model, const fpm::MomentOperator
 
 template <int Dim>
 Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>& state)
-    : model_(model), state_(state), loops_(choose_loops<Dim>(model.layout)) {
+    : model_(model), state_(state), loops_(choose_loops<Dim>(model.layout)), interfaces_(model) {
   if (model_.consistency) {
     // The correction belongs to the initial configuration, whatever was re-searched since.
     const fpm::Rows<Dim> initial(model_.particles, model_.ghosts, model_.row_options);
@@ -100,7 +100,8 @@ void Equilibrium<Dim>::rebuild_operator() {
 
 template <int Dim>
 void Equilibrium<Dim>::begin_step(double load) {
-  step_.load = load;
+  step_.load = rigid_load_ = load;
+  interfaces_.begin_step(state_);
   step_.external = model_.constant_load + load * model_.scaled_load;
   if (balance_.load.size() > 0) step_.external += balance_.load;
   step_.start_position = model_.particles.position + state_.displacement;
@@ -217,6 +218,9 @@ jfnk::Evaluation Equilibrium<Dim>::operator()(const Eigen::VectorXd& increment,
   double reaction_square = take_plane_reactions();
   add_boundary_terms(increment);
   if (failure_.particle >= 0) return jfnk::Evaluation::out_of_domain;
+  for (const fpm::Vector<Dim>& held : interfaces_.rigid_force()) {
+    reaction_square += held.squaredNorm();
+  }
   for (Eigen::Index k = 0; k < evaluation_.unmasked.size(); ++k) {
     const bool given = model_.prescribed[static_cast<std::size_t>(k)] != 0;
     if (given) reaction_square += evaluation_.unmasked[k] * evaluation_.unmasked[k];
@@ -253,7 +257,9 @@ bool Equilibrium<Dim>::linearise_before_motion(const Eigen::VectorXd& increment,
                                                Eigen::VectorXd& residual) {
   fpm::Field<Dim> motion;
   motion.swap(step_.image_motion);
+  rigid_load_ = state_.programme.load;
   const bool could = (*this)(increment, residual) == jfnk::Evaluation::ok && linearise(increment);
+  rigid_load_ = step_.load;
   motion.swap(step_.image_motion);
   return could;
 }
@@ -263,6 +269,11 @@ bool Equilibrium<Dim>::linearise(const Eigen::VectorXd& increment) {
   extend_increment(increment);
   evaluation_.base_increment = increment;
   if (tangents_.stress.size() == 0) allocate(tangents_, step_.sizes);
+  if (!interfaces_.empty()) {
+    evaluation_.displacement = state_.displacement + Eigen::Map<const fpm::Field<Dim>>(
+                                                         increment.data(), model_.size(), Dim);
+    interfaces_.linearise(state_, evaluation_.displacement, rigid_load_);
+  }
   const LoopOutcome outcome = loops_.linearise(loop_data());
   failure_.particle = outcome.failed;
   return outcome.ok();
@@ -271,21 +282,21 @@ bool Equilibrium<Dim>::linearise(const Eigen::VectorXd& increment) {
 template <int Dim>
 void Equilibrium<Dim>::apply_jacobian(const Eigen::VectorXd& v, Eigen::VectorXd& jv) {
   operator_.extend(v.data(), evaluation_.extended.data());
-  act(v, jv);
+  act(v, 0.0, jv);
 }
 
 template <int Dim>
 void Equilibrium<Dim>::apply_motion(const Eigen::VectorXd& prescribed, Eigen::VectorXd& jv) {
   extend_increment(prescribed);
-  act(prescribed, jv);
+  act(prescribed, step_.load - state_.programme.load, jv);
 }
 
 // Of the extended direction.
 template <int Dim>
-void Equilibrium<Dim>::act(const Eigen::VectorXd& v, Eigen::VectorXd& jv) {
+void Equilibrium<Dim>::act(const Eigen::VectorXd& v, double load_change, Eigen::VectorXd& jv) {
   loops_.apply(loop_data());
   assemble(evaluation_.extended.data(), jv.data());
-  add_boundary_actions(v, jv);
+  add_boundary_actions(v, load_change, jv);
   for (Eigen::Index k = 0; k < jv.size(); ++k) {
     if (model_.prescribed[static_cast<std::size_t>(k)] != 0) jv[k] = 0.0;
   }
@@ -313,8 +324,12 @@ void Equilibrium<Dim>::add_boundary_terms(const Eigen::VectorXd& increment) {
     viscosity_.add_force(model_.viscosity, step_.start_position, step,
                          evaluation_.inverse_transposed, evaluation_.volume, force);
   }
-  if (model_.following_pressures.empty() && model_.penalty_supports.empty()) return;
+  if (model_.following_pressures.empty() && model_.penalty_supports.empty() &&
+      interfaces_.empty()) {
+    return;
+  }
   evaluation_.displacement = state_.displacement + step;
+  interfaces_.add_force(state_, evaluation_.displacement, rigid_load_, force);
   for (const auto& support : model_.penalty_supports) {
     fpm::add_penalty_force<Dim>(support.op, support.points, support.options, support.target,
                                 evaluation_.displacement, force);
@@ -332,7 +347,8 @@ void Equilibrium<Dim>::add_boundary_terms(const Eigen::VectorXd& increment) {
 }
 
 template <int Dim>
-void Equilibrium<Dim>::add_boundary_actions(const Eigen::VectorXd& v, Eigen::VectorXd& jv) {
+void Equilibrium<Dim>::add_boundary_actions(const Eigen::VectorXd& v, double load_change,
+                                            Eigen::VectorXd& jv) {
   using View = Eigen::Map<const fpm::Field<Dim>>;
   const Eigen::Index n = model_.size();
   Eigen::Map<fpm::Field<Dim>> force(jv.data(), n, Dim);
@@ -345,6 +361,7 @@ void Equilibrium<Dim>::add_boundary_actions(const Eigen::VectorXd& v, Eigen::Vec
   for (const auto& support : model_.penalty_supports) {
     fpm::add_penalty_action<Dim>(support.op, support.points, support.options, direction, force);
   }
+  interfaces_.add_action(direction, load_change, force);
   if (model_.following_pressures.empty()) return;
   evaluation_.displacement = state_.displacement + step;
   for (const auto& load : model_.following_pressures) {
@@ -362,6 +379,12 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
     forces.reaction += model_.plane_measure[p].dot(plane_force_[p]);
     forces.external_work +=
         (step_.load - state_.programme.load) * model_.plane_drive[p].dot(plane_force_[p]);
+  }
+  for (std::size_t i = 0; i < model_.interfaces.size(); ++i) {
+    const model::Interface<Dim>& interface = model_.interfaces[i];
+    const fpm::Vector<Dim>& held = interfaces_.rigid_force()[i];
+    forces.reaction += interface.measure.dot(held);
+    forces.external_work += (step_.load - state_.programme.load) * interface.drive.dot(held);
   }
   extend_increment(increment);
   forces.hourglass_work = hourglass_work(loop_data());
@@ -383,6 +406,7 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
   }
   state_.increment = Eigen::Map<const fpm::Field<Dim>>(increment.data(), model_.size(), Dim);
   state_.displacement += state_.increment;
+  interfaces_.commit(state_);
   if (model_.layout.plastic) {
     forces.plastic = (state_.plastic_increment.array() > 0.0).count();
     forces.max_plastic_strain = state_.plastic_strain.maxCoeff();
@@ -393,7 +417,7 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
 template <int Dim>
 std::size_t Equilibrium<Dim>::bytes() const {
   return operator_.bytes() + viscosity_.bytes() + bytes_of(step_) + bytes_of(evaluation_) +
-         bytes_of(tangents_) + correction_.bytes();
+         bytes_of(tangents_) + correction_.bytes() + interfaces_.bytes();
 }
 
 template class Equilibrium<2>;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "equilibrium/initial_balance.hpp"
+#include "equilibrium/interface_forces.hpp"
 #include "equilibrium/law_loops.hpp"
 #include "fpm/moment_operator.hpp"
 #include "fpm/viscosity.hpp"
@@ -78,26 +79,28 @@ class Equilibrium {
   void add_to_images(const fpm::Field<Dim>& motion, Eigen::VectorXd& extended) const;
   void extend_increment(const Eigen::VectorXd& increment);
   double take_plane_reactions();
-  void act(const Eigen::VectorXd& v, Eigen::VectorXd& jv);
+  void act(const Eigen::VectorXd& v, double load_change, Eigen::VectorXd& jv);
   void place_particles();
   void remember_pairs(Eigen::Index a, const Eigen::VectorXd& position_moments);
   void assemble(const double* field, double* force);
   void add_boundary_terms(const Eigen::VectorXd& increment);
   [[nodiscard]] fpm::Index nearest_particle(
       const Eigen::Matrix<double, 1, Dim>& reference_place) const;
-  void add_boundary_actions(const Eigen::VectorXd& v, Eigen::VectorXd& jv);
+  void add_boundary_actions(const Eigen::VectorXd& v, double load_change, Eigen::VectorXd& jv);
 
   const model::Model<Dim>& model_;
   model::State<Dim>& state_;
   fpm::MomentOperator<Dim> operator_;
   fpm::ConsistencyCorrection<Dim> correction_;  // of the first rows, kept for rebuilds
-  InitialBalance<Dim> balance_;  // of the initial stress, if there is one
+  InitialBalance<Dim> balance_;                 // of the initial stress, if there is one
   fpm::PairViscosity<Dim> viscosity_;
   LawLoops<Dim> loops_;
+  InterfaceForces<Dim> interfaces_;
   StepArrays<Dim> step_;
   EvaluationArrays<Dim> evaluation_;
   TangentArrays tangents_;
   std::vector<fpm::Vector<Dim>> plane_force_;  // by which each plane holds the body
+  double rigid_load_ = 0.0;                    // load parameter to which rigid bodies have moved
   double reference_norm_ = 0.0;
   EvaluationFailure failure_;
 };

@@ -26,13 +26,31 @@ Eigen::VectorXd forces_of_stress(const model::Model<Dim>& model,
   return force;
 }
 
+// Of the initial tractions: those of the bodies, and what rigid bodies bear of them.
+template <int Dim>
+void add_interface_forces(const model::Model<Dim>& model, Eigen::Index stride,
+                          Eigen::VectorXd& force, fpm::Field<Dim>& borne) {
+  fpm::Field<Dim> by_bodies = fpm::Field<Dim>::Zero(model.size(), Dim);
+  fpm::Field<Dim> by_rigid = by_bodies;
+  for (const model::Interface<Dim>& interface : model.interfaces) {
+    for (fpm::Index c = 0; c < interface.faces.points.size(); ++c) {
+      const fpm::Vector<Dim> traction = interface.initial_traction.row(c).transpose();
+      interface.faces.add_force(c, traction, interface.is_rigid() ? by_rigid : by_bodies);
+    }
+  }
+  for (int i = 0; i < Dim; ++i) {
+    force.segment(i * stride, model.size()) += by_bodies.col(i) + by_rigid.col(i);
+  }
+  borne -= by_rigid;
+}
+
 }  // namespace
 
 template <int Dim>
 InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
                                            const fpm::MomentOperator<Dim>& op) {
   const Eigen::Index n = model.size();
-  const Eigen::VectorXd force = forces_of_stress(model, op);
+  Eigen::VectorXd force = forces_of_stress(model, op);
   InitialBalance<Dim> balance;
   balance.load.setZero(model.unknowns());
   // What moves bears nothing at first.
@@ -49,6 +67,7 @@ InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
     if (moves) balance.plane_force[p] = -on_planes[p];
   }
   balance.reaction = -by_moving;
+  add_interface_forces(model, op.stride(), force, borne);
   for (int i = 0; i < Dim; ++i) {
     for (Eigen::Index a = 0; a < n; ++a) {
       const Eigen::Index k = i * n + a;

@@ -76,25 +76,44 @@ void TwoLevelPreconditioner<Dim>::build_blocks(const model::Model<Dim>& model,
     add(a, block);
   }
   add_penalty_blocks(model, sum);
+  add_interface_blocks(model, sum);
   invert_blocks(sum);
 }
 
 template <int Dim>
 void TwoLevelPreconditioner<Dim>::add_penalty_blocks(const model::Model<Dim>& model,
                                                      Blocks& sum) const {
-  using Vector = fpm::Vector<Dim>;
   for (const model::PenaltySupport<Dim>& support : model.penalty_supports) {
-    fpm::Field<Dim> values = fpm::Field<Dim>::Zero(size_, Dim);
     for (fpm::Index c = 0; c < support.points.size(); ++c) {
-      values.setZero();
-      support.op.add_transposed_value(c, Vector::Ones(), values);
       const double stiffness = support.options.penalty * support.points.weight[c];
-      for (Eigen::Index a = 0; a < size_; ++a) {
+      support.op.for_each_value(c, [&](fpm::Index a, double value) {
         for (int i = 0; i < Dim; ++i) {
           if (!support.options.prescribed[static_cast<std::size_t>(i)]) continue;
-          sum(i * Dim + i, a) += stiffness * values(a, i) * values(a, i);
+          sum(i * Dim + i, a) += stiffness * value * value;
         }
-      }
+      });
+    }
+  }
+}
+
+// Bodies that touch stick, at first.
+template <int Dim>
+void TwoLevelPreconditioner<Dim>::add_interface_blocks(const model::Model<Dim>& model,
+                                                       Blocks& sum) const {
+  for (const model::Interface<Dim>& interface : model.interfaces) {
+    const auto& points = interface.faces.points;
+    for (fpm::Index c = 0; c < points.size(); ++c) {
+      const fpm::Vector<Dim> normal = points.normal.row(c).transpose();
+      const bool slides = !interface.law.tied && interface.law.friction_tangent == 0.0 &&
+                          interface.law.adhesion == 0.0;
+      const fpm::Tensor<Dim> held =
+          slides ? fpm::Tensor<Dim>(normal * normal.transpose()) : fpm::Tensor<Dim>::Identity();
+      const fpm::Tensor<Dim> stiffness = interface.stiffness[c] * points.weight[c] * held;
+      const auto add = [&](fpm::Index a, double value) {
+        Eigen::Map<fpm::Tensor<Dim>>(sum.col(a).data()) += value * value * stiffness;
+      };
+      interface.faces.first.for_each_value(c, add);
+      if (!interface.is_rigid()) interface.faces.second.for_each_value(c, add);
     }
   }
 }

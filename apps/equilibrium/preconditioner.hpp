@@ -35,6 +35,7 @@ class TwoLevelPreconditioner {
   using Blocks = Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic>;
   void build_blocks(const model::Model<Dim>& model, const fpm::MomentOperator<Dim>& op);
   void add_penalty_blocks(const model::Model<Dim>& model, Blocks& sum) const;
+  void add_interface_blocks(const model::Model<Dim>& model, Blocks& sum) const;
   void invert_blocks(const Blocks& sum);
 
   Eigen::Index size_ = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/initial_stress.hpp"
+#include "model/interfaces.hpp"
 #include "model/loads.hpp"
 #include "model/planes.hpp"
 #include "model/selection.hpp"
@@ -33,7 +34,7 @@ fpm::Kernel to_kernel(scene::KernelKind kind) {
 template <int Dim>
 void place_particles(const scene::Scene& scene, Model<Dim>& model) {
   const scene::Geometry& geometry = scene.geometry;
-  fpm::LatticeOptions<Dim> lattice;
+  fpm::LatticeOptions<Dim>& lattice = model.lattice;
   lattice.min = model.box_min = to_vector<Dim>(geometry.min);
   lattice.max = model.box_max = to_vector<Dim>(geometry.max);
   lattice.spacing = model.spacing = geometry.spacing;
@@ -53,11 +54,6 @@ void place_particles(const scene::Scene& scene, Model<Dim>& model) {
 }
 
 template <int Dim>
-MaterialIndex material_at(const scene::Scene& scene, const Eigen::Matrix<double, 1, Dim>& x) {
-  return static_cast<MaterialIndex>(scene::material_at(scene, {x.data(), Dim}));
-}
-
-template <int Dim>
 void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
   const Eigen::Index n = model.size();
   model.material.assign(static_cast<std::size_t>(n), 0);
@@ -66,9 +62,14 @@ void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
     model.materials.push_back(constitutive::make_material(scene::parameters_of(material)));
     model.youngs_modulus.push_back(material.youngs_modulus);
   }
+  // By where its cell is: jitter moves no particle into another material.
+  fpm::LatticeOptions<Dim> regular = model.lattice;
+  regular.jitter = 0.0;
+  const fpm::Field<Dim> places = fpm::make_lattice(regular).position;
   for (Eigen::Index a = 0; a < n; ++a) {
+    const fpm::Vector<Dim> place = places.row(a).transpose();
     model.material[static_cast<std::size_t>(a)] =
-        material_at<Dim>(scene, model.particles.position.row(a));
+        static_cast<MaterialIndex>(scene::material_at(scene, {place.data(), Dim}));
     model.mass[a] = scene.material[model.material[static_cast<std::size_t>(a)]].density *
                     model.particles.volume[a];
   }
@@ -109,14 +110,20 @@ void constrain(const scene::Scene& scene, Model<Dim>& model) {
     model.prescribed[static_cast<std::size_t>(i * n + a)] = 1;
   };
   for (const scene::Support& support : scene.support) {
-    if (support.method == scene::SupportMethod::penalty) continue;  // loads.cpp
+    if (support.method == scene::SupportMethod::penalty ||  // loads.cpp
+        support.method == scene::SupportMethod::contact) {  // interfaces.cpp
+      continue;
+    }
     const bool ghosts = support.method == scene::SupportMethod::ghosts;
     for (const Eigen::Index a : supported_particles(scene, support, model)) {
       if (ghosts && !on_face) continue;
       for (const scene::Axis axis : support.directions) prescribe(a, static_cast<int>(axis));
     }
   }
-  if (scene.drive.kind != scene::DriveKind::displacement) return;
+  if (scene.drive.kind != scene::DriveKind::displacement ||
+      scene.drive.method == scene::DriveMethod::contact) {
+    return;
+  }
   const fpm::Vector<Dim> direction = to_vector<Dim>(scene.drive.direction).normalized();
   const bool ghosts = scene.drive.method == scene::DriveMethod::ghosts;
   if (ghosts) {
@@ -151,9 +158,11 @@ Model<Dim> build_model(const scene::Scene& scene) {
   place_particles(scene, model);
   assign_materials(scene, model);
   choose_integration(scene, model);
+  part_into_bodies(scene, model);
   constrain(scene, model);
   add_loads(scene, model);
   add_initial_stress(scene, model);
+  add_interfaces(scene, model);
   model.consistency = scene::resolve_consistency(scene);
   if (model.consistency) model.area_vector = boundary_area_vectors(scene, model);
   return model;
@@ -163,7 +172,7 @@ template <int Dim>
 State<Dim> initial_state(const Model<Dim>& model) {
   State<Dim> state;
   state.layout = model.layout;
-  state.resize(model.size());
+  state.resize(model.size(), model.interface_points());
   state.rows = fpm::Rows<Dim>(model.particles, model.ghosts, model.row_options);
   if (model.initial_stress.size() > 0) state.stress = model.initial_stress;
   if (model.layout.subpoints) {

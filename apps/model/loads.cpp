@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/interfaces.hpp"
 #include "model/selection.hpp"
 #include "model/side_points.hpp"
 #include "scene/derived.hpp"
@@ -123,8 +124,11 @@ void add_loads(const scene::Scene& scene, Model<Dim>& model) {
   add_penalty_supports(scene, model);
 }
 
+namespace {
+
+// Of the faces of the box.
 template <int Dim>
-fpm::Field<Dim> boundary_area_vectors(const scene::Scene& scene, const Model<Dim>& model) {
+fpm::Field<Dim> outer_area_vectors(const scene::Scene& scene, const Model<Dim>& model) {
   const fpm::Vector<Dim> middle = 0.5 * (model.box_min + model.box_max);
   const auto face_of = [&](const fpm::GhostPlane<Dim>& plane) {
     return fpm::Face{plane.axis, plane.position > middle[plane.axis]};
@@ -143,7 +147,7 @@ fpm::Field<Dim> boundary_area_vectors(const scene::Scene& scene, const Model<Dim
     if (plane.has_range()) plates.push_back(plane);
   }
   if (is_plain_vertex_lattice(scene)) {
-    const auto lattice = vertex_lattice(scene, model);
+    const auto& lattice = model.lattice;
     fpm::Field<Dim> area = fpm::tributary_area_vectors(lattice, faces);
     for (const auto& plate : plates) {
       const auto under =
@@ -170,8 +174,23 @@ fpm::Field<Dim> boundary_area_vectors(const scene::Scene& scene, const Model<Dim
     points.append(under);
   }
   const fpm::PointOperator<Dim> op(model.particles, model.ghosts, points.position,
-                                   model.row_options);
+                                   model.row_options, bodies_at(model, points));
   return fpm::area_vectors(op, points);
+}
+
+}  // namespace
+
+template <int Dim>
+fpm::Field<Dim> boundary_area_vectors(const scene::Scene& scene, const Model<Dim>& model) {
+  fpm::Field<Dim> area = outer_area_vectors(scene, model);
+  for (const Interface<Dim>& interface : model.interfaces) {
+    if (interface.is_rigid()) continue;
+    const auto& points = interface.faces.points;
+    const fpm::Field<Dim> piece = points.weight.asDiagonal() * points.normal;
+    interface.faces.first.add_transposed_values(piece, area);
+    interface.faces.second.add_transposed_values(fpm::Field<Dim>(-piece), area);
+  }
+  return area;
 }
 
 template void add_loads<2>(const scene::Scene&, Model<2>&);

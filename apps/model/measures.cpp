@@ -74,6 +74,10 @@ void Measures<Dim>::find_support(const scene::Scene& scene, const std::string& n
         measure.penalties.push_back(penalties);
         return;
       }
+      if (scene.support[i].method == scene::SupportMethod::contact) {
+        add_contacts(scene.support[i].name, measure);
+        return;
+      }
       if (scene.support[i].method == scene::SupportMethod::ghosts) {
         const scene::Side side = *scene.support[i].side;
         measure.unknowns = borne_by_planes(model_, scene::axis_of(side),
@@ -92,6 +96,20 @@ void Measures<Dim>::find_support(const scene::Scene& scene, const std::string& n
 }
 
 template <int Dim>
+void Measures<Dim>::add_contacts(const std::string& support, Measure& measure) const {
+  Eigen::Index first = 0;
+  for (const Interface<Dim>& interface : model_.interfaces) {
+    const Eigen::Index count = interface.faces.points.size();
+    if (interface.is_rigid() && interface.support == support) {
+      for (Eigen::Index c = 0; c < count; ++c) {
+        measure.contacts.emplace_back(first + c, interface.faces.points.weight[c]);
+      }
+    }
+    first += count;
+  }
+}
+
+template <int Dim>
 void Measures<Dim>::find_side(const scene::Scene& scene, scene::Side side, Measure& measure) const {
   const Eigen::Index n = model_.size();
   measure.unknowns =
@@ -106,6 +124,14 @@ void Measures<Dim>::find_side(const scene::Scene& scene, scene::Side side, Measu
     if (support.method != scene::SupportMethod::penalty) continue;
     if (support.side == side) measure.penalties.push_back(penalties);
     ++penalties;
+  }
+  for (const scene::Support& support : scene.support) {
+    if (support.method == scene::SupportMethod::contact && support.side == side) {
+      add_contacts(support.name, measure);
+    }
+  }
+  if (scene.drive.method == scene::DriveMethod::contact && scene.drive.side == side) {
+    add_contacts("", measure);
   }
   std::size_t following = 0;
   for (const scene::Traction& traction : scene.traction) {
@@ -152,6 +178,9 @@ fpm::Vector<Dim> Measures<Dim>::force(const Measure& measure, const State<Dim>& 
   fpm::Vector<Dim> sum = fpm::Vector<Dim>::Zero();
   for (const Eigen::Index k : measure.unknowns) {
     sum[k / model_.size()] += state.reaction.data()[k];
+  }
+  for (const auto& [point, weight] : measure.contacts) {
+    sum += weight * state.interface_traction.col(point);
   }
   fpm::Field<Dim> nodal = fpm::Field<Dim>::Zero(model_.size(), Dim);
   for (const std::size_t penalty : measure.penalties) {

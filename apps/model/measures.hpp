@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/model.hpp"
@@ -42,10 +43,13 @@ class Measures {
     std::vector<Eigen::Index> unknowns;  // of a reaction or resultant
     std::vector<std::size_t> penalties;  // the model's, of a reaction or resultant
     std::vector<Load> loads;             // of a resultant
+    // Points of interfaces, and the area of each, of a reaction or resultant.
+    std::vector<std::pair<Eigen::Index, double>> contacts;
   };
 
   void locate(const scene::Scene& scene, const scene::Measure& asked, Measure& measure) const;
   void find_support(const scene::Scene& scene, const std::string& name, Measure& measure) const;
+  void add_contacts(const std::string& support, Measure& measure) const;
   void find_side(const scene::Scene& scene, scene::Side side, Measure& measure) const;
   void name_columns(const scene::Measure& asked);
   fpm::Vector<Dim> force(const Measure& measure, const State<Dim>& state) const;

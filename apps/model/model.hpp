@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "constitutive/interface_law.hpp"
 #include "constitutive/material.hpp"
+#include "fpm/bodies.hpp"
 #include "fpm/boundary_loads.hpp"
 #include "fpm/ghosts.hpp"
 #include "fpm/hourglass.hpp"
@@ -33,10 +36,25 @@ struct PenaltySupport {
   fpm::Field<Dim> target;  // [m] prescribed displacement of the points
 };
 
+/// Faces at which bodies, or a body and a rigid one, meet under one law.
+template <int Dim>
+struct Interface {
+  fpm::Interface<Dim> faces;
+  constitutive::InterfaceLaw law;
+  Eigen::VectorXd stiffness;                            // [Pa/m] of each point
+  fpm::Field<Dim> initial_traction;                     // [Pa] on the first body, of each point
+  fpm::Vector<Dim> drive = fpm::Vector<Dim>::Zero();    // [m] of a rigid body, at load parameter 1
+  fpm::Vector<Dim> measure = fpm::Vector<Dim>::Zero();  // weight of its force in the reported load
+  std::string support;  // whose the rigid body is; empty: the drive's, or none
+
+  bool is_rigid() const { return faces.second.size() == 0; }
+};
+
 /// A scene turned into particles, materials, constraints and loads: everything that stays the same
 /// during a run. Vectors over unknowns are component-major (all x, then all y, ...), length n Dim.
 template <int Dim>
 struct Model {
+  fpm::LatticeOptions<Dim> lattice;
   fpm::ParticleSet<Dim> particles;
   fpm::Ghosts<Dim> ghosts;
   fpm::RowOptions row_options;
@@ -72,6 +90,10 @@ struct Model {
   std::vector<fpm::Vector<Dim>> plane_measure;  // weight of its reaction in the reported load
   std::vector<FollowingPressure<Dim>> following_pressures;
   std::vector<PenaltySupport<Dim>> penalty_supports;
+  std::vector<Interface<Dim>> interfaces;
+
+  /// Number of points of all interfaces.
+  Eigen::Index interface_points() const;
 
   /// A point next to the body [m], by whose distance its coordinates lose no digits: the origin of
   /// the scene unless that is further away than the body is wide.
@@ -80,6 +102,13 @@ struct Model {
   Eigen::Index size() const { return particles.position.rows(); }
   Eigen::Index unknowns() const { return size() * Dim; }
 };
+
+template <int Dim>
+Eigen::Index Model<Dim>::interface_points() const {
+  Eigen::Index count = 0;
+  for (const Interface<Dim>& interface : interfaces) count += interface.faces.points.size();
+  return count;
+}
 
 template <int Dim>
 fpm::Vector<Dim> Model<Dim>::nearby_origin() const {

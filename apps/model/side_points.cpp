@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "model/interfaces.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
 
@@ -26,16 +27,6 @@ bool is_plain_vertex_lattice(const scene::Scene& scene) {
 }
 
 template <int Dim>
-fpm::LatticeOptions<Dim> vertex_lattice(const scene::Scene& scene, const Model<Dim>& model) {
-  fpm::LatticeOptions<Dim> lattice;
-  lattice.min = model.box_min;
-  lattice.max = model.box_max;
-  lattice.spacing = scene.geometry.spacing;
-  lattice.layout = fpm::LatticeLayout::vertex;
-  return lattice;
-}
-
-template <int Dim>
 SidePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, scene::Side side,
                             const scene::Point& range_min, const scene::Point& range_max) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -44,7 +35,7 @@ SidePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, 
   const auto to = range_corner<Dim>(range_max, side, infinity);
   SidePoints<Dim> result;
   if (is_plain_vertex_lattice(scene)) {
-    auto tributary = fpm::tributary_points(vertex_lattice(scene, model), face, from, to);
+    auto tributary = fpm::tributary_points(model.lattice, face, from, to);
     result.op = fpm::PointOperator<Dim>::at_particles(model.particles, model.ghosts,
                                                       tributary.particle, model.row_options);
     result.points = std::move(tributary.points);
@@ -59,12 +50,10 @@ SidePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, 
   options.range_max = to;
   result.points = fpm::boundary_quadrature(options);
   result.op = fpm::PointOperator<Dim>(model.particles, model.ghosts, result.points.position,
-                                      model.row_options);
+                                      model.row_options, bodies_at(model, result.points));
   return result;
 }
 
-template fpm::LatticeOptions<2> vertex_lattice<2>(const scene::Scene&, const Model<2>&);
-template fpm::LatticeOptions<3> vertex_lattice<3>(const scene::Scene&, const Model<3>&);
 template SidePoints<2> side_points<2>(const scene::Scene&, const Model<2>&, scene::Side,
                                       const std::vector<double>&, const std::vector<double>&);
 template SidePoints<3> side_points<3>(const scene::Scene&, const Model<3>&, scene::Side,

@@ -29,8 +29,4 @@ SidePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, 
 /// Whether the particles are the vertices of a lattice without jitter.
 bool is_plain_vertex_lattice(const scene::Scene& scene);
 
-/// That lattice.
-template <int Dim>
-fpm::LatticeOptions<Dim> vertex_lattice(const scene::Scene& scene, const Model<Dim>& model);
-
 }  // namespace model

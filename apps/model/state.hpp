@@ -70,10 +70,14 @@ struct State {
   Eigen::VectorXd plastic_increment;         // of the last converged step
   Eigen::VectorXd released;                  // omega: 1 once the row has yielded, else 0
   fpm::Field<Dim> reaction;                  // at prescribed unknowns, 0 elsewhere
+  Columns<Dim> interface_slip;               // of each point of the interfaces
+  Columns<Dim> interface_traction;           // there, on the first body
   fpm::Rows<Dim> rows;
   ProgrammeState programme;
 
-  void resize(Eigen::Index n) {
+  /// @param n  particles
+  /// @param points  of the interfaces
+  void resize(Eigen::Index n, Eigen::Index points) {
     const auto count = [n](bool needed) { return needed ? n : 0; };
     displacement.setZero(n, Dim);
     increment.setZero(n, Dim);
@@ -88,6 +92,8 @@ struct State {
     plastic_increment.setZero(count(layout.plastic));
     released.setZero(count(layout.incremental));
     reaction.setZero(n, Dim);
+    interface_slip.setZero(Dim, points);
+    interface_traction.setZero(Dim, points);
   }
 
   /// Visits every particle field, visit(name, unit, matrix); fields a scene does not need are
@@ -106,6 +112,13 @@ struct State {
     visit("plastic_increment", "-", plastic_increment);
     visit("released", "-", released);
     visit("reaction", Dim == 2 ? "N/m" : "N", reaction);
+  }
+
+  /// Likewise for the points of the interfaces.
+  template <class Visitor>
+  void for_each_interface_field(Visitor&& visit) {
+    visit("slip", "m", interface_slip);
+    visit("traction", "Pa", interface_traction);
   }
 };
 

@@ -13,13 +13,15 @@ namespace {
 
 const std::string particle_group = "/state/particles/";
 const std::string row_group = "/state/rows/";
+const std::string interface_group = "/state/interfaces/";
 const std::string programme_group = "/state/programme/";
 
 // The reactions were no part of the state before this schema.
 constexpr std::int64_t schema_of_reactions = 3;
 // Before this schema no load kept the initial stress at rest.
 constexpr std::int64_t schema_of_balance = 4;
-// Before this schema re-searched rows lost the consistency correction.
+// Before this schema re-searched rows lost the consistency correction, and there were no
+// interfaces.
 constexpr std::int64_t schema_of_corrections = 5;
 const std::string shown_reactions = "/VTKHDF/PointData/reaction";
 
@@ -69,8 +71,7 @@ class FieldWriter {
   }
 
   template <class Matrix>
-  void write_particles(const std::string& name, std::string_view unit, const Matrix& field) {
-    const std::string path = particle_group + name;
+  void write_columns(const std::string& path, std::string_view unit, const Matrix& field) {
     if constexpr (component_major<Matrix>) {
       const Eigen::Matrix<double, Matrix::ColsAtCompileTime, Eigen::Dynamic> by_particle =
           field.transpose();
@@ -91,8 +92,7 @@ class FieldReader {
 
   /// Into a field that already has its size.
   template <class Matrix>
-  void read_particles(const std::string& name, Matrix& field) const {
-    const std::string path = particle_group + name;
+  void read_columns(const std::string& path, Matrix& field) const {
     std::vector<double> values(static_cast<std::size_t>(field.size()));
     file_.read<double>(path, values, file_shape(field));
     require_finite(path, values);
@@ -163,7 +163,10 @@ template <int Dim>
 void write_state(files::Hdf5File& file, State<Dim>& state, files::ContentDigest& digest) {
   FieldWriter writer(file, digest);
   state.for_each_particle_field([&](const char* name, const char* unit, const auto& field) {
-    writer.write_particles(name, unit, field);
+    writer.write_columns(particle_group + name, unit, field);
+  });
+  state.for_each_interface_field([&](const char* name, const char* unit, const auto& field) {
+    writer.write_columns(interface_group + name, unit, field);
   });
   state.rows.for_each_field([&](const char* name, const char* unit, const auto& list) {
     using T = typename std::remove_cvref_t<decltype(list)>::value_type;
@@ -180,14 +183,19 @@ template <int Dim>
 State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model, std::int64_t schema) {
   State<Dim> state;
   state.layout = model.layout;
-  state.resize(model.size());
+  state.resize(model.size(), model.interface_points());
   const FieldReader reader(file);
   const bool has_reactions = schema >= schema_of_reactions;
   state.for_each_particle_field([&](const char* name, const char* /*unit*/, auto& field) {
-    if (has_reactions || name != std::string_view("reaction")) reader.read_particles(name, field);
+    if (has_reactions || name != std::string_view("reaction")) {
+      reader.read_columns(particle_group + name, field);
+    }
   });
   if (!has_reactions) reader.template read_shown_reactions<Dim>(state.reaction);
   const bool has_corrections = schema >= schema_of_corrections;
+  state.for_each_interface_field([&](const char* name, const char* /*unit*/, auto& field) {
+    if (has_corrections) reader.read_columns(interface_group + name, field);
+  });
   state.rows.for_each_field([&](std::string_view name, const char* /*unit*/, auto& list) {
     if (has_corrections || (name != "corrected_row" && name != "correction")) {
       reader.read_list(std::string(name), list);
@@ -215,6 +223,7 @@ std::size_t bytes_of(State<Dim>& state) {
     bytes += static_cast<std::size_t>(field.size()) * sizeof(T);
   };
   state.for_each_particle_field(add);
+  state.for_each_interface_field(add);
   state.rows.for_each_field(add);
   return bytes;
 }

@@ -14,6 +14,7 @@ void check_scene(const Scene& scene, tables::Diagnosis& diagnosis);
 // The parts of check_scene.
 void check_geometry(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_materials(const Scene& scene, tables::Diagnosis& diagnosis);
+void check_interfaces(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_boundaries(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_loads(const Scene& scene, tables::Diagnosis& diagnosis);

@@ -103,6 +103,23 @@ void check_ghosts(const Scene& scene, const Support& support, const std::string&
                   "direct");
 }
 
+/// What touches is a whole side, across it.
+void check_contact(const Support& support, const std::string& table, tables::Diagnosis& diagnosis) {
+  if (support.method != SupportMethod::contact) return;
+  const std::string key = table + ".method";
+  if (!diagnosis.good({key, table + ".side", table + ".directions", table})) return;
+  if (!support.side) {
+    diagnosis.error(key, "found contact without a side", "a body touches at a side: give one");
+    return;
+  }
+  const auto across = static_cast<Axis>(axis_of(*support.side));
+  if (support.directions == std::vector<Axis>{across}) return;
+  diagnosis.error(table + ".directions", "found others than that across the side",
+                  fmt::format("a contact holds along {}; what it does along the side is its "
+                              "friction_angle's and adhesion's",
+                              name_of(across)));
+}
+
 void check_support(const Scene& scene, std::size_t index, tables::Diagnosis& diagnosis) {
   const Support& support = scene.support[index];
   const std::string table = fmt::format("support.{}", index);
@@ -116,6 +133,7 @@ void check_support(const Scene& scene, std::size_t index, tables::Diagnosis& dia
     }
   }
   check_ghosts(scene, support, table, diagnosis);
+  check_contact(support, table, diagnosis);
 }
 
 /// Whether anything keeps the body from moving freely along an axis.

@@ -233,10 +233,23 @@ void check_driven_by_ghosts(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
 }
 
+/// A plate that only touches is driven across its side.
+void check_driven_by_contact(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const Drive& drive = scene.drive;
+  if (drive.method != DriveMethod::contact) return;
+  if (!diagnosis.good({"drive.method", "drive.side", "drive.direction"})) return;
+  const auto across = static_cast<std::size_t>(axis_of(drive.side));
+  if (across < drive.direction.size() && drive.direction[across] == 0.0) {
+    diagnosis.error("drive.method", "found contact, with a drive along its side",
+                    "a plate that touches pushes across its side: use ghosts or direct");
+  }
+}
+
 void check_displacement(const Scene& scene, tables::Diagnosis& diagnosis) {
   const Drive& drive = scene.drive;
   check_direction(scene, diagnosis);
   check_driven_by_ghosts(scene, diagnosis);
+  check_driven_by_contact(scene, diagnosis);
   if (drive.target == 0.0 && diagnosis.good({"drive.target"})) {
     diagnosis.error("drive.target", diagnosis.given("drive.target") ? "found 0" : "is missing",
                     "a displacement needs how far it goes, a number > 0 [m]");
@@ -375,6 +388,7 @@ void check_run(const Scene& scene, tables::Diagnosis& diagnosis) {
 void check_scene(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_geometry(scene, diagnosis);
   check_materials(scene, diagnosis);
+  check_interfaces(scene, diagnosis);
   check_hourglass(scene, diagnosis);
   check_boundaries(scene, diagnosis);
   check_loads(scene, diagnosis);

@@ -13,8 +13,10 @@ enum class Axis { x, y, z };
 /// Faces of the box: left and right are x- and x+, bottom and top y- and y+, front and back z- and
 /// z+. Up is y, in 3D as well.
 enum class Side { left, right, bottom, top, front, back };
-enum class SupportMethod { direct, penalty, ghosts };
-enum class DriveMethod { direct, ghosts };
+enum class SupportMethod { direct, penalty, ghosts, contact };
+enum class DriveMethod { direct, ghosts, contact };
+/// How rows see across the interface of two materials: as one body, or each its own.
+enum class InterfaceKind { through, tied, contact };
 enum class InitialStressKind { none, geostatic };
 enum class DriveKind { none, displacement, load };
 enum class Lateral { fixed, free };

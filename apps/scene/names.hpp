@@ -21,10 +21,11 @@ inline constexpr std::array<std::string_view, 6> control{"auto",      "none",   
 inline constexpr std::array<std::string_view, 3> axis{"x", "y", "z"};
 inline constexpr std::array<std::string_view, 6> side{"left", "right", "bottom",
                                                       "top",  "front", "back"};
-inline constexpr std::array<std::string_view, 3> method{"direct", "penalty", "ghosts"};
+inline constexpr std::array<std::string_view, 4> method{"direct", "penalty", "ghosts", "contact"};
 inline constexpr std::array<std::string_view, 2> initial_stress{"none", "geostatic"};
 inline constexpr std::array<std::string_view, 3> drive{"none", "displacement", "load"};
-inline constexpr std::array<std::string_view, 2> drive_method{"direct", "ghosts"};
+inline constexpr std::array<std::string_view, 3> drive_method{"direct", "ghosts", "contact"};
+inline constexpr std::array<std::string_view, 3> interface { "through", "tied", "contact" };
 inline constexpr std::array<std::string_view, 2> lateral{"fixed", "free"};
 inline constexpr std::array<std::string_view, 2> load{"traction", "gravity"};
 inline constexpr std::array<std::string_view, 6> measure{
@@ -63,6 +64,9 @@ constexpr std::span<const std::string_view> names_of(SupportMethod) {
 }
 constexpr std::span<const std::string_view> names_of(DriveMethod) {
   return names::drive_method;
+}
+constexpr std::span<const std::string_view> names_of(InterfaceKind) {
+  return names::interface;
 }
 constexpr std::span<const std::string_view> names_of(InitialStressKind) {
   return names::initial_stress;

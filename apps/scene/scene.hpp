@@ -33,6 +33,7 @@ struct Approximation {
   double support_over_spacing = 2.4;
   Switch consistency = Switch::automatic;
   KinematicsKind kinematics = KinematicsKind::finite_strain;
+  InterfaceKind interfaces = InterfaceKind::through;  // of materials that no table names
   bool operator==(const Approximation&) const = default;
 };
 
@@ -52,6 +53,23 @@ struct Material {
   Point region_min;                       // [m] empty: everywhere
   Point region_max;                       // [m]
   bool operator==(const Material&) const = default;
+};
+
+/// How two bodies, or a body and a rigid one, act on each other where they only touch.
+struct Contact {
+  double friction_angle = 0.0;  // [deg]
+  double adhesion = 0.0;        // [Pa]
+  bool tension = false;
+  double stiffness_factor = 1e2;  // times Young's modulus over the spacing
+  bool operator==(const Contact&) const = default;
+};
+
+/// What happens where two materials meet.
+struct Interface {
+  std::vector<std::string> between;  // names of two materials
+  InterfaceKind kind = InterfaceKind::tied;
+  Contact contact;
+  bool operator==(const Interface&) const = default;
 };
 
 /// Control of zero-energy modes.
@@ -80,6 +98,7 @@ struct Support {
   std::vector<Axis> directions;
   SupportMethod method = SupportMethod::direct;
   double penalty_factor = 1e2;  // times Young's modulus
+  Contact contact;              // of the method of that name
   bool operator==(const Support&) const = default;
 };
 
@@ -118,6 +137,7 @@ struct Drive {
   Point direction;  // unit vector
   Lateral lateral = Lateral::fixed;
   DriveMethod method = DriveMethod::direct;
+  Contact contact;                         // of the method of that name
   double target = 0.0;                     // [m] length of the prescribed displacement
   std::vector<LoadKind> scales;            // what grows from 0 to 1 in a load drive
   std::optional<double> reference_length;  // B [m]
@@ -197,6 +217,7 @@ struct Scene {
   Geometry geometry;
   Approximation approximation;
   std::vector<Material> material;
+  std::vector<Interface> interface;
   Hourglass hourglass;
   std::vector<Symmetry> symmetry;
   std::vector<Support> support;

@@ -7,6 +7,7 @@
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
 #include "scene/tables.hpp"
+#include "scene/tables_contact.hpp"
 #include "tables/builder.hpp"
 
 namespace scene {
@@ -117,6 +118,10 @@ SceneTable approximation() {
            {.doc = "finite_strain: updated Lagrangian, Hughes-Winget. small_strain: geometrically "
                    "linear, for comparison with limit loads and beam theory.",
             .source = "Chen, Huang & Lyamin 2020, Eq. 32-38"})
+      .key("interfaces", &Approximation::interfaces,
+           {.doc = "Where two materials meet that no [[interface]] names. through: rows see both. "
+                   "tied: each material is a body of its own, held to the other at its face, so "
+                   "that stress may jump along it. contact: they only touch, without friction."})
       .build();
 }
 
@@ -161,6 +166,20 @@ SceneTable material() {
       .build();
 }
 
+SceneTable interface() {
+  tables::TableBuilder<Scene, Interface> table(
+      "interface", &Scene::interface,
+      "What happens where two materials meet: on the faces of the lattice's cells between them. A "
+      "material thinner than three particles goes with its neighbour.");
+  table
+      .key("between", &Interface::between,
+           {.need = tables::Need::required, .doc = "Names of the two materials."})
+      .key("kind", &Interface::kind,
+           {.doc = "through: one body. tied: two bodies held together. contact: two bodies that "
+                   "slide by Coulomb's law and, without tension, open."});
+  return with_contact(table).build();
+}
+
 SceneTable hourglass() {
   return tables::TableBuilder<Scene, Hourglass>(
              "hourglass", &Scene::hourglass,
@@ -196,7 +215,7 @@ SceneTable hourglass() {
 }  // namespace
 
 std::vector<SceneTable> body_tables() {
-  return {top_level(), geometry(), approximation(), material(), hourglass()};
+  return {top_level(), geometry(), approximation(), material(), interface(), hourglass()};
 }
 
 }  // namespace scene

@@ -1,6 +1,7 @@
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
 #include "scene/tables.hpp"
+#include "scene/tables_contact.hpp"
 #include "tables/builder.hpp"
 
 namespace scene {
@@ -22,10 +23,11 @@ SceneTable symmetry() {
 }
 
 SceneTable support() {
-  return tables::TableBuilder<Scene, Support>(
-             "support", &Scene::support,
-             "Particles that stay where they are in some directions, chosen by "
-             "exactly one of side, region and at.")
+  tables::TableBuilder<Scene, Support> table("support", &Scene::support,
+                                             "Particles that stay where they are in some "
+                                             "directions, chosen by exactly one of side, region "
+                                             "and at.");
+  table
       .key("name", &Support::name,
            {.need = tables::Need::required, .doc = "Unique; serves messages."})
       .key("side", &Support::side,
@@ -49,17 +51,19 @@ SceneTable support() {
             .doc = "The one particle nearest to this point.",
             .absent = "side or region chooses"})
       .key("directions", &Support::directions,
-           {.need = tables::Need::required, .doc = "Displacement components that are zero."})
+           {.need = tables::Need::required,
+            .doc = "Displacement components that are zero; contact: the one across the side."})
       .key("method", &Support::method,
            {.doc = "direct: the displacements of the particles next to the side are given. ghosts: "
                    "the body goes on in images behind the side, which is held itself. penalty: the "
-                   "side is held by stiff springs.",
+                   "side is held by stiff springs. contact: the body lies against the side, "
+                   "slides by Coulomb's law and, without tension, opens.",
             .source = "penalty: Chen, Huang & Lyamin 2020, Eq. 3-4"})
       .key("penalty_factor", &Support::penalty_factor,
            {.range = tables::positive(),
             .doc = "Penalty stiffness over Young's modulus; the displacement error falls as its "
-                   "inverse, the solver's condition grows with it."})
-      .build();
+                   "inverse, the solver's condition grows with it."});
+  return with_contact(table).build();
 }
 
 SceneTable traction() {
@@ -125,8 +129,9 @@ SceneTable initial_stress() {
 }
 
 SceneTable drive() {
-  return tables::TableBuilder<Scene, Drive>("drive", &Scene::drive,
-                                            "What is moved or loaded, and how far.")
+  tables::TableBuilder<Scene, Drive> table("drive", &Scene::drive,
+                                           "What is moved or loaded, and how far.");
+  table
       .key("kind", &Drive::kind,
            {.doc = "displacement: particles of a side are moved. load: tractions or gravity grow "
                    "from 0 to their value. none: constant loads, one step."})
@@ -147,9 +152,13 @@ SceneTable drive() {
             .absent = "only without a displacement"})
       .key("lateral", &Drive::lateral,
            {.doc = "displacement: fixed (rough) or free (smooth) across the direction."})
-      .key("method", &Drive::method,
-           {.doc = "displacement: direct: the displacements of the particles next to the side are "
-                   "given. ghosts: those of the side itself are, by images behind it."})
+      .key(
+          "method", &Drive::method,
+          {.doc =
+               "displacement: direct: the displacements of the particles next to the side are "
+               "given. ghosts: those of the side itself are, by images behind it. contact: a rigid "
+               "plate pushes the side, which slides along it by Coulomb's law and, without "
+               "tension, opens."})
       .key("target", &Drive::target,
            {.unit = "m",
             .range = tables::at_least(0.0),
@@ -172,8 +181,8 @@ SceneTable drive() {
            .range = tables::positive(),
            .doc = "Mean pressure = reaction / width; of the modelled half if a symmetry halves the "
                   "plate. In 3D the loaded area [m2].",
-           .absent = "only without a displacement"})
-      .build();
+           .absent = "only without a displacement"});
+  return with_contact(table).build();
 }
 
 }  // namespace

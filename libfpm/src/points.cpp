@@ -1,6 +1,7 @@
 #include "fpm/points.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -20,13 +21,6 @@ void check(const RowOptions& options) {
 }
 
 }  // namespace
-
-template <int Dim>
-template <class Visitor>
-void PointOperator<Dim>::for_each_entry(Index point, Visitor&& visit) const {
-  const auto c = static_cast<std::size_t>(point);
-  for (std::size_t k = offset_[c]; k < offset_[c + 1]; ++k) visit(entries_[k]);
-}
 
 // Appends the weights of one point unless its moment matrix is poor. Lengths are scaled by R, so
 // that the condition number means something; it does not depend on the scale of the volumes.
@@ -77,20 +71,36 @@ bool PointOperator<Dim>::append_point(const ParticleSet<Dim>& particles, const G
 
 template <int Dim>
 PointOperator<Dim>::PointOperator(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
-                                  const Field<Dim>& points, const RowOptions& options)
+                                  const Field<Dim>& points, const RowOptions& options,
+                                  const std::vector<Index>& body)
     : particle_count_(particles.size()) {
   require_size("particle volumes", particles.volume.size(), particles.size());
   check(options);
+  if (!body.empty()) {
+    require_size("bodies of points", static_cast<Eigen::Index>(body.size()), points.rows());
+  }
   Field<Dim> extended(particles.size() + ghosts.size(), Dim);
   extended.topRows(particles.size()) = particles.position;
   ghosts.extend_positions(extended.data(), particles.size(), extended.rows());
   const NeighbourSearch<Dim> search(extended);
   // Images of a support move as it does, not as particles alone: points are served without them.
-  const auto around = [&](const Vector<Dim>& centre, double radius, std::vector<Index>& found) {
+  const auto around = [&](Index c, const Vector<Dim>& centre, double radius,
+                          std::vector<Index>& found) {
     search.within(centre, radius, found);
     std::erase_if(found, [&](Index b) {
       return b >= particles.size() && !ghosts.by_symmetry(b - particles.size());
     });
+    if (particles.body.empty() || found.empty()) return;
+    const auto body_of = [&](Index b) {
+      const Index particle = b < particles.size() ? b : ghosts.source(b - particles.size());
+      return particles.body[static_cast<std::size_t>(particle)];
+    };
+    const auto distance = [&](Index b) {
+      return (extended.row(b).transpose() - centre).squaredNorm();
+    };
+    const Index own = body.empty() ? body_of(*std::ranges::min_element(found, {}, distance))
+                                   : body[static_cast<std::size_t>(c)];
+    std::erase_if(found, [&](Index b) { return body_of(b) != own; });
   };
 
   constexpr double growth = 1.05;
@@ -103,7 +113,7 @@ PointOperator<Dim>::PointOperator(const ParticleSet<Dim>& particles, const Ghost
     const Vector<Dim> centre = points.row(c).transpose();
     double radius = options.support_radius;
     const auto search_within = [&] {
-      around(centre, radius, found);
+      around(static_cast<Index>(c), centre, radius, found);
       offset.resize(Dim, static_cast<Eigen::Index>(found.size()));
       for (std::size_t k = 0; k < found.size(); ++k) {
         offset.col(static_cast<Eigen::Index>(k)) =
@@ -138,7 +148,11 @@ PointOperator<Dim> PointOperator<Dim>::at_particles(const ParticleSet<Dim>& part
     }
     points.row(static_cast<Eigen::Index>(c)) = particles.position.row(particle[c]);
   }
-  PointOperator result(particles, ghosts, points, options);
+  std::vector<Index> body;
+  for (const Index a : particle) {
+    if (!particles.body.empty()) body.push_back(particles.body[static_cast<std::size_t>(a)]);
+  }
+  PointOperator result(particles, ghosts, points, options, body);
   for (std::size_t c = 0; c < particle.size(); ++c) {
     bool own = true;  // its images, if any, follow it
     for (std::size_t k = result.offset_[c]; k < result.offset_[c + 1]; ++k) {

@@ -33,7 +33,11 @@ Eigen::VectorXd with_ghosts(const Eigen::VectorXd& volume, const Ghosts<Dim>& gh
 
 template <int Dim>
 void Rows<Dim>::set_initial(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts) {
+  if (!particles.body.empty()) {
+    require_size("bodies", static_cast<Eigen::Index>(particles.body.size()), particles.size());
+  }
   ghosts_ = ghosts;
+  body_ = particles.body;
   initial_position_ = with_ghosts<Dim>(particles.position, ghosts);
   initial_volume_ = with_ghosts<Dim>(particles.volume, ghosts);
   round_off_ = difference_round_off<Dim>(initial_position_);
@@ -68,8 +72,9 @@ Rows<Dim>::Rows(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
       }
       search.within(initial_position_.row(a).transpose(), radius, found);
       const Vector<Dim> place = initial_position_.row(a).transpose();
-      std::erase_if(
-          found, [&](Index b) { return b == a || (b >= n && !ghosts.visible_from(place, b - n)); });
+      std::erase_if(found, [&](Index b) {
+        return b == a || !same_body(a, b) || (b >= n && !ghosts.visible_from(place, b - n));
+      });
       neighbour_.resize(static_cast<std::size_t>(row_offset_.back()));
       neighbour_.insert(neighbour_.end(), found.begin(), found.end());
       row_offset_.push_back(static_cast<Index>(neighbour_.size()));
@@ -110,6 +115,14 @@ void Rows<Dim>::geometry(Index row, RowGeometry<Dim>& geometry) const {
       geometry.volume[k] = initial_volume_[b];
     }
   }
+}
+
+// An image is of its source's body.
+template <int Dim>
+bool Rows<Dim>::same_body(Index row, Index b) const {
+  if (body_.empty()) return true;
+  const Index particle = b < size() ? b : ghosts_.source(b - size());
+  return body_[static_cast<std::size_t>(particle)] == body_[static_cast<std::size_t>(row)];
 }
 
 template <int Dim>
@@ -184,8 +197,9 @@ std::vector<Index> Rows<Dim>::research(const std::vector<Index>& rows, const Fie
             ghosts_.stands_for(now.row(particle).transpose(), b - size(), plane_motion))) {
         return true;
       }
-      return b == a || (excluded[static_cast<std::size_t>(particle)] != 0 &&
-                        !std::binary_search(old.begin(), old.end(), b));
+      return b == a || !same_body(a, b) ||
+             (excluded[static_cast<std::size_t>(particle)] != 0 &&
+              !std::binary_search(old.begin(), old.end(), b));
     });
     RowGeometry<Dim> row;
     row.offset.resize(Dim, static_cast<Eigen::Index>(found.size()));

@@ -5,6 +5,7 @@
 #include "constitutive/cone_update.hpp"
 #include "constitutive/drucker_prager.hpp"
 #include "constitutive/elastic.hpp"
+#include "constitutive/interface_law.hpp"
 #include "constitutive/material.hpp"
 #include "constitutive/mixed.hpp"
 #include "constitutive/mohr_coulomb.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 
 // Everything of the library.
+#include "fpm/bodies.hpp"
 #include "fpm/boundary.hpp"
 #include "fpm/boundary_loads.hpp"
 #include "fpm/carried_consistency.hpp"

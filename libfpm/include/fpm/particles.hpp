@@ -12,6 +12,8 @@ template <int Dim>
 struct ParticleSet {
   Field<Dim> position;     ///< [m] n x Dim
   Eigen::VectorXd volume;  ///< [m^Dim] n; per unit thickness in 2D
+  /// Body that each belongs to, or empty: one body. Neighbours are of one body (bodies.hpp).
+  std::vector<Index> body = {};
 
   Index size() const { return static_cast<Index>(position.rows()); }
 };

@@ -35,12 +35,14 @@ class PointOperator {
   /// @param particles  where the operator's fields live, in its reference configuration
   /// @param ghosts  their images; made with a reach of the widest support
   /// @param points  [m] m x Dim
+  /// @param body  of each point, whose particles serve it; empty: that of the nearest particle
   /// @param options  kernel and support; a point with fewer than Dim + 2 neighbours or a poor
   ///   condition number gets a support wider by up to `max_enlargement`
   /// @throws std::runtime_error naming the point if no admissible support gives a valid operator;
   ///   std::invalid_argument if an option is out of range; ShapeError if sizes disagree.
   PointOperator(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
-                const Field<Dim>& points, const RowOptions& options);
+                const Field<Dim>& points, const RowOptions& options,
+                const std::vector<Index>& body = {});
 
   /// The operator at particles whose value is the particle's own (N_cb = 1 for b = particle[c],
   /// otherwise 0) and whose gradient is the corrected one: boundary terms lumped to particles.
@@ -63,6 +65,12 @@ class PointOperator {
   /// force_b += N_cb f, the transpose of `value`.
   void add_transposed_value(Index point, const Vector<Dim>& point_force,
                             FieldTarget<Dim> force) const;
+
+  /// Calls visit(particle, N_cb) for what serves a point; images come with their particles.
+  template <class Visitor>
+  void for_each_value(Index point, Visitor&& visit) const {
+    for_each_entry(point, [&](const Entry& entry) { visit(entry.particle, entry.value); });
+  }
 
   /// `value` at every point, m x Dim. @throws ShapeError if sizes disagree.
   void values(const FieldView<Dim>& field, FieldTarget<Dim> result) const;
@@ -92,7 +100,10 @@ class PointOperator {
   };
 
   template <class Visitor>
-  void for_each_entry(Index point, Visitor&& visit) const;
+  void for_each_entry(Index point, Visitor&& visit) const {
+    const auto c = static_cast<std::size_t>(point);
+    for (std::size_t k = offset_[c]; k < offset_[c + 1]; ++k) visit(entries_[k]);
+  }
   bool append_point(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
                     const std::vector<Index>& found,
                     const Eigen::Matrix<double, Dim, Eigen::Dynamic>& offset, double radius,

@@ -40,8 +40,8 @@ class Rows {
  public:
   Rows() = default;
 
-  /// First search, on the initial particles. A row with too few neighbours or an ill-conditioned
-  /// moment matrix gets a wider support.
+  /// First search, on the initial particles, among those of the row's own body. A row with too few
+  /// neighbours or an ill-conditioned moment matrix gets a wider support.
   /// @throws std::runtime_error naming the particle if no admissible support gives a valid row.
   Rows(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts, const RowOptions& options);
 
@@ -108,6 +108,7 @@ class Rows {
                const RowOptions& options);
 
  private:
+  bool same_body(Index row, Index b) const;
   bool accept(const RowGeometry<Dim>& geometry, RowWeights<Dim>& scratch) const;
   void rewrite(const std::vector<Index>& rebuilt, const std::vector<std::vector<Index>>& new_lists,
                const std::vector<RowGeometry<Dim>>& new_geometry);
@@ -119,7 +120,8 @@ class Rows {
   Field<Dim> initial_position_;     // ghosts included
   Eigen::VectorXd initial_volume_;  // ghosts included
   Ghosts<Dim> ghosts_;
-  double round_off_ = 0.0;  // [m] of a difference of initial positions
+  std::vector<Index> body_;  // of the particles; empty: one
+  double round_off_ = 0.0;   // [m] of a difference of initial positions
 
   std::vector<Index> row_offset_{0};  // CSR over all rows
   std::vector<Index> neighbour_;

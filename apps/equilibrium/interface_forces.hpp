@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include "model/model.hpp"
+#include "model/state.hpp"
+
+namespace equilibrium {
+
+/// Forces of the interfaces in one step: bodies that are tied or in contact, and those that touch a
+/// rigid support or plate. Points keep their partners: slips are small beside the spacing until a
+/// new scene is made of the deformed body. The normal is that of the first body at the start of the
+/// step, or the rigid body's.
+template <int Dim>
+class InterfaceForces {
+ public:
+  explicit InterfaceForces(const model::Model<Dim>& model);
+
+  bool empty() const { return points_ == 0; }
+
+  /// Prepares a step from the state.
+  void begin_step(const model::State<Dim>& state);
+
+  /// Adds the forces that go with a total displacement to those of the bodies; remembers tractions.
+  /// @param load  load parameter to which rigid bodies have moved
+  void add_force(const model::State<Dim>& state, const fpm::Field<Dim>& displacement, double load,
+                 fpm::FieldTarget<Dim> force);
+
+  /// Keeps the tangents at a displacement, for `add_action`.
+  void linearise(const model::State<Dim>& state, const fpm::Field<Dim>& displacement, double load);
+
+  /// Adds the action of the tangents on a direction.
+  /// @param load_change  of rigid bodies
+  void add_action(const fpm::FieldView<Dim>& direction, double load_change,
+                  fpm::FieldTarget<Dim> force) const;
+
+  /// Force [N/m or N] by which each interface's rigid body holds the body, of the latest forces;
+  /// zero between two bodies.
+  const std::vector<fpm::Vector<Dim>>& rigid_force() const { return rigid_force_; }
+
+  /// Takes the latest slips and tractions into the state.
+  void commit(model::State<Dim>& state) const;
+
+  std::size_t bytes() const;
+
+ private:
+  template <int Rows>
+  using Columns = Eigen::Matrix<double, Rows, Eigen::Dynamic>;
+
+  const model::Model<Dim>& model_;
+  Eigen::Index points_ = 0;
+  Columns<Dim> normal_;         // of each point, out of the first body
+  Columns<Dim> slip_;           // [m] of the latest forces
+  Columns<Dim> traction_;       // [Pa] of the latest forces
+  Columns<Dim * Dim> tangent_;  // [Pa/m] of the latest linearisation
+  std::vector<fpm::Vector<Dim>> rigid_force_;
+};
+
+}  // namespace equilibrium

@@ -1,0 +1,214 @@
+#include "model/interfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "constitutive/tensor.hpp"
+#include "model/selection.hpp"
+#include "scene/derived.hpp"
+#include "scene/scene.hpp"
+
+namespace model {
+namespace {
+
+using Pair = std::pair<fpm::Index, fpm::Index>;  // of materials, the smaller first
+
+// What the scene says of each pair of materials.
+class Rules {
+ public:
+  explicit Rules(const scene::Scene& scene) {
+    otherwise_.kind = scene.approximation.interfaces;
+    const auto index_of = [&](const std::string& name) {
+      const auto at = std::ranges::find(scene.material, name, &scene::Material::name);
+      return static_cast<fpm::Index>(at - scene.material.begin());
+    };
+    for (const scene::Interface& each : scene.interface) {
+      const auto [low, high] = std::minmax(index_of(each.between[0]), index_of(each.between[1]));
+      named_[{low, high}] = each;
+    }
+  }
+
+  const scene::Interface& of(const Pair& pair) const {
+    const auto named = named_.find(pair);
+    return named == named_.end() ? otherwise_ : named->second;
+  }
+
+ private:
+  scene::Interface otherwise_;
+  std::map<Pair, scene::Interface> named_;
+};
+
+constitutive::InterfaceLaw law_of(const scene::Contact& contact) {
+  constitutive::InterfaceLaw law;
+  law.tied = false;
+  law.friction_tangent = std::tan(contact.friction_angle * std::numbers::pi / 180.0);
+  law.adhesion = contact.adhesion;
+  law.tension = contact.tension;
+  return law;
+}
+
+// The part of some faces that `chosen` holds.
+template <int Dim, class Chosen>
+fpm::CommonFaces<Dim> part_of(const fpm::CommonFaces<Dim>& faces, Chosen&& chosen) {
+  std::vector<Eigen::Index> kept;
+  fpm::CommonFaces<Dim> part;
+  for (Eigen::Index c = 0; c < faces.points.weight.size(); ++c) {
+    if (!chosen(c)) continue;
+    kept.push_back(c);
+    part.first.push_back(faces.first[static_cast<std::size_t>(c)]);
+    if (!faces.second.empty()) part.second.push_back(faces.second[static_cast<std::size_t>(c)]);
+  }
+  part.points.position = faces.points.position(kept, Eigen::all);
+  part.points.normal = faces.points.normal(kept, Eigen::all);
+  part.points.weight = faces.points.weight(kept);
+  return part;
+}
+
+template <int Dim>
+fpm::PointOperator<Dim> operator_at(const Model<Dim>& model, const fpm::Field<Dim>& points,
+                                    const std::vector<fpm::Index>& particles) {
+  std::vector<fpm::Index> body;
+  for (const fpm::Index a : particles) {
+    if (!model.particles.body.empty()) {
+      body.push_back(model.particles.body[static_cast<std::size_t>(a)]);
+    }
+  }
+  return {model.particles, model.ghosts, points, model.row_options, body};
+}
+
+template <int Dim>
+double modulus(const Model<Dim>& model, fpm::Index particle) {
+  return model.youngs_modulus[model.material[static_cast<std::size_t>(particle)]];
+}
+
+// Traction of the initial stress: the mean of what either particle's is.
+template <int Dim>
+fpm::Vector<Dim> initial_traction(const Model<Dim>& model, const fpm::CommonFaces<Dim>& faces,
+                                  std::size_t c) {
+  using constitutive::spatial_part;
+  using constitutive::StressVector;
+  if (model.initial_stress.size() == 0) return fpm::Vector<Dim>::Zero();
+  const auto of = [&](fpm::Index a) {
+    return spatial_part<Dim>(StressVector<Dim>(model.initial_stress.col(a)));
+  };
+  fpm::Tensor<Dim> stress = of(faces.first[c]);
+  if (!faces.second.empty()) stress = 0.5 * (stress + of(faces.second[c]));
+  return stress * faces.points.normal.row(static_cast<Eigen::Index>(c)).transpose();
+}
+
+template <int Dim>
+Interface<Dim> interface_at(const Model<Dim>& model, const fpm::CommonFaces<Dim>& faces,
+                            const scene::Contact& contact, bool tied) {
+  Interface<Dim> interface;
+  interface.faces.points = faces.points;
+  interface.faces.first = operator_at<Dim>(model, faces.points.position, faces.first);
+  if (!faces.second.empty()) {
+    interface.faces.second = operator_at<Dim>(model, faces.points.position, faces.second);
+  }
+  if (!tied) interface.law = law_of(contact);
+  const Eigen::Index count = faces.points.weight.size();
+  interface.stiffness.resize(count);
+  interface.initial_traction.resize(count, Dim);
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const auto k = static_cast<std::size_t>(c);
+    double softer = modulus(model, faces.first[k]);
+    if (!faces.second.empty()) softer = std::min(softer, modulus(model, faces.second[k]));
+    interface.stiffness[c] = contact.stiffness_factor * softer / model.spacing;
+    interface.initial_traction.row(c) = initial_traction(model, faces, k).transpose();
+  }
+  return interface;
+}
+
+template <int Dim>
+void add_between_materials(const Rules& rules, Model<Dim>& model) {
+  if (model.particles.body.empty()) return;
+  const auto faces = fpm::common_faces(model.lattice, model.particles.body);
+  const auto pair_of = [&](Eigen::Index c) {
+    const auto k = static_cast<std::size_t>(c);
+    const fpm::Index one = model.material[static_cast<std::size_t>(faces.first[k])];
+    const fpm::Index other = model.material[static_cast<std::size_t>(faces.second[k])];
+    return Pair(std::min(one, other), std::max(one, other));
+  };
+  std::map<Pair, bool> pairs;
+  for (Eigen::Index c = 0; c < faces.points.weight.size(); ++c) pairs[pair_of(c)] = true;
+  for (const auto& [pair, present] : pairs) {
+    const scene::Interface& rule = rules.of(pair);
+    const auto part = part_of<Dim>(faces, [&](Eigen::Index c) { return pair_of(c) == pair; });
+    model.interfaces.push_back(
+        interface_at(model, part, rule.contact, rule.kind != scene::InterfaceKind::contact));
+  }
+}
+
+template <int Dim>
+fpm::Face face_of(scene::Side side) {
+  return {scene::axis_of(side), scene::is_upper(side)};
+}
+
+template <int Dim>
+void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
+  for (const scene::Support& support : scene.support) {
+    if (support.method != scene::SupportMethod::contact) continue;
+    const auto faces = fpm::outer_faces(model.lattice, face_of<Dim>(*support.side));
+    model.interfaces.push_back(interface_at(model, faces, support.contact, false));
+    model.interfaces.back().support = support.name;
+  }
+  const scene::Drive& drive = scene.drive;
+  if (drive.kind != scene::DriveKind::displacement || drive.method != scene::DriveMethod::contact) {
+    return;
+  }
+  const auto faces = fpm::outer_faces(model.lattice, face_of<Dim>(drive.side));
+  const auto under = part_of<Dim>(faces, [&](Eigen::Index c) {
+    return in_side_range(scene, model, drive.side, drive.range_min, drive.range_max,
+                         faces.first[static_cast<std::size_t>(c)]);
+  });
+  Interface<Dim> plate = interface_at(model, under, drive.contact, false);
+  // The plate bears nothing at first, whatever lies under it.
+  plate.initial_traction.setZero();
+  plate.measure = Eigen::Map<const fpm::Vector<Dim>>(drive.direction.data()).normalized();
+  plate.drive = drive.target * plate.measure;
+  model.interfaces.push_back(std::move(plate));
+}
+
+}  // namespace
+
+template <int Dim>
+void part_into_bodies(const scene::Scene& scene, Model<Dim>& model) {
+  const Rules rules(scene);
+  const std::vector<fpm::Index> label(model.material.begin(), model.material.end());
+  // Fewer particles across a body leave its rows singular.
+  const fpm::Index thickness = model.channels.second ? 3 : 2;
+  auto body = fpm::lattice_bodies<Dim>(
+      model.lattice, label,
+      [&](fpm::Index low, fpm::Index high) {
+        return rules.of({low, high}).kind == scene::InterfaceKind::through;
+      },
+      thickness);
+  if (std::ranges::max(body) > 0) model.particles.body = std::move(body);
+}
+
+template <int Dim>
+std::vector<fpm::Index> bodies_at(const Model<Dim>& model, const fpm::BoundaryPoints<Dim>& points) {
+  std::vector<fpm::Index> bodies;
+  for (Eigen::Index c = 0; c < points.weight.size() && !model.particles.body.empty(); ++c) {
+    const fpm::Index cell = fpm::cell_at<Dim>(model.lattice, points.position.row(c).transpose());
+    bodies.push_back(model.particles.body[static_cast<std::size_t>(cell)]);
+  }
+  return bodies;
+}
+
+template <int Dim>
+void add_interfaces(const scene::Scene& scene, Model<Dim>& model) {
+  add_between_materials(Rules(scene), model);
+  add_rigid(scene, model);
+}
+
+template void part_into_bodies<2>(const scene::Scene&, Model<2>&);
+template void part_into_bodies<3>(const scene::Scene&, Model<3>&);
+template std::vector<fpm::Index> bodies_at<2>(const Model<2>&, const fpm::BoundaryPoints<2>&);
+template std::vector<fpm::Index> bodies_at<3>(const Model<3>&, const fpm::BoundaryPoints<3>&);
+template void add_interfaces<2>(const scene::Scene&, Model<2>&);
+template void add_interfaces<3>(const scene::Scene&, Model<3>&);
+
+}  // namespace model

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cmath>
+
+#include "constitutive/real.hpp"
+
+namespace constitutive {
+
+/// How two bodies that meet at a face act on each other. Springs of a stiffness far above the
+/// bodies' hold them together, so a small gap goes with every traction.
+struct InterfaceLaw {
+  bool tied = true;               ///< neither slides nor opens; what follows does not matter
+  double friction_tangent = 0.0;  ///< [-] tan delta, >= 0; 0 is smooth
+  double adhesion = 0.0;          ///< [Pa] >= 0, shear strength without pressure
+  bool tension = false;           ///< bears tension across, so that it never opens
+};
+
+enum class InterfaceState { sticking, sliding, open };
+
+/// Traction at one point, and what it depends on.
+template <int Dim>
+struct InterfaceResponse {
+  Eigen::Matrix<double, Dim, 1> traction;   ///< [Pa] on the first body
+  Eigen::Matrix<double, Dim, 1> slip;       ///< [m] irreversible, tangential
+  Eigen::Matrix<double, Dim, Dim> tangent;  ///< [Pa/m] d traction / d gap
+  InterfaceState state = InterfaceState::sticking;
+};
+
+/// Traction on the first body after the second has moved by `gap` relative to it: elastic springs,
+/// and Coulomb's law |t_t| <= adhesion - tan(delta) t_n by an elastic predictor and a radial
+/// return. Sliding does not dilate. An open point bears nothing and forgets its stick.
+/// @param stiffness  [Pa/m] > 0
+/// @param normal  unit vector out of the first body
+/// @param initial  [Pa] traction on the first body at gap and slip 0
+/// @param gap  [m] displacement of the second body relative to the first
+/// @param slip  [m] at the start of the step
+template <int Dim>
+InterfaceResponse<Dim> interface_response(const InterfaceLaw& law, double stiffness,
+                                          const Eigen::Matrix<double, Dim, 1>& normal,
+                                          const Eigen::Matrix<double, Dim, 1>& initial,
+                                          const Eigen::Matrix<double, Dim, 1>& gap,
+                                          const Eigen::Matrix<double, Dim, 1>& slip) {
+  using Vector = Eigen::Matrix<double, Dim, 1>;
+  using Matrix = Eigen::Matrix<double, Dim, Dim>;
+  InterfaceResponse<Dim> response;
+  response.slip = slip;
+  response.traction = initial + stiffness * (gap - slip);
+  response.tangent = stiffness * Matrix::Identity();
+  if (law.tied) return response;
+
+  const Matrix across = normal * normal.transpose();
+  const double pull = normal.dot(response.traction);
+  const Vector shear = response.traction - pull * normal;
+  if (pull > 0.0 && !law.tension) {
+    response.state = InterfaceState::open;
+    response.slip = slip + shear / stiffness;
+    response.traction.setZero();
+    response.tangent.setZero();
+    return response;
+  }
+  const double pressure = pull < 0.0 ? -pull : 0.0;
+  const double strength = law.adhesion + law.friction_tangent * pressure;
+  const double size = shear.norm();
+  if (size <= strength) return response;
+
+  response.state = InterfaceState::sliding;
+  const Vector direction = shear / size;
+  response.slip = slip + (size - strength) / stiffness * direction;
+  response.traction = pull * normal + strength * direction;
+  const Matrix along = Matrix::Identity() - across - direction * direction.transpose();
+  response.tangent = stiffness * (across + strength / size * along);
+  if (pressure > 0.0) {
+    response.tangent -= stiffness * law.friction_tangent * direction * normal.transpose();
+  }
+  return response;
+}
+
+}  // namespace constitutive
