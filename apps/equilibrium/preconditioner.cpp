@@ -13,6 +13,7 @@ TwoLevelPreconditioner<Dim>::TwoLevelPreconditioner(const model::Model<Dim>& mod
                                                     double coarse_over_spacing)
     : size_(model.size()), prescribed_(model.prescribed) {
   build_blocks(model, op);
+  if (!model.interfaces.empty()) springs_ = InterfaceSprings<Dim>(model, block_inverse_);
   if (coarse_over_spacing > 0.0) {
     grid_ = BackgroundGrid<Dim>(model, coarse_over_spacing * model.spacing);
   }
@@ -76,7 +77,6 @@ void TwoLevelPreconditioner<Dim>::build_blocks(const model::Model<Dim>& model,
     add(a, block);
   }
   add_penalty_blocks(model, sum);
-  add_interface_blocks(model, sum);
   invert_blocks(sum);
 }
 
@@ -86,34 +86,12 @@ void TwoLevelPreconditioner<Dim>::add_penalty_blocks(const model::Model<Dim>& mo
   for (const model::PenaltySupport<Dim>& support : model.penalty_supports) {
     for (fpm::Index c = 0; c < support.points.size(); ++c) {
       const double stiffness = support.options.penalty * support.points.weight[c];
-      support.op.for_each_value(c, [&](fpm::Index a, double value) {
+      support.op.for_each_value(c, [&](fpm::Index a, double value, const auto& /*sign*/) {
         for (int i = 0; i < Dim; ++i) {
           if (!support.options.prescribed[static_cast<std::size_t>(i)]) continue;
           sum(i * Dim + i, a) += stiffness * value * value;
         }
       });
-    }
-  }
-}
-
-// Bodies that touch stick, at first.
-template <int Dim>
-void TwoLevelPreconditioner<Dim>::add_interface_blocks(const model::Model<Dim>& model,
-                                                       Blocks& sum) const {
-  for (const model::Interface<Dim>& interface : model.interfaces) {
-    const auto& points = interface.faces.points;
-    for (fpm::Index c = 0; c < points.size(); ++c) {
-      const fpm::Vector<Dim> normal = points.normal.row(c).transpose();
-      const bool slides = !interface.law.tied && interface.law.friction_tangent == 0.0 &&
-                          interface.law.adhesion == 0.0;
-      const fpm::Tensor<Dim> held =
-          slides ? fpm::Tensor<Dim>(normal * normal.transpose()) : fpm::Tensor<Dim>::Identity();
-      const fpm::Tensor<Dim> stiffness = interface.stiffness[c] * points.weight[c] * held;
-      const auto add = [&](fpm::Index a, double value) {
-        Eigen::Map<fpm::Tensor<Dim>>(sum.col(a).data()) += value * value * stiffness;
-      };
-      interface.faces.first.for_each_value(c, add);
-      if (!interface.is_rigid()) interface.faces.second.for_each_value(c, add);
     }
   }
 }
@@ -144,6 +122,7 @@ void TwoLevelPreconditioner<Dim>::apply(const Eigen::VectorXd& r, Eigen::VectorX
     const fpm::Vector<Dim> result = inverse * local;
     for (int i = 0; i < Dim; ++i) z[i * n + a] = result[i];
   }
+  if (!springs_.empty()) springs_.correct(z);
   if (!grid_.empty()) grid_.add_solution(r, z);
   for (Eigen::Index k = 0; k < z.size(); ++k) {
     if (prescribed_[static_cast<std::size_t>(k)] != 0) z[k] = 0.0;
@@ -153,7 +132,7 @@ void TwoLevelPreconditioner<Dim>::apply(const Eigen::VectorXd& r, Eigen::VectorX
 template <int Dim>
 std::size_t TwoLevelPreconditioner<Dim>::bytes() const {
   return static_cast<std::size_t>(block_inverse_.size()) * sizeof(double) + prescribed_.size() +
-         grid_.bytes();
+         springs_.bytes() + grid_.bytes();
 }
 
 template class TwoLevelPreconditioner<2>;

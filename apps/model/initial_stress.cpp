@@ -11,17 +11,6 @@ namespace {
 
 constexpr int up = 1;
 
-template <int Dim>
-constitutive::StressVector<Dim> geostatic(const scene::Scene& scene, const fpm::Vector<Dim>& place,
-                                          std::size_t material) {
-  const double vertical = scene::geostatic_stress(scene, {place.data(), Dim});
-  constitutive::StressVector<Dim> stress = constitutive::StressVector<Dim>::Zero();
-  stress.template head<3>().setConstant(scene::resolve_k0(scene, scene.material[material]) *
-                                        vertical);
-  stress[up] = vertical;
-  return stress;
-}
-
 // Sides that bear whatever stress there is across them.
 bool bears_across(const scene::Scene& scene, scene::Side side) {
   const int axis = scene::axis_of(side);
@@ -39,13 +28,26 @@ bool bears_across(const scene::Scene& scene, scene::Side side) {
 }  // namespace
 
 template <int Dim>
+constitutive::StressVector<Dim> geostatic_stress(const scene::Scene& scene,
+                                                 const fpm::Vector<Dim>& place,
+                                                 std::size_t material) {
+  const double vertical = scene::geostatic_stress(scene, {place.data(), Dim});
+  constitutive::StressVector<Dim> stress = constitutive::StressVector<Dim>::Zero();
+  stress.template head<3>().setConstant(scene::resolve_k0(scene, scene.material[material]) *
+                                        vertical);
+  stress[up] = vertical;
+  return stress;
+}
+
+template <int Dim>
 void add_initial_stress(const scene::Scene& scene, Model<Dim>& model) {
   if (scene.initial_stress.kind != scene::InitialStressKind::geostatic) return;
   const Eigen::Index n = model.size();
   model.initial_stress.resize(constitutive::stress_size<Dim>, n);
   for (Eigen::Index a = 0; a < n; ++a) {
-    model.initial_stress.col(a) = geostatic<Dim>(scene, model.particles.position.row(a).transpose(),
-                                                 model.material[static_cast<std::size_t>(a)]);
+    model.initial_stress.col(a) =
+        geostatic_stress<Dim>(scene, model.particles.position.row(a).transpose(),
+                              model.material[static_cast<std::size_t>(a)]);
   }
   model.initial_load.setZero(model.unknowns());
   Eigen::Map<fpm::Field<Dim>> load(model.initial_load.data(), n, Dim);
@@ -64,13 +66,17 @@ void add_initial_stress(const scene::Scene& scene, Model<Dim>& model) {
       fpm::Vector<Dim> within = place;
       within[axis] += (scene::is_upper(side) ? -0.5 : 0.5) * model.spacing;
       const auto stress =
-          geostatic<Dim>(scene, place, scene::material_at(scene, {within.data(), Dim}));
+          geostatic_stress<Dim>(scene, place, scene::material_at(scene, {within.data(), Dim}));
       force(c, axis) = face.points.weight[c] * face.points.normal(c, axis) * stress[axis];
     }
     face.op.add_transposed_values(force, load);
   }
 }
 
+template constitutive::StressVector<2> geostatic_stress<2>(const scene::Scene&,
+                                                           const fpm::Vector<2>&, std::size_t);
+template constitutive::StressVector<3> geostatic_stress<3>(const scene::Scene&,
+                                                           const fpm::Vector<3>&, std::size_t);
 template void add_initial_stress<2>(const scene::Scene&, Model<2>&);
 template void add_initial_stress<3>(const scene::Scene&, Model<3>&);
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "constitutive/tensor.hpp"
+#include "model/initial_stress.hpp"
 #include "model/selection.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
@@ -25,7 +26,7 @@ class Rules {
       return static_cast<fpm::Index>(at - scene.material.begin());
     };
     for (const scene::Interface& each : scene.interface) {
-      const auto [low, high] = std::minmax(index_of(each.between[0]), index_of(each.between[1]));
+      const auto [low, high] = std::minmax({index_of(each.between[0]), index_of(each.between[1])});
       named_[{low, high}] = each;
     }
   }
@@ -79,28 +80,31 @@ fpm::PointOperator<Dim> operator_at(const Model<Dim>& model, const fpm::Field<Di
 }
 
 template <int Dim>
-double modulus(const Model<Dim>& model, fpm::Index particle) {
-  return model.youngs_modulus[model.material[static_cast<std::size_t>(particle)]];
+const scene::Material& material_of(const scene::Scene& scene, const Model<Dim>& model,
+                                   fpm::Index particle) {
+  return scene.material[model.material[static_cast<std::size_t>(particle)]];
 }
 
-// Traction of the initial stress: the mean of what either particle's is.
+// Traction of the initial stress: the mean of what either material's is there.
 template <int Dim>
-fpm::Vector<Dim> initial_traction(const Model<Dim>& model, const fpm::CommonFaces<Dim>& faces,
-                                  std::size_t c) {
-  using constitutive::spatial_part;
-  using constitutive::StressVector;
+fpm::Vector<Dim> initial_traction(const scene::Scene& scene, const Model<Dim>& model,
+                                  const fpm::CommonFaces<Dim>& faces, std::size_t c) {
   if (model.initial_stress.size() == 0) return fpm::Vector<Dim>::Zero();
+  const auto row = static_cast<Eigen::Index>(c);
+  const fpm::Vector<Dim> place = faces.points.position.row(row).transpose();
   const auto of = [&](fpm::Index a) {
-    return spatial_part<Dim>(StressVector<Dim>(model.initial_stress.col(a)));
+    return constitutive::spatial_part<Dim>(
+        geostatic_stress<Dim>(scene, place, model.material[static_cast<std::size_t>(a)]));
   };
   fpm::Tensor<Dim> stress = of(faces.first[c]);
   if (!faces.second.empty()) stress = 0.5 * (stress + of(faces.second[c]));
-  return stress * faces.points.normal.row(static_cast<Eigen::Index>(c)).transpose();
+  return stress * faces.points.normal.row(row).transpose();
 }
 
 template <int Dim>
-Interface<Dim> interface_at(const Model<Dim>& model, const fpm::CommonFaces<Dim>& faces,
-                            const scene::Contact& contact, bool tied) {
+Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
+                            const fpm::CommonFaces<Dim>& faces, const scene::Contact& contact,
+                            bool tied) {
   Interface<Dim> interface;
   interface.faces.points = faces.points;
   interface.faces.first = operator_at<Dim>(model, faces.points.position, faces.first);
@@ -113,17 +117,22 @@ Interface<Dim> interface_at(const Model<Dim>& model, const fpm::CommonFaces<Dim>
   interface.initial_traction.resize(count, Dim);
   for (Eigen::Index c = 0; c < count; ++c) {
     const auto k = static_cast<std::size_t>(c);
-    double softer = modulus(model, faces.first[k]);
-    if (!faces.second.empty()) softer = std::min(softer, modulus(model, faces.second[k]));
-    interface.stiffness[c] = contact.stiffness_factor * softer / model.spacing;
-    interface.initial_traction.row(c) = initial_traction(model, faces, k).transpose();
+    const scene::Material& one = material_of(scene, model, faces.first[k]);
+    const scene::Material& other =
+        faces.second.empty() ? one : material_of(scene, model, faces.second[k]);
+    const double softer = std::min(one.youngs_modulus, other.youngs_modulus);
+    const bool yields = scene::yields(one) || scene::yields(other);
+    interface.stiffness[c] =
+        scene::resolve_stiffness_factor(contact, yields) * softer / model.spacing;
+    interface.initial_traction.row(c) = initial_traction(scene, model, faces, k).transpose();
   }
   return interface;
 }
 
 template <int Dim>
-void add_between_materials(const Rules& rules, Model<Dim>& model) {
+void add_between_materials(const scene::Scene& scene, Model<Dim>& model) {
   if (model.particles.body.empty()) return;
+  const Rules rules(scene);
   const auto faces = fpm::common_faces(model.lattice, model.particles.body);
   const auto pair_of = [&](Eigen::Index c) {
     const auto k = static_cast<std::size_t>(c);
@@ -137,7 +146,7 @@ void add_between_materials(const Rules& rules, Model<Dim>& model) {
     const scene::Interface& rule = rules.of(pair);
     const auto part = part_of<Dim>(faces, [&](Eigen::Index c) { return pair_of(c) == pair; });
     model.interfaces.push_back(
-        interface_at(model, part, rule.contact, rule.kind != scene::InterfaceKind::contact));
+        interface_at(scene, model, part, rule.contact, rule.kind != scene::InterfaceKind::contact));
   }
 }
 
@@ -151,7 +160,7 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
   for (const scene::Support& support : scene.support) {
     if (support.method != scene::SupportMethod::contact) continue;
     const auto faces = fpm::outer_faces(model.lattice, face_of<Dim>(*support.side));
-    model.interfaces.push_back(interface_at(model, faces, support.contact, false));
+    model.interfaces.push_back(interface_at(scene, model, faces, support.contact, false));
     model.interfaces.back().support = support.name;
   }
   const scene::Drive& drive = scene.drive;
@@ -163,7 +172,7 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
     return in_side_range(scene, model, drive.side, drive.range_min, drive.range_max,
                          faces.first[static_cast<std::size_t>(c)]);
   });
-  Interface<Dim> plate = interface_at(model, under, drive.contact, false);
+  Interface<Dim> plate = interface_at(scene, model, under, drive.contact, false);
   // The plate bears nothing at first, whatever lies under it.
   plate.initial_traction.setZero();
   plate.measure = Eigen::Map<const fpm::Vector<Dim>>(drive.direction.data()).normalized();
@@ -200,7 +209,7 @@ std::vector<fpm::Index> bodies_at(const Model<Dim>& model, const fpm::BoundaryPo
 
 template <int Dim>
 void add_interfaces(const scene::Scene& scene, Model<Dim>& model) {
-  add_between_materials(Rules(scene), model);
+  add_between_materials(scene, model);
   add_rigid(scene, model);
 }
 

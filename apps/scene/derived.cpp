@@ -182,6 +182,10 @@ double resolve_k0(const Scene& scene, const Material& material) {
                                           (1.0 - material.poissons_ratio));
 }
 
+double resolve_stiffness_factor(const Contact& contact, bool yields) {
+  return contact.stiffness_factor.value_or(yields ? 10.0 : 100.0);
+}
+
 bool is_associated(const Scene& scene) {
   return std::all_of(scene.material.begin(), scene.material.end(), [](const Material& material) {
     return material.dilation_angle.value_or(0.0) == material.friction_angle.value_or(0.0);

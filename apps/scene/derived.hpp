@@ -15,6 +15,7 @@ struct ModelInfo;
 
 namespace scene {
 
+struct Contact;
 struct Geometry;
 struct Material;
 struct Measure;
@@ -83,6 +84,10 @@ struct SolverSettings {
 
 /// Horizontal over vertical geostatic stress in a material.
 [[nodiscard]] double resolve_k0(const Scene& scene, const Material& material);
+
+/// Stiffness of a face over the softer Young's modulus per spacing: the scene's, else 100 between
+/// elastic materials, whose gap is all the error there is, and 10 where one yields.
+[[nodiscard]] double resolve_stiffness_factor(const Contact& contact, bool yields);
 
 /// Whether every soil dilates by its friction angle.
 [[nodiscard]] bool is_associated(const Scene& scene);

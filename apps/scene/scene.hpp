@@ -60,7 +60,8 @@ struct Contact {
   double friction_angle = 0.0;  // [deg]
   double adhesion = 0.0;        // [Pa]
   bool tension = false;
-  double stiffness_factor = 1e2;  // times Young's modulus over the spacing
+  // Times Young's modulus over the spacing; absent: resolve_stiffness_factor.
+  std::optional<double> stiffness_factor;
   bool operator==(const Contact&) const = default;
 };
 

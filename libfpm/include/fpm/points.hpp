@@ -66,10 +66,11 @@ class PointOperator {
   void add_transposed_value(Index point, const Vector<Dim>& point_force,
                             FieldTarget<Dim> force) const;
 
-  /// Calls visit(particle, N_cb) for what serves a point; images come with their particles.
+  /// Calls visit(particle, N_cb, sign) for what serves a point: a particle, or an image of it with
+  /// the sign of each component.
   template <class Visitor>
   void for_each_value(Index point, Visitor&& visit) const {
-    for_each_entry(point, [&](const Entry& entry) { visit(entry.particle, entry.value); });
+    for_each_entry(point, [&](const Entry& entry) { visit(entry.particle, entry.value, entry.sign); });
   }
 
   /// `value` at every point, m x Dim. @throws ShapeError if sizes disagree.
