@@ -25,6 +25,17 @@ namespace {
 // The load parameter of a state that stands at a new target, computed by a division.
 constexpr double load_round_off = 1e-12;
 
+// Before this schema materials were one body, and `auto` meant the correction for jitter alone.
+constexpr std::int64_t schema_of_bodies = 5;
+
+void keep_one_body(scene::Scene& scene) {
+  if (scene.material.size() > 1) scene.approximation.interfaces = scene::InterfaceKind::through;
+  if (scene.approximation.consistency == scene::Switch::automatic &&
+      scene::resolve_consistency(scene) && scene.geometry.jitter == 0.0) {
+    scene.approximation.consistency = scene::Switch::off;
+  }
+}
+
 std::vector<constitutive::MaterialParameters> parameters_of(const scene::Scene& scene) {
   std::vector<constitutive::MaterialParameters> all;
   for (const scene::Material& material : scene.material)
@@ -93,6 +104,7 @@ scene::Scene scene_of(const std::filesystem::path& path, const record::Checkpoin
     const std::string first = reading.errors.empty() ? "" : reading.errors.front().text();
     throw files::FileError(path, "/meta/scene is no scene of this program: " + first);
   }
+  if (notes.schema < schema_of_bodies) keep_one_body(*reading.scene);
   if (restored(path, notes.materials) != parameters_of(*reading.scene)) {
     throw files::FileError(path, "/meta/materials are not the materials of /meta/scene");
   }

@@ -66,8 +66,30 @@ double resolve_stiffness_ratio(const Scene& scene) {
   }
 }
 
+namespace {
+
+bool holds_by_images(const Scene& scene) {
+  return (scene.drive.kind == DriveKind::displacement &&
+          scene.drive.method == DriveMethod::ghosts) ||
+         std::ranges::any_of(scene.support, [](const Support& support) {
+           return support.method == SupportMethod::ghosts;
+         });
+}
+
+bool has_interfaces(const Scene& scene) {
+  if (scene.material.size() < 2) return false;
+  return scene.approximation.interfaces != InterfaceKind::through ||
+         std::ranges::any_of(scene.interface, [](const Interface& interface) {
+           return interface.kind != InterfaceKind::through;
+         });
+}
+
+}  // namespace
+
 bool resolve_consistency(const Scene& scene) {
-  if (scene.approximation.consistency == Switch::automatic) return scene.geometry.jitter > 0.0;
+  if (scene.approximation.consistency == Switch::automatic) {
+    return scene.geometry.jitter > 0.0 || holds_by_images(scene) || has_interfaces(scene);
+  }
   return scene.approximation.consistency == Switch::on;
 }
 

@@ -33,7 +33,7 @@ struct Approximation {
   double support_over_spacing = 2.4;
   Switch consistency = Switch::automatic;
   KinematicsKind kinematics = KinematicsKind::finite_strain;
-  InterfaceKind interfaces = InterfaceKind::through;  // of materials that no table names
+  InterfaceKind interfaces = InterfaceKind::tied;  // of materials that no table names
   bool operator==(const Approximation&) const = default;
 };
 

@@ -53,6 +53,12 @@ const std::vector<Case> cases{
      {"support.0.method=ghosts", "drive.method=ghosts", "approximation.consistency=on"},
      20,
      true},
+    {"tied", &layered, {}, 20, true},
+    {"contact",
+     &layered,
+     {"interface.0.kind=contact", "interface.0.friction_angle=15", "drive.method=contact",
+      "drive.friction_angle=10"},
+     20},
     {"block_3d", &block, {}, 6},
 };
 

@@ -24,6 +24,21 @@ checkpoints_every = 1
 checkpoints_kept = 100
 )";
 
+const std::string layered = footing + R"([[material]]
+name = "firm"
+model = "drucker_prager"
+youngs_modulus = 4e6
+poissons_ratio = 0.3
+cohesion = 4e3
+friction_angle = 25.0
+dilation_angle = 5.0
+density = 1800.0
+region_min = [-1.0, -3.0]
+region_max = [4.0, -1.0]
+[[interface]]
+between = ["soil", "firm"]
+)";
+
 const std::string block = R"(
 title = "small block"
 [geometry]

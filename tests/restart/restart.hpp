@@ -19,6 +19,8 @@ struct Outcome {
 
 /// A plane footing, a quarter of a second long, whose few particles shear enough for re-search.
 extern const std::string footing;
+/// The same on two soils.
+extern const std::string layered;
 /// A 3D elastic block whose weight grows.
 extern const std::string block;
 

@@ -79,6 +79,19 @@ std::vector<Case> cases() {
   held.extra =
       "[[support]]\nname=\"base\"\nside=\"bottom\"\ndirections=[\"x\", \"y\"]\nmethod=\"ghosts\"\n";
   all.push_back({held, "held_by_ghosts"});
+  const std::string upper =
+      "[[material]]\nname=\"rock\"\nmodel=\"elastic\"\nyoungs_modulus=1e7\npoissons_ratio=0.2\n"
+      "region_min=[-1.0, 0.5]\nregion_max=[2.0, 2.0]\n[[interface]]\nbetween=[\"soil\", "
+      "\"rock\"]\n";
+  BodyOptions parted;
+  parted.jitter = 0.1;
+  parted.control = "incremental";
+  parted.extra = upper + "kind=\"tied\"\n";
+  all.push_back({parted, "tied"});
+  parted.extra = upper +
+                 "kind=\"contact\"\nfriction_angle=20.0\nadhesion=1e3\n[[support]]\nname=\"base\"\n"
+                 "side=\"bottom\"\ndirections=[\"y\"]\nmethod=\"contact\"\nfriction_angle=30.0\n";
+  all.push_back({parted, "in_contact"});
   return all;
 }
 

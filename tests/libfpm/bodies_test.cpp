@@ -1,0 +1,130 @@
+// Bodies of a lattice, the faces they share, and rows that see their own body alone.
+#include <gtest/gtest.h>
+#include <fpm/bodies.hpp>
+
+#include "sets.hpp"
+
+namespace {
+
+using namespace fpm_test;
+using fpm::Face;
+
+bool never(Index, Index) {
+  return false;
+}
+
+// Labels of a 2D lattice from its rows' pictures, the lowest row first.
+std::vector<Index> labels(const std::vector<std::string>& rows) {
+  std::vector<Index> all;
+  for (const std::string& row : rows) {
+    for (const char letter : row) all.push_back(letter - 'a');
+  }
+  return all;
+}
+
+TEST(Bodies, AreConnectedByFaces) {
+  const auto body = fpm::lattice_bodies<2>(lattice<2>({4, 4}),
+                                           labels({"aabb", "aabb", "bbaa", "bbaa"}), never, 2);
+  EXPECT_EQ(body, labels({"aabb", "aabb", "ccdd", "ccdd"}));
+}
+
+TEST(Bodies, OfJoinedLabelsAreOne) {
+  const auto joined = [](Index low, Index high) { return low == 0 && high == 2; };
+  const auto body =
+      fpm::lattice_bodies<2>(lattice<2>({6, 2}), labels({"aabbcc", "aabbcc"}), joined, 2);
+  EXPECT_EQ(body, labels({"aabbcc", "aabbcc"}));
+  const auto next =
+      fpm::lattice_bodies<2>(lattice<2>({6, 2}), labels({"bbaacc", "bbaacc"}), joined, 2);
+  EXPECT_EQ(next, labels({"aabbbb", "aabbbb"}));
+}
+
+TEST(Bodies, ThinOnesGoWithTheirNeighbours) {
+  const std::vector<Index> seam = labels({"aaa", "aaa", "aaa", "bbb", "bbb", "aaa", "aaa", "aaa"});
+  EXPECT_EQ(fpm::lattice_bodies<2>(lattice<2>({3, 8}), seam, never, 3), std::vector<Index>(24, 0));
+  EXPECT_EQ(fpm::lattice_bodies<2>(lattice<2>({3, 8}), seam, never, 2),
+            labels({"aaa", "aaa", "aaa", "bbb", "bbb", "ccc", "ccc", "ccc"}));
+}
+
+template <int Dim>
+void expect_closed_surfaces(LatticeLayout layout) {
+  // A block in the upper corner is of another body.
+  const auto box = lattice<Dim>(Counts<Dim>::Constant(6), 0.1, layout);
+  const ParticleSet<Dim> set = make_lattice(box);
+  std::vector<Index> label;
+  for (Index a = 0; a < set.size(); ++a) {
+    label.push_back((set.position.row(a).array() > 0.29).all() ? 1 : 0);
+  }
+  const auto body = fpm::lattice_bodies<Dim>(box, label, never, 2);
+  EXPECT_EQ(body, label);
+  auto faces = fpm::common_faces(box, body);
+  ASSERT_EQ(faces.first.size(), faces.second.size());
+  for (std::size_t c = 0; c < faces.first.size(); ++c) {
+    EXPECT_NE(body[static_cast<std::size_t>(faces.first[c])],
+              body[static_cast<std::size_t>(faces.second[c])]);
+  }
+  // sum s = 0 and sum s x X = |Omega| I of the block, its outer faces and those it shares.
+  Vector<Dim> sum = Vector<Dim>::Zero();
+  Tensor<Dim> moment = Tensor<Dim>::Zero();
+  const auto add = [&](const auto& points, Eigen::Index c, double sign) {
+    const Vector<Dim> s = sign * points.weight[c] * points.normal.row(c).transpose();
+    sum += s;
+    moment += s * points.position.row(c);
+  };
+  for (Eigen::Index c = 0; c < faces.points.weight.size(); ++c) {
+    const bool block_first =
+        body[static_cast<std::size_t>(faces.first[static_cast<std::size_t>(c)])] == 1;
+    add(faces.points, c, block_first ? 1.0 : -1.0);
+  }
+  for (const Face& face : fpm::all_faces<Dim>()) {
+    const auto outer = fpm::outer_faces(box, face);
+    EXPECT_NEAR(outer.points.weight.sum(), std::pow(0.6, Dim - 1), 1e-14);
+    for (Eigen::Index c = 0; c < outer.points.weight.size(); ++c) {
+      const Index cell = outer.first[static_cast<std::size_t>(c)];
+      EXPECT_EQ(fpm::cell_at<Dim>(box, outer.points.position.row(c).transpose()), cell);
+      if (body[static_cast<std::size_t>(cell)] == 1) add(outer.points, c, 1.0);
+    }
+  }
+  double volume = 0.0;
+  for (Index a = 0; a < set.size(); ++a) {
+    if (body[static_cast<std::size_t>(a)] == 1) volume += set.volume[a];
+  }
+  EXPECT_LE(sum.norm(), 1e-15);
+  EXPECT_LE((moment - volume * Tensor<Dim>::Identity()).norm(), 1e-15);
+}
+
+TEST(CommonFaces, CloseTheSurfaceOfEachBody) {
+  for (const auto layout : {LatticeLayout::cell, LatticeLayout::vertex}) {
+    expect_closed_surfaces<2>(layout);
+    expect_closed_surfaces<3>(layout);
+  }
+}
+
+TEST(Bodies, RowsAndPointsSeeTheirOwnAlone) {
+  const auto box = lattice<2>({10, 8}, 0.1, LatticeLayout::cell, 0.2);
+  ParticleSet<2> set = make_lattice(box);
+  std::vector<Index> body(80);
+  for (Index a = 0; a < 80; ++a) body[static_cast<std::size_t>(a)] = a / 10 < 4 ? 0 : 1;
+  set.body = body;
+  const Ghosts<2> none;
+  Rows<2> rows(set, none, row_options<2>());
+  const auto expect_own = [&] {
+    for (Index a = 0; a < 80; ++a) {
+      for (const Index b : rows.neighbours(a)) EXPECT_EQ(a / 10 < 4, b / 10 < 4) << a << ' ' << b;
+    }
+  };
+  expect_own();
+  std::vector<Index> all(80);
+  for (Index a = 0; a < 80; ++a) all[static_cast<std::size_t>(a)] = a;
+  ASSERT_FALSE(rows.research(all, set.position, set.volume, std::vector<char>(80, 0)).empty());
+  expect_own();
+
+  Field<2> field = Field<2>::Zero(80, 2);  // a jump from one body to the other
+  field.bottomRows(40).setOnes();
+  Field<2> points(2, 2);
+  points << 0.5, 0.4, 0.5, 0.4;
+  const fpm::PointOperator<2> either(set, none, points, row_options<2>(), {0, 1});
+  EXPECT_LE(either.value(0, field).norm(), round_off(30.0, 1.0));
+  EXPECT_LE((either.value(1, field) - Vector<2>::Ones()).norm(), round_off(30.0, 1.0));
+}
+
+}  // namespace
