@@ -80,8 +80,8 @@ TEST(SchemaOfTheFuture, IsRefusedByName) {
   files::write_seal(file, record::checkpoint_schema + 1, "fpm-run 9.8.7");
   const Outcome outcome = fpm_run_in(run, block, {"--resume=" + file.string()});
   EXPECT_EQ(outcome.code, program::ExitCode::checkpoint_unusable);
-  EXPECT_THAT(outcome.err, HasSubstr("has checkpoint schema 5 (written by fpm-run 9.8.7); this "
-                                     "program reads schemas 1 to 4"));
+  EXPECT_THAT(outcome.err, HasSubstr("has checkpoint schema 6 (written by fpm-run 9.8.7); this "
+                                     "program reads schemas 1 to 5"));
 }
 
 // What is in the file counts, though its seal were of an older program.
@@ -101,7 +101,7 @@ TEST(SchemaOfTheFuture, IsRefusedByNameBehindASealToo) {
     (void)record::open_checkpoint(file, notes);
     FAIL() << "opened";
   } catch (const files::FileError& failure) {
-    EXPECT_THAT(failure.reason(), HasSubstr("has checkpoint schema 5 (written by fpm-run 9.8.7)"));
+    EXPECT_THAT(failure.reason(), HasSubstr("has checkpoint schema 6 (written by fpm-run 9.8.7)"));
   }
 }
 
