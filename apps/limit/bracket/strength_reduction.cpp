@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "limit/bracket/factor_search.hpp"
-#include "limit/bracket/processor_time.hpp"
 #include "limit/bracket/side.hpp"
 
 namespace limit::bracket {
@@ -49,12 +48,13 @@ double estimate(const problem::Problem& problem, double one) {
 /// One bound of the factor.
 class Flank {
  public:
-  Flank(const problem::Problem& problem, bool is_lower, double one)
+  Flank(const problem::Problem& problem, bool is_lower, double one, const Means& means)
       : is_lower_(is_lower),
+        means_(means),
         soils_(problem.soils),
         one_(one),
         most_(problem.most_multiplier.value()),
-        side_(problem, is_lower),
+        side_(problem, is_lower, means),
         search_(estimate(problem, one)) {}
 
   /// The best one certified so far.
@@ -75,7 +75,7 @@ class Flank {
   template <class Solve>
   void settle(double near, const Solve& solve) {
     const std::optional<double> before = factor_;
-    const double began = processor_seconds();
+    const double began = means_.seconds();
     constexpr int most_steps = 16;
     // To the side on which the certificate decides, by less than what is asked for.
     const double aside = std::exp((is_lower_ ? -0.25 : 0.25) * near);
@@ -86,7 +86,7 @@ class Flank {
       if (factor_ && 2.0 * search_.width() < near && is_near) break;
       if (!solve(*this, target)) break;
     }
-    const double seconds = std::max(1e-3, processor_seconds() - began);
+    const double seconds = std::max(1e-3, means_.seconds() - began);
     if (before && factor_) promise_ = std::abs(std::log(*factor_ / *before)) / seconds;
   }
 
@@ -152,6 +152,7 @@ class Flank {
   }
 
   bool is_lower_;
+  const Means& means_;
   std::vector<problem::Soil> soils_;
   double one_;   // the multiplier of the loads as they are, in its unit
   double most_;  // where it is not followed any further, likewise
@@ -166,14 +167,15 @@ class Flank {
 class Reduction {
  public:
   Reduction(const problem::Case& problem, const BracketOptions& options,
-            const std::function<void(const Attempt&)>& watch)
+            const std::function<void(const Attempt&)>& watch, const Means& means)
       : options_(options),
         watch_(watch),
-        began_(processor_seconds()),
+        means_(means),
+        began_(means.seconds()),
         below_(problem::in_units(problem.lower, problem.units), true,
-               1.0 / problem.units.multiplier()),
+               1.0 / problem.units.multiplier(), means),
         above_(problem::in_units(problem.upper, problem.units), false,
-               1.0 / problem.units.multiplier()),
+               1.0 / problem.units.multiplier(), means),
         case_(problem) {}
 
   Solution solution() {
@@ -211,7 +213,7 @@ class Reduction {
   }
 
   [[nodiscard]] double remaining() const {
-    return options_.max_seconds - (processor_seconds() - began_);
+    return options_.max_seconds - (means_.seconds() - began_);
   }
   [[nodiscard]] double gap() const {
     if (!below_.factor() || !above_.factor()) return std::numeric_limits<double>::infinity();
@@ -239,6 +241,7 @@ class Reduction {
 
   const BracketOptions& options_;
   const std::function<void(const Attempt&)>& watch_;
+  const Means& means_;
   double began_;
   Flank below_, above_;
   const problem::Case& case_;
@@ -255,13 +258,13 @@ problem::Soil weakened(const problem::Soil& soil, double factor) {
 }
 
 Solution reduce_strength(const problem::Case& problem, const BracketOptions& options,
-                         const std::function<void(const Attempt&)>& watch) {
+                         const std::function<void(const Attempt&)>& watch, const Means& means) {
   for (const problem::Soil& soil : problem.lower.soils) {
     if (soil.unit_weight != 0.0 || !problem.lower.most_multiplier) {
       throw std::invalid_argument("strength reduction: not all loads are live, or without end");
     }
   }
-  return Reduction(problem, options, watch).solution();
+  return Reduction(problem, options, watch, means).solution();
 }
 
 }  // namespace limit::bracket
