@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "limit/bracket/factor_search.hpp"
 #include "limit/bracket/side.hpp"
+#include "limit/problem/at_rest.hpp"
 
 namespace limit::bracket {
 
@@ -51,7 +53,7 @@ class Flank {
   Flank(const problem::Problem& problem, bool is_lower, double one, const Means& means)
       : is_lower_(is_lower),
         means_(means),
-        soils_(problem.soils),
+        problem_(problem),
         one_(one),
         most_(problem.most_multiplier.value()),
         side_(problem, is_lower, means),
@@ -98,8 +100,9 @@ class Flank {
   /// Bounds the multiplier of the loads with the strength divided by the factor.
   void solve_at(double factor, const BracketOptions& options,
                 const std::function<void(const Attempt&)>& watch, std::vector<Attempt>& attempts) {
-    std::vector<problem::Soil> soils = soils_;
-    for (problem::Soil& soil : soils) soil = weakened(soil, factor);
+    if (!is_lower_ && failures_ > 0 && !rests_) put_to_rest(factor);
+    std::vector<problem::Soil> soils = problem_.soils;
+    for (problem::Soil& soil : soils) soil = weakened(soil, weakening(soil, factor));
     side_.set_soils(soils);
     Bracket found;
     BracketOptions once = options;
@@ -115,6 +118,37 @@ class Flank {
 
  private:
   static constexpr int most_failures = 4;  // in a row
+  // Soft clay beside sand: what divides the clay's strength to almost nothing, makes the sand's
+  // friction so steep that solvers lose themselves in it.
+  static constexpr double steep = 70.0 * std::numbers::pi / 180.0;
+
+  [[nodiscard]] static bool is_steep(const problem::Soil& soil, double factor) {
+    return std::tan(soil.friction_angle) > factor * std::tan(steep);
+  }
+
+  // A stress field of soils that are weaker than they must be is one of theirs.
+  [[nodiscard]] double weakening(const problem::Soil& soil, double factor) const {
+    if (!is_lower_ || !is_steep(soil, factor)) return factor;
+    return std::tan(soil.friction_angle) / std::tan(steep);
+  }
+
+  // Steep soils that the solver has failed with stay at rest from here on, if anything else moves.
+  void put_to_rest(double factor) {
+    std::vector<bool> rests;
+    for (const problem::Soil& soil : problem_.soils) rests.push_back(is_steep(soil, factor));
+    const auto moves = [&](const mesh::Triangle& triangle) {
+      return !rests[static_cast<std::size_t>(triangle.region)];
+    };
+    const auto& triangles = problem_.mesh.triangles;
+    if (std::all_of(triangles.begin(), triangles.end(), moves) ||
+        std::none_of(triangles.begin(), triangles.end(), moves)) {
+      return;
+    }
+    rests_ = true;
+    failures_ = 0;
+    side_ = Side(problem::with_soils_at_rest(problem_, rests), false, means_);
+    search_ = FactorSearch(factor);
+  }
 
   // Away from where a solver has just failed, to the side on which an answer is a bound. Where next
   // to no cohesion makes the multiplier of the loads a matter of all or nothing, solvers fail
@@ -153,7 +187,7 @@ class Flank {
 
   bool is_lower_;
   const Means& means_;
-  std::vector<problem::Soil> soils_;
+  problem::Problem problem_;
   double one_;   // the multiplier of the loads as they are, in its unit
   double most_;  // where it is not followed any further, likewise
   Side side_;
@@ -161,6 +195,7 @@ class Flank {
   std::optional<double> factor_;
   Bracket best_;
   int failures_ = 0;
+  bool rests_ = false;  // whether soils have been put to rest
   double promise_ = std::numeric_limits<double>::infinity();
 };
 

@@ -6,6 +6,7 @@
 
 #include "limit/bracket/bracket.hpp"
 #include "limit/problem/case.hpp"
+#include "limit/programme/upper_bound.hpp"
 
 namespace {
 
@@ -46,6 +47,26 @@ TEST(Layers, OfAHundredthOfTheStrengthBesideThemNeedNoFallBack) {
     EXPECT_LT(found.lower_bound(), 2.0 + std::numbers::pi);
     EXPECT_LE(found.lower_bound(), found.upper_bound());
   }
+}
+
+// Where soils meet the velocity jumps in the softer one, whichever triangle is named first: the
+// harder one's strength there would be in the way of a mechanism that slides along it.
+TEST(Layers, MeetInTheSofterOneWhicheverIsNamedFirst) {
+  std::vector<double> found;
+  for (const bool reversed : {false, true}) {
+    problem::Problem problem = on_a_soft_layer(1e-2);
+    if (reversed) std::reverse(problem.mesh.triangles.begin(), problem.mesh.triangles.end());
+    const solver::ConeSolution solution =
+        solver::solve(programme::upper_bound_program(problem), {});
+    ASSERT_EQ(solution.status, solver::SolverStatus::solved);
+    const problem::VelocityField field = programme::velocity_field(problem, solution.multipliers);
+    const certificate::UpperCertificate certified =
+        certificate::certify_upper(problem, field, field);
+    ASSERT_TRUE(certified.holds);
+    found.push_back(certified.multiplier);
+  }
+  constexpr double both = 2e-5;  // the solver's gaps
+  EXPECT_NEAR(found[1] / found[0], 1.0, both);
 }
 
 TEST(Layers, AFallBackThatHasFailedIsNotAskedOnTheNextMesh) {
