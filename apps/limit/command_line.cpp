@@ -18,6 +18,7 @@
 #include "program/version.hpp"
 #include "record/curve_file.hpp"
 #include "scene/reader.hpp"
+#include "scene/scene.hpp"
 #include "tables/reader.hpp"
 
 namespace limit {
@@ -207,7 +208,7 @@ Input input_of_strip(const po::variables_map& values) {
 /// Of polygons or of fpm-run; nothing if the diagnosis or `unreadable` has an error.
 std::optional<Input> input_of_scene(const std::string& text, std::span<const std::string> settings,
                                     bool tension, tables::Diagnosis& diagnosis,
-                                    std::optional<tables::Problem>& unreadable) {
+                                    std::optional<tables::Complaint>& unreadable) {
   std::optional<problem::Cases> cases;
   std::optional<scene::Scene> scene;
   if (ground::is_ground_scene(text)) {
@@ -225,8 +226,9 @@ std::optional<Input> input_of_scene(const std::string& text, std::span<const std
   return Input{std::move(*cases), std::move(scene)};
 }
 
-void say(const std::vector<tables::Problem>& problems, std::string_view kind, std::ostream& err) {
-  for (const tables::Problem& one : problems) err << kind << ": " << one.text() << '\n';
+void say(const std::vector<tables::Complaint>& complaints, std::string_view kind,
+         std::ostream& err) {
+  for (const tables::Complaint& one : complaints) err << kind << ": " << one.text() << '\n';
 }
 
 /// Nothing, with every problem said, if the scene is refused.
@@ -243,12 +245,12 @@ std::optional<Input> input_of(const po::variables_map& values, std::ostream& err
     throw UsageError(fmt::format("--{} and a SCENE exclude each other", name));
   }
   const auto text = scene::text_of(scenes.front());
-  if (const auto* problem = std::get_if<tables::Problem>(&text)) {
-    say({*problem}, "error", err);
+  if (const auto* complaint = std::get_if<tables::Complaint>(&text)) {
+    say({*complaint}, "error", err);
     return std::nullopt;
   }
   tables::Diagnosis diagnosis(scenes.front());
-  std::optional<tables::Problem> unreadable;
+  std::optional<tables::Complaint> unreadable;
   std::optional<Input> input =
       input_of_scene(std::get<std::string>(text), program::texts(values, "set"),
                      !values["no-tension"].as<bool>(), diagnosis, unreadable);

@@ -106,7 +106,8 @@ void write_fields(const std::filesystem::path& file, const problem::Case& proble
     const double area = mesh::twice_area(mesh, triangle) / 2 * problem.units.length;
     dissipation.push_back(bound.certificate.of_triangle[t] * problem.units.multiplier() / area);
   }
-  const std::string per_length = problem.unit.empty() ? "1/m" : problem.unit + "/m";
+  const std::string per_length =
+      (problem.unit.empty() ? "1" : problem.unit) + "/" + problem.names.length;
   write_grid(file, points, {{"velocity", "", 3, std::move(velocity)}}, {.type = 22, .points = 6},
              {{"dissipation", per_length, 1, std::move(dissipation)}});
 }

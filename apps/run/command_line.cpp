@@ -13,6 +13,7 @@
 #include "scene/names.hpp"
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
+#include "scene/scene.hpp"
 
 namespace run {
 
@@ -119,15 +120,16 @@ RunRequest request_of(const po::variables_map& values) {
   return request;
 }
 
-/// Reads the scene into the request; false, with every problem said, if it is refused.
+/// Reads the scene into the request; false, with every complaint, if it is refused.
 bool take_scene(RunRequest& request, const po::variables_map& values, std::ostream& err) {
   scene::SceneReading reading = scene::read_scene(request.scene_file, request.settings);
-  for (const tables::Problem& problem : reading.warnings)
-    err << "warning: " << problem.text() << '\n';
-  for (const tables::Problem& problem : reading.errors) err << "error: " << problem.text() << '\n';
+  for (const tables::Complaint& complaint : reading.warnings)
+    err << "warning: " << complaint.text() << '\n';
+  for (const tables::Complaint& complaint : reading.errors)
+    err << "error: " << complaint.text() << '\n';
   if (!reading.scene) return false;
-  request.scene = std::move(*reading.scene);
-  request.directory = output_folder(values, request.scene, request.scene_file);
+  request.scene = std::move(reading.scene);
+  request.directory = output_folder(values, *request.scene, request.scene_file);
   return true;
 }
 
@@ -149,11 +151,11 @@ program::ExitCode run(std::span<const std::string> arguments, std::ostream& out,
   RunRequest request = request_of(values);
   if (!take_scene(request, values, err)) return program::ExitCode::input_refused;
   if (values["print-effective"].as<bool>()) {
-    out << scene::effective_toml(request.scene);
+    out << scene::effective_toml(*request.scene);
     return program::ExitCode::done;
   }
   if (request.check_only) {
-    out << request.scene_file.string() << ": no errors\n" << scene_summary(request.scene);
+    out << request.scene_file.string() << ": no errors\n" << scene_summary(*request.scene);
   }
   out.flush();
   return runner(request);

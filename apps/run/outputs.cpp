@@ -2,6 +2,7 @@
 
 #include "files/durable_file.hpp"
 #include "record/checkpoint_folder.hpp"
+#include "scene/scene.hpp"
 
 namespace run {
 

@@ -9,7 +9,10 @@
 #include "record/frames.hpp"
 #include "record/run_folder.hpp"
 #include "run/start.hpp"
-#include "scene/scene.hpp"
+
+namespace scene {
+struct Scene;
+}
 
 namespace run {
 

@@ -8,6 +8,7 @@
 #include "program/version.hpp"
 #include "record/checkpoint_folder.hpp"
 #include "record/checkpoint_name.hpp"
+#include "scene/scene.hpp"
 #include "stepping/failure_report.hpp"
 
 namespace run {
@@ -17,7 +18,7 @@ Recorder<Dim>::Recorder(const RunRequest& request, const record::RunFolder& fold
                         const model::Model<Dim>& model, const model::Measures<Dim>& measures,
                         const RunStart<Dim>& start, model::State<Dim>& state, Outputs outputs,
                         std::ostream& out)
-    : scene_(request.scene),
+    : scene_(*request.scene),
       model_(model),
       measures_(measures),
       state_(state),
@@ -25,7 +26,7 @@ Recorder<Dim>::Recorder(const RunRequest& request, const record::RunFolder& fold
       outputs_(std::move(outputs)),
       progress_(out, program::progress_mode(request.quiet), program::terminal_width()),
       history_(start.history),
-      notes_(model::notes_for(request.scene)) {
+      notes_(model::notes_for(*request.scene)) {
   notes_.versions = program::with_versions("fpm-run");
   notes_.lineage = start.lineage;
   notes_.measures = measures_.columns();

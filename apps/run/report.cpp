@@ -6,6 +6,7 @@
 
 #include "program/progress.hpp"
 #include "scene/derived.hpp"
+#include "scene/scene.hpp"
 
 namespace run {
 

@@ -7,7 +7,10 @@
 
 #include "record/curve.hpp"
 #include "record/run_folder.hpp"
-#include "scene/scene.hpp"
+
+namespace scene {
+struct Scene;
+}
 
 namespace run {
 

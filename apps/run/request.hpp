@@ -1,11 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+namespace scene {
+struct Scene;
+}
 
 namespace run {
 
@@ -16,7 +19,7 @@ struct ResumeFrom {
 
 /// One run as asked for on the command line: the checked scene and what is not part of it.
 struct RunRequest {
-  scene::Scene scene;
+  std::shared_ptr<const scene::Scene> scene;
   std::filesystem::path scene_file;
   std::filesystem::path directory;    // output folder, resolved from --out, scene and file name
   std::vector<std::string> settings;  // the --set arguments, already applied to `scene`

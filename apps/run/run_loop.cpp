@@ -19,6 +19,7 @@
 #include "run/recorder.hpp"
 #include "run/report.hpp"
 #include "scene/derived.hpp"
+#include "scene/scene.hpp"
 #include "stepping/failure_report.hpp"
 #include "stepping/stepper.hpp"
 
@@ -77,7 +78,7 @@ class Run {
   Run(const RunRequest& request, std::ostream& out, std::ostream& err,
       const files::SystemCalls& system)
       : request_(request),
-        scene_(request.scene),
+        scene_(*request.scene),
         out_(out),
         err_(err),
         system_(system),
@@ -275,8 +276,9 @@ int thread_count(int asked, std::int64_t particles) {
 
 program::ExitCode run_programme(const RunRequest& request, std::ostream& out, std::ostream& err,
                                 const files::SystemCalls& system) {
-  omp_set_num_threads(thread_count(request.threads, scene::particle_count(request.scene.geometry)));
-  if (request.scene.geometry.dimension == 2) return Run<2>(request, out, err, system)();
+  omp_set_num_threads(
+      thread_count(request.threads, scene::particle_count(request.scene->geometry)));
+  if (request.scene->geometry.dimension == 2) return Run<2>(request, out, err, system)();
   return Run<3>(request, out, err, system)();
 }
 

@@ -9,6 +9,7 @@
 #include "model/state_file.hpp"
 #include "record/checkpoint_folder.hpp"
 #include "record/checkpoint_name.hpp"
+#include "scene/scene.hpp"
 
 namespace run {
 
@@ -94,7 +95,7 @@ RunStart<Dim> find_start(const RunRequest& request, const model::Model<Dim>& mod
       request.resume->checkpoint.empty() ? newest_checkpoint(request.directory, start.warnings)
                                          : request.resume->checkpoint;
   try {
-    resume(checkpoint, request.scene, model, start);
+    resume(checkpoint, *request.scene, model, start);
   } catch (const files::FileError& failure) {
     throw files::FileError(failure.file(), failure.reason() + older_usable(checkpoint));
   }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "scene/scene.hpp"
-#include "tables/problem.hpp"
+#include "tables/diagnosis.hpp"
 
 namespace scene {
 

@@ -4,6 +4,7 @@
 
 #include "files/durable_file.hpp"
 #include "scene/check.hpp"
+#include "scene/scene.hpp"
 #include "scene/tables.hpp"
 #include "tables/nearest_name.hpp"
 #include "tables/reader.hpp"
@@ -12,7 +13,7 @@ namespace scene {
 
 std::optional<Scene> parse_scene(std::string_view text, std::span<const std::string> settings,
                                  tables::Diagnosis& diagnosis,
-                                 std::optional<tables::Problem>& unreadable) {
+                                 std::optional<tables::Complaint>& unreadable) {
   Scene scene;
   unreadable = tables::read_tables(text, settings, scene_tables(), scene, diagnosis);
   if (unreadable) return std::nullopt;
@@ -25,8 +26,10 @@ SceneReading parse_scene(std::string_view text, const std::string& source,
                          std::span<const std::string> settings) {
   SceneReading reading;
   tables::Diagnosis diagnosis(source);
-  std::optional<tables::Problem> unreadable;
-  reading.scene = parse_scene(text, settings, diagnosis, unreadable);
+  std::optional<tables::Complaint> unreadable;
+  if (std::optional<Scene> scene = parse_scene(text, settings, diagnosis, unreadable)) {
+    reading.scene = std::make_shared<const Scene>(std::move(*scene));
+  }
   reading.errors = diagnosis.errors();
   reading.warnings = diagnosis.warnings();
   if (unreadable) reading.errors = {*unreadable};
@@ -35,8 +38,8 @@ SceneReading parse_scene(std::string_view text, const std::string& source,
 
 namespace {
 
-tables::Problem unreadable(const std::filesystem::path& file, const std::string& why) {
-  tables::Problem problem{file.string(), "", why, "allowed is a TOML file", ""};
+tables::Complaint unreadable(const std::filesystem::path& file, const std::string& why) {
+  tables::Complaint complaint{file.string(), "", why, "allowed is a TOML file", ""};
   std::vector<std::string> siblings;
   std::error_code ignored;
   const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
@@ -46,13 +49,13 @@ tables::Problem unreadable(const std::filesystem::path& file, const std::string&
   std::sort(siblings.begin(), siblings.end());
   const std::vector<std::string_view> names(siblings.begin(), siblings.end());
   const std::string nearest = tables::nearest_name(file.filename().string(), names);
-  if (!nearest.empty()) problem.nearest = (file.parent_path() / nearest).string();
-  return problem;
+  if (!nearest.empty()) complaint.nearest = (file.parent_path() / nearest).string();
+  return complaint;
 }
 
 }  // namespace
 
-std::variant<std::string, tables::Problem> text_of(const std::filesystem::path& file) {
+std::variant<std::string, tables::Complaint> text_of(const std::filesystem::path& file) {
   try {
     return files::read_text(file);
   } catch (const files::FileError& failure) {
@@ -62,9 +65,9 @@ std::variant<std::string, tables::Problem> text_of(const std::filesystem::path& 
 
 SceneReading read_scene(const std::filesystem::path& file, std::span<const std::string> settings) {
   const auto text = text_of(file);
-  if (const auto* problem = std::get_if<tables::Problem>(&text)) {
+  if (const auto* complaint = std::get_if<tables::Complaint>(&text)) {
     SceneReading reading;
-    reading.errors.push_back(*problem);
+    reading.errors.push_back(*complaint);
     return reading;
   }
   return parse_scene(std::get<std::string>(text), file.string(), settings);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,20 +9,23 @@
 #include <variant>
 #include <vector>
 
-#include "scene/scene.hpp"
-#include "tables/problem.hpp"
+#include "tables/diagnosis.hpp"
 
 namespace scene {
 
-/// What came of reading a scene: the scene if there is no error, and every problem found.
+struct Scene;
+
+/// What came of reading a scene: the scene if there is no error, and every complaint. Who only
+/// hands the scene on need not see its type.
 struct SceneReading {
-  std::optional<Scene> scene;
-  std::vector<tables::Problem> errors;
-  std::vector<tables::Problem> warnings;
+  std::shared_ptr<const Scene> scene;
+  std::vector<tables::Complaint> errors;
+  std::vector<tables::Complaint> warnings;
 };
 
 /// The text of a scene file, or why it cannot be read, with a file of a similar name.
-[[nodiscard]] std::variant<std::string, tables::Problem> text_of(const std::filesystem::path& file);
+[[nodiscard]] std::variant<std::string, tables::Complaint> text_of(
+    const std::filesystem::path& file);
 
 /// Reads a scene file and applies settings (`geometry.spacing=0.02`, `material.0.cohesion=1e3`,
 /// `material.soil.cohesion=1e3`) to it, in order. Never throws for what the user wrote; a file that
@@ -38,6 +42,6 @@ struct SceneReading {
 [[nodiscard]] std::optional<Scene> parse_scene(std::string_view text,
                                                std::span<const std::string> settings,
                                                tables::Diagnosis& diagnosis,
-                                               std::optional<tables::Problem>& unreadable);
+                                               std::optional<tables::Complaint>& unreadable);
 
 }  // namespace scene

@@ -162,19 +162,19 @@ class Walker {
 
 }  // namespace
 
-std::optional<Problem> read_tables(std::string_view text, std::span<const std::string> settings,
-                                   const std::vector<TableInfo>& tables, const TableSink& sink,
-                                   Diagnosis& diagnosis) {
+std::optional<Complaint> read_tables(std::string_view text, std::span<const std::string> settings,
+                                     const std::vector<TableInfo>& tables, const TableSink& sink,
+                                     Diagnosis& diagnosis) {
   if (const std::size_t line = line_of_endless_key(text); line != 0) {
-    return Problem{fmt::format("{}:{}", diagnosis.source(), line), "", "a key of too many parts",
-                   "the deepest key has three, as in material.0.cohesion", ""};
+    return Complaint{fmt::format("{}:{}", diagnosis.source(), line), "", "a key of too many parts",
+                     "the deepest key has three, as in material.0.cohesion", ""};
   }
   toml::table tree;
   try {
     tree = toml::parse(text, diagnosis.source());
   } catch (const toml::parse_error& failure) {
-    return Problem{place_of(failure.source(), diagnosis.source()), "",
-                   "not TOML: " + std::string(failure.description()), "", ""};
+    return Complaint{place_of(failure.source(), diagnosis.source()), "",
+                     "not TOML: " + std::string(failure.description()), "", ""};
   }
   rename_tables(tree, tables, diagnosis);
   apply_settings(tree, settings, tables, diagnosis);

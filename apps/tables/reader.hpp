@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tables/diagnosis.hpp"
 #include "tables/field.hpp"
-#include "tables/problem.hpp"
 #include "tables/table.hpp"
 
 namespace tables {
@@ -25,18 +25,18 @@ struct TableSink {
 /// Reads TOML text along a list of tables, settings (`--set`) applied first. Unknown and missing
 /// names and values that are not allowed become errors of the diagnosis, which also learns where
 /// each key was written.
-/// @return the problem if the text is no TOML; nothing else was read then.
-[[nodiscard]] std::optional<Problem> read_tables(std::string_view text,
-                                                 std::span<const std::string> settings,
-                                                 const std::vector<TableInfo>& tables,
-                                                 const TableSink& sink, Diagnosis& diagnosis);
+/// @return the complaint if the text is no TOML; nothing else was read then.
+[[nodiscard]] std::optional<Complaint> read_tables(std::string_view text,
+                                                   std::span<const std::string> settings,
+                                                   const std::vector<TableInfo>& tables,
+                                                   const TableSink& sink, Diagnosis& diagnosis);
 
 /// The same into `root`, whose members keep their values where the text has no key.
 template <class Root>
-[[nodiscard]] std::optional<Problem> read_tables(std::string_view text,
-                                                 std::span<const std::string> settings,
-                                                 const std::vector<Table<Root>>& tables, Root& root,
-                                                 Diagnosis& diagnosis) {
+[[nodiscard]] std::optional<Complaint> read_tables(std::string_view text,
+                                                   std::span<const std::string> settings,
+                                                   const std::vector<Table<Root>>& tables,
+                                                   Root& root, Diagnosis& diagnosis) {
   const TableSink sink{
       [&](std::size_t table, std::size_t count) { tables[table].resize(root, count); },
       [&](std::size_t table, std::size_t entry, std::size_t field, const Value& value) {

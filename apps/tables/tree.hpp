@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "tables/problem.hpp"
+#include "tables/diagnosis.hpp"
 #include "tables/table.hpp"
 
 namespace tables {
@@ -24,7 +24,7 @@ namespace tables {
 /// that nests a table for each can stand; 0 if there is none.
 [[nodiscard]] std::size_t line_of_endless_key(std::string_view text);
 
-/// Puts `key=value` settings into the tree; places and problems name `--set key=value`.
+/// Puts `key=value` settings into the tree; places and complaints name `--set key=value`.
 void apply_settings(toml::table& tree, std::span<const std::string> settings,
                     const std::vector<TableInfo>& tables, Diagnosis& diagnosis);
 

@@ -194,7 +194,7 @@ void add_all(const Settings& settings) {
         ->UseRealTime();
   }
   for (const Body& body : bodies()) {
-    if (scene_of(body).geometry.dimension == 2) {
+    if (dimension_of(*scene_of(body)) == 2) {
       add_body<2>(body, settings);
     } else {
       add_body<3>(body, settings);

@@ -22,6 +22,7 @@
 #include "model/particle_fields.hpp"
 #include "record/checkpoint_folder.hpp"
 #include "record/checkpoint_name.hpp"
+#include "scene/scene.hpp"
 #include "stepping/stepper.hpp"
 
 namespace benchmarks {
@@ -114,12 +115,12 @@ int main_of(int count, char** arguments) {
   if (count != 3) throw std::invalid_argument(usage);
   const std::string name = arguments[1];
   const auto folder = std::filesystem::path(arguments[2]) / "fpm-bench-checkpoint";
-  const scene::Scene scene = scene_of(body_named(name));
+  const auto scene = scene_of(body_named(name));
   omp_set_num_threads(1);
   files::create_folder(folder);
   std::printf("body,particles,compression,bytes_per_particle,ms_each,percent_of_run\n");
-  if (scene.geometry.dimension == 2) measure<2>(name, scene, folder);
-  if (scene.geometry.dimension == 3) measure<3>(name, scene, folder);
+  if (dimension_of(*scene) == 2) measure<2>(name, *scene, folder);
+  if (dimension_of(*scene) == 3) measure<3>(name, *scene, folder);
   std::filesystem::remove(folder);
   return 0;
 }

@@ -123,10 +123,10 @@ int main_of(int count, char** arguments) {
   }
   const Request request = read_arguments(count, arguments);
   const Body body = body_named(request.body);
-  const scene::Scene scene = scene_of(body);
+  const auto scene = scene_of(body);
   omp_set_num_threads(request.threads);
   const bool converged =
-      scene.geometry.dimension == 2 ? run<2>(body, scene, request) : run<3>(body, scene, request);
+      dimension_of(*scene) == 2 ? run<2>(body, *scene, request) : run<3>(body, *scene, request);
   return converged ? 0 : 3;
 }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "scene/reader.hpp"
+#include "scene/scene.hpp"
 
 namespace benchmarks {
 
@@ -37,13 +38,21 @@ Body body_named(std::string_view name) {
   throw std::invalid_argument("no body \"" + std::string(name) + "\"; there are" + known);
 }
 
-scene::Scene scene_of(const Body& body) {
+std::shared_ptr<const scene::Scene> scene_of(const Body& body) {
   const auto reading =
       scene::read_scene(std::filesystem::path(FPM_SCENES) / body.scene, body.settings);
-  if (reading.scene) return *reading.scene;
-  std::string problems = body.name + " is refused:";
-  for (const auto& problem : reading.errors) problems += '\n' + problem.text();
-  throw std::runtime_error(problems);
+  if (reading.scene) return reading.scene;
+  std::string complaints = body.name + " is refused:";
+  for (const auto& complaint : reading.errors) complaints += '\n' + complaint.text();
+  throw std::runtime_error(complaints);
+}
+
+int dimension_of(const scene::Scene& scene) {
+  return scene.geometry.dimension;
+}
+
+double coarse_spacing_of(const scene::Scene& scene) {
+  return scene.solver.coarse_spacing_over_spacing;
 }
 
 }  // namespace benchmarks

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "scene/scene.hpp"
+namespace scene {
+struct Scene;
+}
 
 namespace benchmarks {
 
@@ -25,7 +28,13 @@ std::vector<Body> bodies();
 Body body_named(std::string_view name);
 
 /// The scene of a body.
-/// @throws std::runtime_error with every problem if the scene is refused
-scene::Scene scene_of(const Body& body);
+/// @throws std::runtime_error with every complaint if the scene is refused
+std::shared_ptr<const scene::Scene> scene_of(const Body& body);
+
+/// Of its space, 2 or 3.
+int dimension_of(const scene::Scene& scene);
+
+/// Of the solver's preconditioner, over the spacing.
+double coarse_spacing_of(const scene::Scene& scene);
 
 }  // namespace benchmarks

@@ -40,10 +40,10 @@ template <int Dim>
 struct Prepared {
   Prepared(const Body& body, int settle_steps)
       : scene(scene_of(body)),
-        model(model::build_model<Dim>(scene)),
-        state(settled_state(scene, model, settle_steps)),
+        model(model::build_model<Dim>(*scene)),
+        state(settled_state(*scene, model, settle_steps)),
         equilibrium(model, state),
-        preconditioner(model, initial_operator(model), scene.solver.coarse_spacing_over_spacing),
+        preconditioner(model, initial_operator(model), coarse_spacing_of(*scene)),
         increment(Eigen::Map<const Eigen::VectorXd>(state.increment.data(), model.unknowns())),
         direction(model.unknowns()),
         result(model.unknowns()) {
@@ -60,7 +60,7 @@ struct Prepared {
   Prepared(const Prepared&) = delete;
   Prepared& operator=(const Prepared&) = delete;
 
-  scene::Scene scene;
+  std::shared_ptr<const scene::Scene> scene;
   model::Model<Dim> model;
   model::State<Dim> state;
   equilibrium::Equilibrium<Dim> equilibrium;

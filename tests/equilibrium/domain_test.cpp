@@ -4,7 +4,6 @@
 #include "equilibrium/equilibrium.hpp"
 #include "model/build.hpp"
 #include "scene/reader.hpp"
-#include "scene/scene.hpp"
 
 namespace {
 
@@ -30,8 +29,8 @@ follower = true
 // x - a x^2 folds at the right face first, as a grows: where a load's points are, ahead of the
 // particles, which lie half a spacing within it.
 TEST(Domain, EndsWhereALoadsFaceIsTurnedInsideOutAndNamesTheParticleNextToIt) {
-  const auto scene = *scene::parse_scene(pressed_square, "square").scene;
-  const auto model = model::build_model<2>(scene);
+  const auto scene = scene::parse_scene(pressed_square, "square").scene;
+  const auto model = model::build_model<2>(*scene);
   auto state = model::initial_state(model);
   equilibrium::Equilibrium<2> equilibrium(model, state);
   equilibrium.begin_step(1.0);

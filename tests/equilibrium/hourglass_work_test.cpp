@@ -25,8 +25,8 @@ struct Law {
 template <int Dim>
 struct Moved {
   explicit Moved(const BodyOptions& body)
-      : scene(*scene::parse_scene(body_scene(body), "body", {}).scene),
-        model(model::build_model<Dim>(scene)),
+      : scene(scene::parse_scene(body_scene(body), "body", {}).scene),
+        model(model::build_model<Dim>(*scene)),
         state(model::initial_state(model)),
         equilibrium(model, state) {}
 
@@ -45,7 +45,7 @@ struct Moved {
     return equilibrium.commit(u).hourglass_work;
   }
 
-  scene::Scene scene;
+  std::shared_ptr<const scene::Scene> scene;
   model::Model<Dim> model;
   model::State<Dim> state;
   equilibrium::Equilibrium<Dim> equilibrium;

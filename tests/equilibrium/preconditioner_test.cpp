@@ -31,8 +31,8 @@ std::string block(int dimension, int cells, const std::string& more = {}) {
 template <int Dim>
 struct Elastic {
   Elastic(const std::string& text, double coarse_over_spacing)
-      : scene(*scene::parse_scene(text, "block", {}).scene),
-        model(model::build_model<Dim>(scene)),
+      : scene(scene::parse_scene(text, "block", {}).scene),
+        model(model::build_model<Dim>(*scene)),
         state(model::initial_state(model)),
         equilibrium(model, state),
         preconditioner(model, equilibrium.moment_operator(), coarse_over_spacing) {
@@ -57,7 +57,7 @@ struct Elastic {
     }
   }
 
-  scene::Scene scene;
+  std::shared_ptr<const scene::Scene> scene;
   model::Model<Dim> model;
   model::State<Dim> state;
   equilibrium::Equilibrium<Dim> equilibrium;

@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::vector<std::string> settings;
   if (end < size) settings.emplace_back(whole.substr(end + 1));
   tables::Diagnosis diagnosis("ground.toml");
-  std::optional<tables::Problem> unreadable;
+  std::optional<tables::Complaint> unreadable;
   const auto scene =
       limit::ground::read_ground_scene(whole.substr(0, end), settings, diagnosis, unreadable);
   const auto is_refused = [&] { return unreadable || !diagnosis.errors().empty(); };

@@ -9,6 +9,7 @@
 
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
+#include "scene/scene.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view whole(reinterpret_cast<const char*>(data), size);

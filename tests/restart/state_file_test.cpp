@@ -8,6 +8,7 @@
 #include "model/state_file.hpp"
 #include "restart.hpp"
 #include "scene/reader.hpp"
+#include "scene/scene.hpp"
 
 namespace restart {
 namespace {

@@ -9,6 +9,7 @@
 #include "program/version.hpp"
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
+#include "scene/scene.hpp"
 
 namespace run {
 namespace {
@@ -42,7 +43,7 @@ TEST(FpmRun, HandsTheSceneToTheRunnerAndPassesItsExitCodeOn) {
   const Called called = call({footing}, program::ExitCode::not_converged);
   EXPECT_EQ(called.code, program::ExitCode::not_converged);
   ASSERT_TRUE(called.request);
-  EXPECT_EQ(called.request->scene, *scene::read_scene(footing).scene);
+  EXPECT_EQ(*called.request->scene, *scene::read_scene(footing).scene);
   EXPECT_EQ(called.request->scene_file.string(), footing);
   EXPECT_EQ(called.request->directory.string(), "out/footing");
   EXPECT_FALSE(called.request->resume);
@@ -58,8 +59,8 @@ TEST(FpmRun, TakesEveryOption) {
       call({footing, "--set", "geometry.spacing=0.02", "--set", "material.soil.cohesion=3e3",
             "--out", "some where", "--threads", "2", "--max-wall", "1h30m", "--quiet"});
   ASSERT_TRUE(called.request) << called.err;
-  EXPECT_EQ(called.request->scene.geometry.spacing, 0.02);
-  EXPECT_EQ(called.request->scene.material[0].cohesion, 3e3);
+  EXPECT_EQ(called.request->scene->geometry.spacing, 0.02);
+  EXPECT_EQ(called.request->scene->material[0].cohesion, 3e3);
   EXPECT_EQ(called.request->settings.size(), 2U);
   EXPECT_EQ(called.request->directory.string(), "some where");
   EXPECT_EQ(called.request->threads, 2);

@@ -40,7 +40,7 @@ class BadSceneTest : public ::testing::TestWithParam<BadScene> {};
 TEST_P(BadSceneTest, IsRefusedWithExactlyItsMessage) {
   const auto reading =
       parse_scene(support::sample_with(GetParam().what, GetParam().instead), "s.toml");
-  EXPECT_FALSE(reading.scene.has_value());
+  EXPECT_FALSE(reading.scene);
   ASSERT_EQ(reading.errors.size(), 1U)
       << (reading.errors.size() > 1 ? reading.errors[1].text() : std::string());
   EXPECT_EQ(reading.errors[0].text(), GetParam().message);
@@ -55,7 +55,7 @@ TEST(BadScenes, AreAtLeastFortyAndAllDifferent) {
   EXPECT_EQ(messages.size(), std::size(bad_scenes));
 }
 
-TEST(BadScenes, ReportEveryProblemAtOnce) {
+TEST(BadScenes, ReportEveryComplaintAtOnce) {
   const std::string text = R"([geometry]
 dimension = 4
 min = [0.0]
@@ -65,7 +65,7 @@ colour = "red"
 )";
   const auto reading = parse_scene(text, "s.toml");
   std::vector<std::string> messages;
-  for (const tables::Problem& problem : reading.errors) messages.push_back(problem.text());
+  for (const tables::Complaint& complaint : reading.errors) messages.push_back(complaint.text());
   EXPECT_THAT(messages,
               ::testing::UnorderedElementsAre(
                   ::testing::StartsWith("s.toml:6:2: materials: no such table; "),

@@ -6,6 +6,7 @@
 
 #include "files/durable_file.hpp"
 #include "scene/reader.hpp"
+#include "scene/scene.hpp"
 #include "scene/tables.hpp"
 #include "support/sample_scene.hpp"
 #include "tables/table.hpp"

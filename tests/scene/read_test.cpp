@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "scene/reader.hpp"
+#include "scene/scene.hpp"
 #include "support/sample_scene.hpp"
 
 namespace scene {
@@ -14,9 +15,9 @@ std::string with_tail(const std::string& tail) {
   return std::string(support::sample_scene) + tail;
 }
 
-std::vector<std::string> texts(const std::vector<tables::Problem>& problems) {
+std::vector<std::string> texts(const std::vector<tables::Complaint>& complaints) {
   std::vector<std::string> all;
-  for (const tables::Problem& problem : problems) all.push_back(problem.text());
+  for (const tables::Complaint& complaint : complaints) all.push_back(complaint.text());
   return all;
 }
 
@@ -148,7 +149,7 @@ TEST(SceneReader, StaysSilentOnRulesWhoseKeysAreAlreadyBad) {
 TEST(SceneReader, NeverCrashesOnATruncatedScene) {
   for (std::size_t length = 0; length < support::sample_scene.size(); ++length) {
     const auto reading = parse_scene(support::sample_scene.substr(0, length), "s.toml");
-    EXPECT_TRUE(reading.scene.has_value() == reading.errors.empty());
+    EXPECT_EQ(reading.scene != nullptr, reading.errors.empty());
   }
 }
 

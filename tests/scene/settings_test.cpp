@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "scene/reader.hpp"
+#include "scene/scene.hpp"
 #include "support/sample_scene.hpp"
 
 namespace scene {

@@ -20,9 +20,9 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-std::vector<std::string> texts(const std::vector<tables::Problem>& problems) {
+std::vector<std::string> texts(const std::vector<tables::Complaint>& complaints) {
   std::vector<std::string> all;
-  for (const tables::Problem& problem : problems) all.push_back(problem.text());
+  for (const tables::Complaint& complaint : complaints) all.push_back(complaint.text());
   return all;
 }
 

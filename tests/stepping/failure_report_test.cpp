@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "scene/scene.hpp"
 #include "small_footing.hpp"
 
 namespace stepping {
@@ -157,17 +158,19 @@ TEST(FailureReport, AdvisesFourTimesTheEvaluationsWhereTheyEnd) {
 }
 
 TEST(FailureReport, AdvisesALoadDriveToDriveADisplacement) {
-  SmallFooting run;
-  run.scene.drive.kind = scene::DriveKind::load;
-  EXPECT_THAT(report_of(run, given_up(jfnk::Status::stagnated)),
+  const SmallFooting run;
+  scene::Scene loaded = run.scene;
+  loaded.drive.kind = scene::DriveKind::load;
+  EXPECT_THAT(failure_report(loaded, run.model, run.state, given_up(jfnk::Status::stagnated)),
               HasSubstr("advice: the load may be beyond what the body carries: drive a "
                         "displacement instead."));
 }
 
 TEST(FailureReport, AdvisesConstantLoadsOnWhatYieldsToGrow) {
-  SmallFooting run;
-  run.scene.drive.kind = scene::DriveKind::none;
-  EXPECT_THAT(report_of(run, given_up(jfnk::Status::stagnated)),
+  const SmallFooting run;
+  scene::Scene still = run.scene;
+  still.drive.kind = scene::DriveKind::none;
+  EXPECT_THAT(failure_report(still, run.model, run.state, given_up(jfnk::Status::stagnated)),
               HasSubstr("advice: the loads may be beyond what the body carries: let them grow, "
                         "drive.kind = \"load\"."));
 }

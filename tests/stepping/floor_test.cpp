@@ -6,7 +6,6 @@
 
 #include "model/build.hpp"
 #include "scene/reader.hpp"
-#include "scene/scene.hpp"
 #include "stepping/stepper.hpp"
 
 namespace stepping {

@@ -8,7 +8,6 @@
 
 #include "model/build.hpp"
 #include "scene/reader.hpp"
-#include "scene/scene.hpp"
 #include "stepping/stepper.hpp"
 #include "support/small_footing.hpp"
 
@@ -18,7 +17,8 @@ namespace stepping {
 struct SmallFooting {
   explicit SmallFooting(const std::vector<std::string>& settings = {},
                         const std::string& tables = "")
-      : scene(read(settings, tables)),
+      : checked(read(settings, tables)),
+        scene(*checked),
         model(model::build_model<2>(scene)),
         state(model::initial_state(model)),
         stepper(scene, model, state) {
@@ -27,14 +27,16 @@ struct SmallFooting {
   SmallFooting(const SmallFooting&) = delete;
   SmallFooting& operator=(const SmallFooting&) = delete;
 
-  static scene::Scene read(const std::vector<std::string>& settings, const std::string& tables) {
+  static std::shared_ptr<const scene::Scene> read(const std::vector<std::string>& settings,
+                                                  const std::string& tables) {
     const auto reading =
         scene::parse_scene(support::small_footing + tables, "small footing", settings);
     if (!reading.scene) throw std::runtime_error(reading.errors.front().text());
-    return *reading.scene;
+    return reading.scene;
   }
 
-  scene::Scene scene;
+  const std::shared_ptr<const scene::Scene> checked;
+  const scene::Scene& scene;
   model::Model<2> model;
   model::State<2> state;
   LoadStepper<2> stepper;

@@ -142,7 +142,7 @@ TEST(TableBuilder, RefusesByFileLineAndKey) {
   (void)read("[press]\ntilt = -1\n[[sheet]]\nname = \"a\"\ncolour = \"grene\"\noutline = [[1]]\n",
              {"sheet.a.layers=x", "press.off=true"}, diagnosis);
   std::vector<std::string> texts;
-  for (const Problem& problem : diagnosis.errors()) texts.push_back(problem.text());
+  for (const Complaint& complaint : diagnosis.errors()) texts.push_back(complaint.text());
   EXPECT_THAT(
       texts,
       ::testing::UnorderedElementsAre(

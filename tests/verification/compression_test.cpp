@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "measure.hpp"
-#include "scene/scene.hpp"
 
 namespace verification {
 namespace {
@@ -42,7 +41,7 @@ Compression compressed(double mean_strain, const Settings& settings) {
   static const auto reference = reference_table("compression_homogeneous_drucker_prager.csv");
   Run<2> run(shipped_scene("compression.toml", settings));
   Compression result;
-  for (const auto& record : run.advance_to(mean_strain * height / run.scene->drive.target)) {
+  for (const auto& record : run.advance_to(mean_strain * height / target_of(run.scene))) {
     const double exact = 1e3 * interpolated(reference, record.settlement / height);
     result.worst_error = std::max(result.worst_error, std::abs(record.mean_pressure / exact - 1.0));
     result.peak = std::max(result.peak, record.mean_pressure);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "measure.hpp"
-#include "scene/scene.hpp"
 
 namespace verification {
 
@@ -31,7 +30,7 @@ struct Footing {
 /// Runs the footing's scene to its end, or to the step that does not converge.
 inline Footing pushed_footing(const Settings& settings) {
   Run<2> run(shipped_scene("footing.toml", settings));
-  const double B = *run.scene->drive.reference_length;
+  const double B = reference_length_of(run.scene);
   Footing footing;
   footing.curve.push_back({0.0, 0.0});
   while (!run.stepper.finished()) {

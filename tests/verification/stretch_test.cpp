@@ -9,7 +9,6 @@
 
 #include "equilibrium/equilibrium.hpp"
 #include "measure.hpp"
-#include "scene/scene.hpp"
 
 namespace verification {
 namespace {
@@ -92,7 +91,7 @@ Stretched stretched(const Patch& patch) {
   const Eigen::VectorXd eigenvalues =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues();
   Stretched result;
-  result.smallest = eigenvalues.minCoeff() / scene->material[0].youngs_modulus;
+  result.smallest = eigenvalues.minCoeff() / youngs_modulus_of(scene);
   result.bound =
       solver_tolerance * equilibrium.reference_norm() / eigenvalues.cwiseAbs().minCoeff();
   const Eigen::Map<const Eigen::VectorXd> moved(state.displacement.data(), model.unknowns());

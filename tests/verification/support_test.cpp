@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "model/build.hpp"
-#include "scene/scene.hpp"
 #include "test_scene.hpp"
 
 namespace verification {

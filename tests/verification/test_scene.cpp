@@ -6,13 +6,14 @@
 #include <stdexcept>
 
 #include "scene/reader.hpp"
+#include "scene/scene.hpp"
 
 namespace verification {
 
 namespace {
 
 TestScene checked(const scene::SceneReading& reading) {
-  for (const auto& problem : reading.errors) ADD_FAILURE() << problem.text();
+  for (const auto& complaint : reading.errors) ADD_FAILURE() << complaint.text();
   if (!reading.scene) throw std::runtime_error("the scene of this test is refused");
   return TestScene(*reading.scene);
 }
@@ -28,6 +29,18 @@ TestScene shipped_scene(const std::string& name, const Settings& settings) {
 
 TestScene scene_of(const std::string& text, const Settings& settings) {
   return checked(scene::parse_scene(text, "test scene", settings));
+}
+
+double target_of(const scene::Scene& scene) {
+  return scene.drive.target;
+}
+
+double reference_length_of(const scene::Scene& scene) {
+  return scene.drive.reference_length.value();
+}
+
+double youngs_modulus_of(const scene::Scene& scene) {
+  return scene.material.at(0).youngs_modulus;
 }
 
 }  // namespace verification

@@ -24,10 +24,15 @@ class TestScene {
 };
 
 /// A scene of share/scenes, with settings as --set takes them.
-/// @throws std::runtime_error if it is refused, after a failure for each of its problems
+/// @throws std::runtime_error if it is refused, after a failure for each complaint
 TestScene shipped_scene(const std::string& name, const Settings& settings = {});
 
 /// A scene from its text, likewise.
 TestScene scene_of(const std::string& text, const Settings& settings = {});
+
+/// What tests ask of a scene, without its type.
+double target_of(const scene::Scene& scene);            // of the drive [m]
+double reference_length_of(const scene::Scene& scene);  // of the drive [m]
+double youngs_modulus_of(const scene::Scene& scene);    // of the first material [Pa]
 
 }  // namespace verification

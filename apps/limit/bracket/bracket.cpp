@@ -2,26 +2,25 @@
 
 #include <algorithm>
 
-#include "limit/bracket/processor_time.hpp"
 #include "limit/bracket/side.hpp"
 
 namespace limit::bracket {
 
 Bracket bracket(problem::Problem lower, problem::Problem upper, const BracketOptions& options,
-                const std::function<void(const Attempt&)>& watch) {
-  const double began = processor_seconds();
-  const auto spent = [&] { return processor_seconds() - began; };
+                const std::function<void(const Attempt&)>& watch, const Means& means) {
+  const double began = means.seconds();
+  const auto spent = [&] { return means.seconds() - began; };
   const auto remaining = [&] {
     BracketOptions rest = options;
     rest.max_seconds = options.max_seconds - spent();
     return rest;
   };
   Bracket result;
-  Side below(std::move(lower), true), above(std::move(upper), false);
+  Side below(std::move(lower), true, means), above(std::move(upper), false, means);
   // What fails on one mesh after the other is not for solvers.
   constexpr int most_failures = 4;
   below.attempt(result, remaining(), watch);
-  above.attempt(result, remaining(), watch);
+  if (spent() < options.max_seconds) above.attempt(result, remaining(), watch);
   while (result.gap() > options.gap && spent() < options.max_seconds) {
     std::vector<Side*> sides;
     for (Side* side : {&below, &above}) {
@@ -39,9 +38,9 @@ Bracket bracket(problem::Problem lower, problem::Problem upper, const BracketOpt
 }
 
 Bracket bracket(const problem::Case& problem, const BracketOptions& options,
-                const std::function<void(const Attempt&)>& watch) {
+                const std::function<void(const Attempt&)>& watch, const Means& means) {
   return bracket(in_units(problem.lower, problem.units), in_units(problem.upper, problem.units),
-                 options, watch);
+                 options, watch, means);
 }
 
 }  // namespace limit::bracket

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limit/bracket/processor_time.hpp"
 #include "limit/mesh/bisection.hpp"
 #include "limit/problem/rigid_corners.hpp"
 #include "limit/programme/lower_bound.hpp"
@@ -38,9 +37,10 @@ std::vector<solver::ConeForm> forms_of(bool is_lower, Engine engine) {
 
 }  // namespace
 
-Side::Side(problem::Problem problem, bool is_lower)
+Side::Side(problem::Problem problem, bool is_lower, Means means)
     : problem_(is_lower ? std::move(problem) : problem::with_rigid_corners_cut(std::move(problem))),
-      is_lower_(is_lower) {}
+      is_lower_(is_lower),
+      means_(std::move(means)) {}
 
 void Side::set_soils(const std::vector<problem::Soil>& soils) {
   problem_.soils = soils;
@@ -58,7 +58,7 @@ void Side::refine() {
 void Side::attempt(Bracket& bracket, const BracketOptions& options,
                    const std::function<void(const Attempt&)>& watch) {
   const std::optional<double> before = best(bracket);
-  const double began = processor_seconds();
+  const double began = means_.seconds();
   const programme::ConeProgram program = is_lower_ ? programme::lower_bound_program(problem_)
                                                    : programme::upper_bound_program(problem_);
   std::vector<solver::ConeForm> forms = forms_of(is_lower_, options.engine);
@@ -70,9 +70,11 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
     solver::SolverOptions solver;
     solver.form = form;
     solver.max_iterations = options.max_iterations;
-    const double start = processor_seconds();
-    solver.max_seconds = std::max(1.0, options.max_seconds - (start - began));
-    const solver::ConeSolution solution = solver::solve(program, solver);
+    const double start = means_.seconds();
+    const double left = options.max_seconds - (start - began);
+    if (left <= 0.0 && form != forms.front()) break;
+    solver.max_seconds = std::max(1.0, left);
+    const solver::ConeSolution solution = means_.solve(program, solver);
     Attempt attempt{is_lower_,        triangles(),         form, solution.status,
                     solution.message, solution.iterations, 0.0,  std::nullopt};
     attempt.proposed = solution.variables.size() > 0
@@ -84,7 +86,7 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
         indicators_ = flow_indicators(problem_, program, solution);
       }
     }
-    attempt.seconds = processor_seconds() - start;
+    attempt.seconds = means_.seconds() - start;
     bracket.attempts.push_back(attempt);
     if (watch) watch(attempt);
     if (is_good(attempt, before)) {
@@ -95,7 +97,7 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
     if (solution.status == solver::SolverStatus::timed_out || !options.fall_back) break;
   }
   const std::optional<double> after = best(bracket);
-  const double seconds = std::max(1e-3, processor_seconds() - began);
+  const double seconds = std::max(1e-3, means_.seconds() - began);
   if (before && after) promise_ = std::abs(*after / *before - 1.0) / seconds;
 }
 

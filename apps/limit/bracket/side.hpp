@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "limit/bracket/attempt.hpp"
+#include "limit/bracket/means.hpp"
 #include "limit/problem/problem.hpp"
 
 namespace limit::bracket {
@@ -14,7 +15,7 @@ namespace limit::bracket {
 class Side {
  public:
   /// For an upper bound without the corners of rigid ground that no velocity may leave.
-  Side(problem::Problem problem, bool is_lower);
+  Side(problem::Problem problem, bool is_lower, Means means = {});
 
   [[nodiscard]] int triangles() const { return static_cast<int>(problem_.mesh.triangles.size()); }
   /// Relative gain per second of the last attempt; infinite as long as it is not known.
@@ -41,6 +42,7 @@ class Side {
 
   problem::Problem problem_;
   bool is_lower_;
+  Means means_;
   std::vector<double> indicators_;
   std::vector<solver::ConeForm> given_up_;
   int failures_ = 0;

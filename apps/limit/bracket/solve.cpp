@@ -5,10 +5,10 @@
 namespace limit::bracket {
 
 Solution solution_of(const problem::Case& problem, const BracketOptions& options,
-                     const std::function<void(const Attempt&)>& watch) {
-  if (problem.seeks_strength) return reduce_strength(problem, options, watch);
+                     const std::function<void(const Attempt&)>& watch, const Means& means) {
+  if (problem.seeks_strength) return reduce_strength(problem, options, watch, means);
   Solution solution;
-  solution.bracket = bracket(problem, options, watch);
+  solution.bracket = bracket(problem, options, watch, means);
   const double unit = problem.units.multiplier();
   if (solution.bracket.lower) solution.lower = solution.bracket.lower_bound() * unit;
   if (solution.bracket.upper) solution.upper = solution.bracket.upper_bound() * unit;

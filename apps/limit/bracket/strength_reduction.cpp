@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "limit/bracket/factor_search.hpp"
-#include "limit/bracket/processor_time.hpp"
 #include "limit/bracket/side.hpp"
+#include "limit/problem/at_rest.hpp"
 
 namespace limit::bracket {
 
@@ -49,12 +50,13 @@ double estimate(const problem::Problem& problem, double one) {
 /// One bound of the factor.
 class Flank {
  public:
-  Flank(const problem::Problem& problem, bool is_lower, double one)
+  Flank(const problem::Problem& problem, bool is_lower, double one, const Means& means)
       : is_lower_(is_lower),
-        soils_(problem.soils),
+        means_(means),
+        problem_(problem),
         one_(one),
         most_(problem.most_multiplier.value()),
-        side_(problem, is_lower),
+        side_(problem, is_lower, means),
         search_(estimate(problem, one)) {}
 
   /// The best one certified so far.
@@ -75,7 +77,7 @@ class Flank {
   template <class Solve>
   void settle(double near, const Solve& solve) {
     const std::optional<double> before = factor_;
-    const double began = processor_seconds();
+    const double began = means_.seconds();
     constexpr int most_steps = 16;
     // To the side on which the certificate decides, by less than what is asked for.
     const double aside = std::exp((is_lower_ ? -0.25 : 0.25) * near);
@@ -86,7 +88,7 @@ class Flank {
       if (factor_ && 2.0 * search_.width() < near && is_near) break;
       if (!solve(*this, target)) break;
     }
-    const double seconds = std::max(1e-3, processor_seconds() - began);
+    const double seconds = std::max(1e-3, means_.seconds() - began);
     if (before && factor_) promise_ = std::abs(std::log(*factor_ / *before)) / seconds;
   }
 
@@ -98,8 +100,9 @@ class Flank {
   /// Bounds the multiplier of the loads with the strength divided by the factor.
   void solve_at(double factor, const BracketOptions& options,
                 const std::function<void(const Attempt&)>& watch, std::vector<Attempt>& attempts) {
-    std::vector<problem::Soil> soils = soils_;
-    for (problem::Soil& soil : soils) soil = weakened(soil, factor);
+    if (!is_lower_ && failures_ > 0 && !rests_) put_to_rest(factor);
+    std::vector<problem::Soil> soils = problem_.soils;
+    for (problem::Soil& soil : soils) soil = weakened(soil, weakening(soil, factor));
     side_.set_soils(soils);
     Bracket found;
     BracketOptions once = options;
@@ -115,6 +118,37 @@ class Flank {
 
  private:
   static constexpr int most_failures = 4;  // in a row
+  // Soft clay beside sand: what divides the clay's strength to almost nothing, makes the sand's
+  // friction so steep that solvers lose themselves in it.
+  static constexpr double steep = 70.0 * std::numbers::pi / 180.0;
+
+  [[nodiscard]] static bool is_steep(const problem::Soil& soil, double factor) {
+    return std::tan(soil.friction_angle) > factor * std::tan(steep);
+  }
+
+  // A stress field of soils that are weaker than they must be is one of theirs.
+  [[nodiscard]] double weakening(const problem::Soil& soil, double factor) const {
+    if (!is_lower_ || !is_steep(soil, factor)) return factor;
+    return std::tan(soil.friction_angle) / std::tan(steep);
+  }
+
+  // Steep soils that the solver has failed with stay at rest from here on, if anything else moves.
+  void put_to_rest(double factor) {
+    std::vector<bool> rests;
+    for (const problem::Soil& soil : problem_.soils) rests.push_back(is_steep(soil, factor));
+    const auto moves = [&](const mesh::Triangle& triangle) {
+      return !rests[static_cast<std::size_t>(triangle.region)];
+    };
+    const auto& triangles = problem_.mesh.triangles;
+    if (std::all_of(triangles.begin(), triangles.end(), moves) ||
+        std::none_of(triangles.begin(), triangles.end(), moves)) {
+      return;
+    }
+    rests_ = true;
+    failures_ = 0;
+    side_ = Side(problem::with_soils_at_rest(problem_, rests), false, means_);
+    search_ = FactorSearch(factor);
+  }
 
   // Away from where a solver has just failed, to the side on which an answer is a bound. Where next
   // to no cohesion makes the multiplier of the loads a matter of all or nothing, solvers fail
@@ -152,7 +186,8 @@ class Flank {
   }
 
   bool is_lower_;
-  std::vector<problem::Soil> soils_;
+  const Means& means_;
+  problem::Problem problem_;
   double one_;   // the multiplier of the loads as they are, in its unit
   double most_;  // where it is not followed any further, likewise
   Side side_;
@@ -160,20 +195,22 @@ class Flank {
   std::optional<double> factor_;
   Bracket best_;
   int failures_ = 0;
+  bool rests_ = false;  // whether soils have been put to rest
   double promise_ = std::numeric_limits<double>::infinity();
 };
 
 class Reduction {
  public:
   Reduction(const problem::Case& problem, const BracketOptions& options,
-            const std::function<void(const Attempt&)>& watch)
+            const std::function<void(const Attempt&)>& watch, const Means& means)
       : options_(options),
         watch_(watch),
-        began_(processor_seconds()),
+        means_(means),
+        began_(means.seconds()),
         below_(problem::in_units(problem.lower, problem.units), true,
-               1.0 / problem.units.multiplier()),
+               1.0 / problem.units.multiplier(), means),
         above_(problem::in_units(problem.upper, problem.units), false,
-               1.0 / problem.units.multiplier()),
+               1.0 / problem.units.multiplier(), means),
         case_(problem) {}
 
   Solution solution() {
@@ -211,7 +248,7 @@ class Reduction {
   }
 
   [[nodiscard]] double remaining() const {
-    return options_.max_seconds - (processor_seconds() - began_);
+    return options_.max_seconds - (means_.seconds() - began_);
   }
   [[nodiscard]] double gap() const {
     if (!below_.factor() || !above_.factor()) return std::numeric_limits<double>::infinity();
@@ -239,6 +276,7 @@ class Reduction {
 
   const BracketOptions& options_;
   const std::function<void(const Attempt&)>& watch_;
+  const Means& means_;
   double began_;
   Flank below_, above_;
   const problem::Case& case_;
@@ -255,13 +293,13 @@ problem::Soil weakened(const problem::Soil& soil, double factor) {
 }
 
 Solution reduce_strength(const problem::Case& problem, const BracketOptions& options,
-                         const std::function<void(const Attempt&)>& watch) {
+                         const std::function<void(const Attempt&)>& watch, const Means& means) {
   for (const problem::Soil& soil : problem.lower.soils) {
     if (soil.unit_weight != 0.0 || !problem.lower.most_multiplier) {
       throw std::invalid_argument("strength reduction: not all loads are live, or without end");
     }
   }
-  return Reduction(problem, options, watch).solution();
+  return Reduction(problem, options, watch, means).solution();
 }
 
 }  // namespace limit::bracket

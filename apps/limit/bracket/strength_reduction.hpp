@@ -12,7 +12,8 @@ namespace limit::bracket {
 /// nothing. The bracket holds the two fields, their multipliers are close to one.
 /// @throws std::invalid_argument unless the case has live loads only.
 [[nodiscard]] Solution reduce_strength(const problem::Case& problem, const BracketOptions& options,
-                                       const std::function<void(const Attempt&)>& watch);
+                                       const std::function<void(const Attempt&)>& watch,
+                                       const Means& means = {});
 
 /// Cohesion and tan(phi) divided by a factor.
 [[nodiscard]] problem::Soil weakened(const problem::Soil& soil, double factor);

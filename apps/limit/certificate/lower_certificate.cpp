@@ -20,9 +20,9 @@ Eigen::Index corner_index(const mesh::Mesh& mesh, int triangle, int node) {
 }
 
 /// All the equations of equilibrium in the corners' (xx, yy, xy); the multiplier is given.
-class Equilibrium {
+class BalanceEquations {
  public:
-  Equilibrium(const problem::Problem& problem, double multiplier)
+  BalanceEquations(const problem::Problem& problem, double multiplier)
       : problem_(problem), multiplier_(multiplier) {
     const mesh::Mesh& mesh = problem.mesh;
     const std::vector<mesh::Edge> edges = mesh::edges_of(mesh);
@@ -134,41 +134,42 @@ class Equilibrium {
 
 // What no stress may exceed: yield in each triangle's corner, no tension where a footing may lift
 // off.
-struct Limit {
+struct Ceiling {
   Eigen::Index corner = 0;
   const problem::Soil* soil = nullptr;  // none: no tension
   mesh::Point normal{0.0, 0.0};
 };
 
-std::vector<Limit> limits_of(const problem::Problem& problem) {
-  std::vector<Limit> limits;
+std::vector<Ceiling> ceilings_of(const problem::Problem& problem) {
+  std::vector<Ceiling> ceilings;
   const mesh::Mesh& mesh = problem.mesh;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const problem::Soil& soil = problem.soils[static_cast<std::size_t>(mesh.triangles[t].region)];
-    for (int i = 0; i < 3; ++i) limits.push_back({static_cast<Eigen::Index>(9 * t) + 3 * i, &soil});
+    for (int i = 0; i < 3; ++i)
+      ceilings.push_back({static_cast<Eigen::Index>(9 * t) + 3 * i, &soil});
   }
   for (const mesh::Edge& edge : mesh::edges_of(mesh)) {
     if (edge.boundary < 0) continue;
     if (!problem.boundaries[static_cast<std::size_t>(edge.boundary)].may_open) continue;
     const mesh::Point along = (node_at(mesh, edge.second) - node_at(mesh, edge.first)).normalized();
     for (const int node : {edge.first, edge.second}) {
-      limits.push_back(
+      ceilings.push_back(
           {corner_index(mesh, edge.left, node), nullptr, mesh::Point(along.y(), -along.x())});
     }
   }
-  return limits;
+  return ceilings;
 }
 
 // Radius of Mohr's circle less the one that yields, over a stress that cannot vanish; or tension.
-double excess(const Limit& limit, const Eigen::VectorXd& field) {
-  const auto stress = field.segment<3>(limit.corner);
-  if (limit.soil == nullptr) {
-    const mesh::Point& n = limit.normal;
+double excess(const Ceiling& ceiling, const Eigen::VectorXd& field) {
+  const auto stress = field.segment<3>(ceiling.corner);
+  if (ceiling.soil == nullptr) {
+    const mesh::Point& n = ceiling.normal;
     return n.x() * n.x() * stress[0] + n.y() * n.y() * stress[1] + 2.0 * n.x() * n.y() * stress[2];
   }
   const double mean = (stress[0] + stress[1]) / 2.0;
   const double radius = std::hypot((stress[0] - stress[1]) / 2.0, stress[2]);
-  const problem::Soil& soil = *limit.soil;
+  const problem::Soil& soil = *ceiling.soil;
   const double strength =
       soil.cohesion * std::cos(soil.friction_angle) - mean * std::sin(soil.friction_angle);
   return radius - strength;
@@ -221,9 +222,10 @@ struct Rest {
 /// Level ground under its weight and surcharge, or nothing at all where no dead load is; none if
 /// neither is in equilibrium at any multiplier, as under a slope.
 std::optional<Rest> rest_of(const problem::Problem& problem) {
-  const Equilibrium equilibrium(problem, 0.0);
+  const BalanceEquations equilibrium(problem, 0.0);
   const auto equations = equilibrium.matrix();
-  const Eigen::VectorXd live = Equilibrium(problem, 1.0).right_side() - equilibrium.right_side();
+  const Eigen::VectorXd live =
+      BalanceEquations(problem, 1.0).right_side() - equilibrium.right_side();
   const problem::StressField nothing(problem.mesh.triangles.size(), Eigen::Matrix3d::Zero());
   for (const problem::StressField& field : {geostatic(problem), nothing}) {
     const Eigen::VectorXd x = as_vector(field);
@@ -244,22 +246,22 @@ LowerCertificate certify_lower(const problem::Problem& problem,
   LowerCertificate certificate;
   certificate.proposed = multiplier;
   certificate.multiplier = multiplier;
-  const Equilibrium equilibrium(problem, multiplier);
+  const BalanceEquations equilibrium(problem, multiplier);
   const auto equations = equilibrium.matrix();
   Eigen::VectorXd x = as_vector(proposed);
   certificate.residual = algebra::satisfy(equations, equilibrium.right_side(), x);
 
   const std::optional<Rest> rest = rest_of(problem);
-  const std::vector<Limit> limits = limits_of(problem);
+  const std::vector<Ceiling> ceilings = ceilings_of(problem);
   certificate.yield_excess = -INFINITY;
   double drawn = 0.0;
   bool inside = true;
-  for (const Limit& limit : limits) {
-    const double here = excess(limit, x);
+  for (const Ceiling& ceiling : ceilings) {
+    const double here = excess(ceiling, x);
     certificate.yield_excess = std::max(certificate.yield_excess, here);
     if (here <= 0.0) continue;
     // Convex: at the share t of rest the excess is at most (1 - t) here + t resting.
-    const double resting = rest ? excess(limit, rest->stress) : 0.0;
+    const double resting = rest ? excess(ceiling, rest->stress) : 0.0;
     inside = inside && resting < 0.0;
     drawn = std::max(drawn, here / (here - resting));
   }
@@ -269,9 +271,9 @@ LowerCertificate certify_lower(const problem::Problem& problem,
     certificate.kept = 1.0 - drawn;
     x = certificate.kept * x + drawn * rest->stress;
     certificate.multiplier = certificate.kept * multiplier + drawn * rest->multiplier;
-    const Equilibrium after(problem, certificate.multiplier);
+    const BalanceEquations after(problem, certificate.multiplier);
     certificate.residual = (after.matrix() * x - after.right_side()).lpNorm<Eigen::Infinity>();
-    for (const Limit& limit : limits) inside = inside && excess(limit, x) <= 0.0;
+    for (const Ceiling& ceiling : ceilings) inside = inside && excess(ceiling, x) <= 0.0;
   }
   certificate.field = as_field(x);
   // Relative to stresses up to the multiplier's size, in the problem's units of order one.

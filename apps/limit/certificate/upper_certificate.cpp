@@ -65,8 +65,17 @@ class Flow {
     return static_cast<Eigen::Index>(12 * triangle + 2 * place);
   }
 
-  FlowPoint point(std::size_t triangle, double ratio, double weight) const {
-    const problem::Soil& soil = soil_of(triangle);
+  // A jump may be in either soil that meets there.
+  const problem::Soil& soil_across(const mesh::Edge& edge) const {
+    const auto& triangles = problem_.mesh.triangles;
+    const int left = triangles[static_cast<std::size_t>(edge.left)].region;
+    const int right =
+        edge.right >= 0 ? triangles[static_cast<std::size_t>(edge.right)].region : left;
+    return problem_.soils[static_cast<std::size_t>(problem::softer(problem_, left, right))];
+  }
+
+  FlowPoint point(std::size_t triangle, const problem::Soil& soil, double ratio,
+                  double weight) const {
     FlowPoint point;
     point.ratio = ratio;
     point.weight = weight;
@@ -92,7 +101,7 @@ class Flow {
       sides.row(0) = (node_at(mesh, nodes[j]) - node_at(mesh, nodes[i])).transpose();
       sides.row(1) = (node_at(mesh, nodes[k]) - node_at(mesh, nodes[i])).transpose();
       const Eigen::Matrix2d back = sides.inverse();  // gradient = back x slopes along the sides
-      FlowPoint corner = point(t, std::sin(soil_of(t).friction_angle), area / 3.0);
+      FlowPoint corner = point(t, soil_of(t), std::sin(soil_of(t).friction_angle), area / 3.0);
       for (const auto& [place, along_j, along_k] :
            {std::array<double, 3>{static_cast<double>(i), -3.0, -3.0},
             {static_cast<double>(3 + i), 4.0, 0.0},
@@ -137,18 +146,19 @@ class Flow {
     }
     const mesh::Mesh& mesh = problem_.mesh;
     const auto t = static_cast<std::size_t>(edge.left);
+    const problem::Soil& soil = soil_across(edge);
     const mesh::Point &a = node_at(mesh, edge.first), &b = node_at(mesh, edge.second);
     const mesh::Point tangent = (b - a).normalized(), normal(tangent.y(), -tangent.x());
     // The quadratic is (1-s)^2 c0 + 2 s (1-s) c1 + s^2 c2.
     const std::array<std::array<double, 3>, 3> control{{{1, 0, 0}, {-0.5, 2, -0.5}, {0, 0, 1}}};
     for (const auto& weights : control) {
       FlowPoint jump =
-          point(t, slips_freely ? 0.0 : std::tan(soil_of(t).friction_angle), (b - a).norm() / 3.0);
+          point(t, soil, slips_freely ? 0.0 : std::tan(soil.friction_angle), (b - a).norm() / 3.0);
       if (may_open) {
         // The largest power of a traction that yields and does not pull: that of the cohesion.
         jump.may_dilate = true;
         jump.per_dilation = 0.0;
-        jump.per_shear = soil_of(t).cohesion;
+        jump.per_shear = soil.cohesion;
       }
       const auto add = [&](Eigen::Index x, const mesh::Point& unit, double factor) {
         jump.dilation.emplace_back(x, factor * unit.dot(normal));

@@ -10,6 +10,7 @@
 
 #include "limit/mesh/cut.hpp"
 #include "scene/derived.hpp"
+#include "scene/scene.hpp"
 
 namespace limit::footing {
 

@@ -3,8 +3,11 @@
 #include <optional>
 
 #include "limit/problem/case.hpp"
-#include "scene/scene.hpp"
-#include "tables/problem.hpp"
+#include "tables/diagnosis.hpp"
+
+namespace scene {
+struct Scene;
+}
 
 namespace limit::footing {
 

@@ -152,42 +152,42 @@ double reach_of(const GroundOutline& outline, const std::vector<int>& centres, i
 }
 
 // A segment that meets in a corner, and the region that follows it counterclockwise.
-struct Limit {
+struct Spoke {
   double angle = 0.0;  // from the outline that leaves the corner
   mesh::Point direction;
   int region = 0;
 };
 
 // All of them, counterclockwise.
-std::vector<Limit> limits_at(const GroundOutline& outline, const Corner& corner) {
+std::vector<Spoke> spokes_at(const GroundOutline& outline, const Corner& corner) {
   const int centre = corner.after->first;
   const mesh::Point& here = outline.at(centre);
   const mesh::Point begin = (outline.at(corner.after->second) - here).normalized();
-  std::vector<Limit> limits;
+  std::vector<Spoke> spokes;
   for (const GroundSegment& segment : outline.segments) {
     if (segment.first != centre && segment.second != centre) continue;
     const bool leaves = segment.first == centre;
     const mesh::Point to =
         (outline.at(leaves ? segment.second : segment.first) - here).normalized();
     const double angle = &segment == corner.after ? 0.0 : angle_from(begin, to);
-    limits.push_back({angle, to, leaves ? segment.left : segment.right});
+    spokes.push_back({angle, to, leaves ? segment.left : segment.right});
   }
-  std::sort(limits.begin(), limits.end(),
-            [](const Limit& a, const Limit& b) { return a.angle < b.angle; });
-  return limits;
+  std::sort(spokes.begin(), spokes.end(),
+            [](const Spoke& a, const Spoke& b) { return a.angle < b.angle; });
+  return spokes;
 }
 
 // The rays from one of them until just before the next, at least two.
-void add_sector(GroundFan& fan, const Limit& limit, double end, double rays_per_radian) {
-  const double opening = end - limit.angle;
+void add_sector(GroundFan& fan, const Spoke& spoke, double end, double rays_per_radian) {
+  const double opening = end - spoke.angle;
   const int rays = std::max(2, static_cast<int>(std::lround(rays_per_radian * opening)));
-  const mesh::Point& u = limit.direction;
+  const mesh::Point& u = spoke.direction;
   fan.directions.push_back(u);
-  fan.regions.push_back(limit.region);
+  fan.regions.push_back(spoke.region);
   for (int k = 1; k < rays; ++k) {
     const double cosine = std::cos(opening * k / rays), sine = std::sin(opening * k / rays);
     fan.directions.emplace_back(cosine * u.x() - sine * u.y(), sine * u.x() + cosine * u.y());
-    fan.regions.push_back(limit.region);
+    fan.regions.push_back(spoke.region);
   }
 }
 
@@ -217,11 +217,11 @@ std::vector<GroundFan> ground_fans(const GroundScene& scene, const GroundOutline
       fan.radii.push_back(reach *
                           std::pow(static_cast<double>(k) / fineness.rings, fineness.grading));
     }
-    const std::vector<Limit> limits = limits_at(outline, corner);
-    for (std::size_t i = 0; i + 1 < limits.size(); ++i) {
-      add_sector(fan, limits[i], limits[i + 1].angle, fineness.rays_per_radian);
+    const std::vector<Spoke> spokes = spokes_at(outline, corner);
+    for (std::size_t i = 0; i + 1 < spokes.size(); ++i) {
+      add_sector(fan, spokes[i], spokes[i + 1].angle, fineness.rays_per_radian);
     }
-    fan.directions.push_back(limits.back().direction);
+    fan.directions.push_back(spokes.back().direction);
     fans.push_back(std::move(fan));
   }
   return fans;

@@ -191,7 +191,7 @@ void check_side(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnosis)
 std::optional<GroundScene> read_ground_scene(std::string_view text,
                                              std::span<const std::string> settings,
                                              tables::Diagnosis& diagnosis,
-                                             std::optional<tables::Problem>& unreadable) {
+                                             std::optional<tables::Complaint>& unreadable) {
   GroundScene scene;
   unreadable = tables::read_tables(text, settings, ground_tables(), scene, diagnosis);
   if (unreadable) return std::nullopt;

@@ -9,7 +9,7 @@
 
 #include "limit/problem/case.hpp"
 #include "limit/problem/problem.hpp"
-#include "tables/problem.hpp"
+#include "tables/diagnosis.hpp"
 
 namespace limit::ground {
 
@@ -89,7 +89,7 @@ struct GroundScene {
 /// key is judged here. Nothing, if the diagnosis or `unreadable` has an error.
 [[nodiscard]] std::optional<GroundScene> read_ground_scene(
     std::string_view text, std::span<const std::string> settings, tables::Diagnosis& diagnosis,
-    std::optional<tables::Problem>& unreadable);
+    std::optional<tables::Complaint>& unreadable);
 
 /// Whether TOML text is such a scene, not one of fpm-run: it has regions.
 [[nodiscard]] bool is_ground_scene(std::string_view text);

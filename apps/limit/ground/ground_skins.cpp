@@ -74,18 +74,19 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
   result.notes.insert(result.notes.end(), said.begin(), said.end());
 }
 
-void strengthen(problem::Problem& problem, double least, std::vector<std::string>& notes) {
+void strengthen(problem::Problem& problem, double least, const problem::UnitNames& names,
+                std::vector<std::string>& notes) {
   bool is_any = false;
   for (problem::Soil& soil : problem.soils) {
     is_any = is_any || soil.cohesion == 0.0;
     if (soil.cohesion == 0.0) soil.cohesion = least;
   }
   if (is_any) {
-    notes.push_back(
-        fmt::format("mechanisms are those of soil with a cohesion of {:.3g} where there is none: "
-                    "an upper bound "
-                    "of the given soil, too",
-                    least));
+    notes.push_back(fmt::format(
+        "mechanisms are those of soil with a cohesion of {:.3g} {} where there is none: "
+        "an upper bound "
+        "of the given soil, too",
+        least, names.stress));
   }
 }
 

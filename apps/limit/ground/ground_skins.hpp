@@ -15,6 +15,7 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
 
 /// Gives soils without cohesion that much: what the stronger soil does not carry, the given one
 /// does not, either, and its programme has an interior.
-void strengthen(problem::Problem& problem, double least, std::vector<std::string>& notes);
+void strengthen(problem::Problem& problem, double least, const problem::UnitNames& names,
+                std::vector<std::string>& notes);
 
 }  // namespace limit::ground

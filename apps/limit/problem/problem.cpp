@@ -1,6 +1,16 @@
 #include "limit/problem/problem.hpp"
 
+#include <cmath>
+
 namespace limit::problem {
+
+int softer(const Problem& problem, int one, int other) {
+  const auto strength = [&](int region) {
+    const Soil& soil = problem.soils[static_cast<std::size_t>(region)];
+    return soil.cohesion * std::cos(soil.friction_angle) + std::sin(soil.friction_angle);
+  };
+  return strength(other) < strength(one) ? other : one;
+}
 
 Problem in_units(const Problem& problem, const Units& units) {
   Problem scaled = problem;

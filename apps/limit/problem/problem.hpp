@@ -68,6 +68,11 @@ struct Units {
   [[nodiscard]] double multiplier() const { return stress * multiplier_per_stress; }
 };
 
+/// The soil in which the velocity jumps where two meet: a bound either way, and the better one in
+/// the softer of them, under a mean pressure of one. Of one soil, that one.
+/// @param one, other  regions of the two sides
+[[nodiscard]] int softer(const Problem& problem, int one, int other);
+
 /// The same problem in other units; its multiplier is the old one over `units.multiplier()`.
 [[nodiscard]] Problem in_units(const Problem& problem, const Units& units);
 

@@ -185,7 +185,11 @@ class Builder {
       may_open = boundary.may_open;
     }
     const mesh::Mesh& mesh = problem_.mesh;
-    const int region = mesh.triangles[static_cast<std::size_t>(edge.left)].region;
+    const auto region_of = [&](int triangle) {
+      return mesh.triangles[static_cast<std::size_t>(triangle)].region;
+    };
+    const int region = problem::softer(problem_, region_of(edge.left),
+                                       region_of(edge.right >= 0 ? edge.right : edge.left));
     const double cosine = std::cos(problem_.soils[static_cast<std::size_t>(region)].friction_angle);
     const mesh::Point along = node_at(mesh, edge.second) - node_at(mesh, edge.first);
     const double length = along.norm();

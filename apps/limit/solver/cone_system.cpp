@@ -214,26 +214,13 @@ ConeSystem::Solution ConeSystem::solve_once(const VectorXd& first, const VectorX
 
 ConeSystem::Solution ConeSystem::solve(const VectorXd& first, const VectorXd& second) {
   const auto& equations = program_.equations;
-  Solution sum{VectorXd::Zero(first.size()), VectorXd::Zero(second.size())}, best = sum;
-  VectorXd rest = first, other_rest = second;
-  double least_rest = INFINITY, least_other = INFINITY;
-  constexpr int most_refinements = 12;
-  constexpr double enough = 1e-12;
-  for (int i = 0; i <= most_refinements; ++i) {
-    const Solution change = solve_once(rest, other_rest);
-    sum.x += change.x;
-    sum.y += change.y;
-    rest = first - curve(sum.x) - equations.transpose() * sum.y;
-    other_rest = second - equations * sum.x;
-    const double now = rest.lpNorm<Eigen::Infinity>(), other = other_rest.lpNorm<Eigen::Infinity>();
-    const bool is_better = now < 0.5 * least_rest || other < 0.5 * least_other;
-    // The equations decide: what curvature of 1e10 makes of x' last digits is no error of x.
-    if (other <= least_other) best = sum;
-    least_rest = std::min(least_rest, now);
-    least_other = std::min(least_other, other);
-    if (!is_better || std::max(now, other) < enough) break;
-  }
-  return best;
+  return refined(
+      first, second,
+      [&](const VectorXd& rest, const VectorXd& other) { return solve_once(rest, other); },
+      [&](const Solution& at) {
+        return Solution{first - curve(at.x) - equations.transpose() * at.y,
+                        second - equations * at.x};
+      });
 }
 
 }  // namespace limit::solver

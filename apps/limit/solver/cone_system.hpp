@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "limit/solver/refinement.hpp"
 #include "limit/solver/scaled_program.hpp"
 #include "limit/solver/second_order_cone.hpp"
 #include "limit/solver/sparse_cholesky.hpp"
@@ -31,9 +32,7 @@ class ConeSystem {
   /// One scaling per cone. False if there are no factors.
   [[nodiscard]] bool factorise(const std::vector<second_order_cone::Scaling>& scalings);
 
-  struct Solution {
-    Eigen::VectorXd x, y;
-  };
+  using Solution = NewtonSolution;
   [[nodiscard]] Solution solve(const Eigen::VectorXd& first, const Eigen::VectorXd& second);
 
  private:

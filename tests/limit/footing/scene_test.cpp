@@ -8,6 +8,7 @@
 #include "limit/mesh/cut.hpp"
 #include "limit/mesh/fan.hpp"
 #include "scene/reader.hpp"
+#include "scene/scene.hpp"
 
 namespace {
 
@@ -99,11 +100,11 @@ struct Read {
 Read read(std::string_view text, const std::vector<std::string>& settings = {}) {
   Read result;
   tables::Diagnosis diagnosis("test.toml");
-  std::optional<tables::Problem> unreadable;
+  std::optional<tables::Complaint> unreadable;
   const auto scene = scene::parse_scene(text, settings, diagnosis, unreadable);
   EXPECT_FALSE(unreadable);
   if (scene) result.found = footing::scene_case(*scene, true, diagnosis);
-  for (const tables::Problem& one : diagnosis.errors()) result.errors += one.text() + '\n';
+  for (const tables::Complaint& one : diagnosis.errors()) result.errors += one.text() + '\n';
   return result;
 }
 

@@ -63,20 +63,25 @@ inline std::vector<KnownGround> known_grounds() {
   };
 }
 
+/// The case of a scene's text, with settings.
+inline std::optional<problem::Cases> case_of(const std::string& text,
+                                             const std::vector<std::string>& settings = {},
+                                             const std::string& source = "scene") {
+  tables::Diagnosis diagnosis(source);
+  std::optional<tables::Complaint> unreadable;
+  const auto scene = ground::read_ground_scene(text, settings, diagnosis, unreadable);
+  std::optional<problem::Cases> found;
+  if (scene) found = ground::ground_case(*scene, diagnosis);
+  for (const tables::Complaint& one : diagnosis.errors()) ADD_FAILURE() << one.text();
+  return found;
+}
+
 /// The case of a shipped scene, with settings.
 inline std::optional<problem::Cases> shipped(const char* name,
                                              const std::vector<std::string>& settings = {}) {
   const auto file =
       std::filesystem::path(FPM_SHARE_DIR) / "scenes" / "limit" / (std::string(name) + ".toml");
-  const auto text = scene::text_of(file);
-  tables::Diagnosis diagnosis(file.string());
-  std::optional<tables::Problem> unreadable;
-  const auto scene =
-      ground::read_ground_scene(std::get<std::string>(text), settings, diagnosis, unreadable);
-  std::optional<problem::Cases> found;
-  if (scene) found = ground::ground_case(*scene, diagnosis);
-  for (const tables::Problem& one : diagnosis.errors()) ADD_FAILURE() << one.text();
-  return found;
+  return case_of(std::get<std::string>(scene::text_of(file)), settings, file.string());
 }
 
 }  // namespace limit

@@ -110,11 +110,11 @@ struct Read {
 Read read(std::string_view text, const std::vector<std::string>& settings = {}) {
   Read result;
   tables::Diagnosis diagnosis("ground.toml");
-  std::optional<tables::Problem> unreadable;
+  std::optional<tables::Complaint> unreadable;
   result.scene = ground::read_ground_scene(text, settings, diagnosis, unreadable);
   if (unreadable) result.errors += unreadable->text() + '\n';
   if (result.scene) result.found = ground::ground_case(*result.scene, diagnosis);
-  for (const tables::Problem& one : diagnosis.errors()) result.errors += one.text() + '\n';
+  for (const tables::Complaint& one : diagnosis.errors()) result.errors += one.text() + '\n';
   return result;
 }
 

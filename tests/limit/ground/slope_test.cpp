@@ -1,6 +1,7 @@
 // Slopes of which friction alone holds more than the weight takes.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "limit/ground/ground_cases.hpp"
@@ -82,6 +83,45 @@ TEST(Slope, OfSoftClayIsAsEasyAsOneOfHardClay) {
     return sum;
   };
   EXPECT_LT(iterations(found[1]), 2 * iterations(found[0]));
+}
+
+// A cut of 5 m in soft clay over 5 m of sand, or over ground that is rigid.
+std::string soft_clay(bool on_sand) {
+  std::string text =
+      "[load]\nsought = \"strength\"\n"
+      "[[material]]\nname = \"clay\"\ncohesion = 500\nfriction_angle = 0\nunit_weight = 18e3\n"
+      "[[region]]\nmaterial = \"clay\"\noutline = [[-15, 0], [5, 0], [0, 5], [-15, 5]]\n"
+      "[[side]]\nname = \"face\"\nkind = \"free\"\nalong = [[-15, 5], [0, 5], [5, 0]";
+  text += on_sand ? ", [20, 0]" : "";
+  text += "]\n[[side]]\nname = \"ground\"\nkind = \"fixed\"\n";
+  if (!on_sand) return text + "along = [[-15, 5], [-15, 0], [5, 0]]\n";
+  return text +
+         "along = [[-15, 5], [-15, -5], [20, -5], [20, 0]]\n"
+         "[[material]]\nname = \"sand\"\ncohesion = 100\nfriction_angle = 33\nunit_weight = 18e3\n"
+         "[[region]]\nmaterial = \"sand\"\n"
+         "outline = [[-15, -5], [20, -5], [20, 0], [5, 0], [-15, 0]]\n";
+}
+
+// The factor of the clay, some 0.03, leaves the sand a friction of 87 degrees: rigid ground in all
+// but name. Its own would be 0.6 and more.
+TEST(Slope, OfSoftClayOnSandIsThatOfTheClayOnRigidGround) {
+  std::vector<bracket::Solution> found;
+  for (const bool on_sand : {false, true}) {
+    const auto problem = case_of(soft_clay(on_sand));
+    ASSERT_TRUE(problem);
+    found.push_back(bracket::solution_of(problem->associated, options(), {}));
+    ASSERT_TRUE(found.back().lower && found.back().upper);
+    EXPECT_TRUE(found.back().bracket.reached);
+  }
+  EXPECT_LT(*found[1].lower, *found[0].upper);  // sand is no stronger than rigid ground
+  EXPECT_GT(*found[1].upper, *found[0].lower);
+  // What has failed in the sand is not tried again in it.
+  const auto& attempts = found[1].bracket.attempts;
+  EXPECT_LE(std::count_if(attempts.begin(), attempts.end(),
+                          [](const bracket::Attempt& attempt) {
+                            return attempt.status != solver::SolverStatus::solved;
+                          }),
+            1);
 }
 
 TEST(Slope, KeepsToItsBudgetAndSaysWhatWasCertified) {

@@ -94,7 +94,7 @@ TEST(Slopes, AHundredSlopesAtRandom) {
   for (int i = 0; i < many; ++i) {
     const Slope slope = random_slope(random);
     tables::Diagnosis diagnosis("slope.toml");
-    std::optional<tables::Problem> unreadable;
+    std::optional<tables::Complaint> unreadable;
     const auto scene = ground::read_ground_scene(scene_of(slope), {}, diagnosis, unreadable);
     ASSERT_TRUE(scene) << scene_of(slope);
     const auto cases = ground::ground_case(*scene, diagnosis);

@@ -8,7 +8,7 @@
 namespace tables {
 
 /// One thing wrong (or doubtful) in what the user wrote.
-struct Problem {
+struct Complaint {
   std::string where;    // file:line:column, or `--set a.b=value`
   std::string key;      // dotted, as --set takes it: material.0.cohesion; "" for the whole file
   std::string found;    // what is there
@@ -17,10 +17,10 @@ struct Problem {
 
   /// `where: key: found; allowed[; did you mean "..."?]` on one line.
   [[nodiscard]] std::string text() const;
-  bool operator==(const Problem&) const = default;
+  bool operator==(const Complaint&) const = default;
 };
 
-/// Collects the problems of one scene and knows where each key was written.
+/// Collects the complaints about one scene and knows where each key was written.
 class Diagnosis {
  public:
   /// @param source  name shown before line and column, as the user gave it
@@ -42,15 +42,15 @@ class Diagnosis {
   [[nodiscard]] bool good(const std::vector<std::string>& keys) const;
 
   [[nodiscard]] const std::string& source() const { return source_; }
-  [[nodiscard]] const std::vector<Problem>& errors() const { return errors_; }
-  [[nodiscard]] const std::vector<Problem>& warnings() const { return warnings_; }
+  [[nodiscard]] const std::vector<Complaint>& errors() const { return errors_; }
+  [[nodiscard]] const std::vector<Complaint>& warnings() const { return warnings_; }
 
  private:
   std::string source_;
   std::map<std::string, std::string> places_;
   std::set<std::string> bad_;
-  std::vector<Problem> errors_;
-  std::vector<Problem> warnings_;
+  std::vector<Complaint> errors_;
+  std::vector<Complaint> warnings_;
 };
 
 }  // namespace tables

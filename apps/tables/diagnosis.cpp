@@ -1,11 +1,11 @@
-#include "tables/problem.hpp"
+#include "tables/diagnosis.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace tables {
 
-std::string Problem::text() const {
+std::string Complaint::text() const {
   std::string line = where + ": ";
   if (!key.empty()) line += key + ": ";
   line += found;

@@ -1,0 +1,115 @@
+// The budget is one for all solves of a bracket: a clock that only solvers move, and solvers that
+// note what they are given.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+#include "limit/bracket/bracket.hpp"
+#include "limit/bracket/solve.hpp"
+#include "limit/bracket/strength_reduction.hpp"
+#include "limit/problem/case.hpp"
+
+namespace {
+
+using namespace limit;
+
+struct Given {
+  double at, seconds;  // when a solver was asked, and how long it was given
+};
+
+// Every solve takes so long by its clock.
+struct Workshop {
+  explicit Workshop(double per_solve, bool fails = false) {
+    means.seconds = [this] { return now; };
+    means.solve = [this, per_solve, fails](const programme::ConeProgram& program,
+                                           const solver::SolverOptions& options) {
+      given.push_back({now, options.max_seconds});
+      now += per_solve;
+      if (!fails) return solver::solve(program, {});
+      solver::ConeSolution nothing;
+      nothing.variables = program.start;
+      nothing.multipliers = Eigen::VectorXd::Zero(program.equations.rows());
+      return nothing;
+    };
+  }
+  Workshop(const Workshop&) = delete;
+  Workshop& operator=(const Workshop&) = delete;
+
+  double now = 1e3;  // of a process that has done other things before
+  std::vector<Given> given;
+  bracket::Means means;
+};
+
+// Whatever is asked, is given the rest, but a second at least, which no solver is worth asking for
+// less; and nothing is asked when nothing is left.
+void expect_the_rest(const Workshop& workshop, double budget) {
+  constexpr double least = 1.0;
+  for (const Given& solve : workshop.given) {
+    const double left = budget - (solve.at - workshop.given.front().at);
+    EXPECT_GT(left, 0.0);
+    EXPECT_EQ(solve.seconds, std::max(least, left));
+  }
+}
+
+bracket::BracketOptions options(double budget) {
+  bracket::BracketOptions options;
+  options.gap = 1e-9;  // never reached
+  options.max_seconds = budget;
+  return options;
+}
+
+problem::Problem strip() {
+  problem::Strip strip;
+  strip.soil = {1.0, 20.0 * std::numbers::pi / 180.0, 0.0};
+  const problem::Box box = problem::box_of(strip);
+  return problem::in_units(
+      problem::strip_problem(strip, mesh::even_fan(box.width, box.depth, 8, 4, 1.5)),
+      problem::units_of(strip));
+}
+
+TEST(Budget, WhatIsLeftIsHandedFromSolveToSolve) {
+  constexpr double budget = 44.0, per_solve = 8.0;
+  Workshop workshop(per_solve);
+  (void)bracket::bracket(strip(), strip(), options(budget), {}, workshop.means);
+  EXPECT_EQ(workshop.given.size(), 6U);  // at 0, 8, .. 40 s
+  expect_the_rest(workshop, budget);
+}
+
+TEST(Budget, FallBacksShareItAndAreNotAskedWhenItIsSpent) {
+  constexpr double budget = 10.0;
+  for (const double per_solve : {0.5, 4.0, 8.0, 12.0}) {
+    Workshop workshop(per_solve, true);
+    bracket::BracketOptions once = options(budget);
+    once.max_triangles = 1;
+    (void)bracket::bracket(strip(), strip(), once, {}, workshop.means);
+    EXPECT_EQ(workshop.given.size(), per_solve == 0.5   ? 6U  // four forms below, two above
+                                     : per_solve == 4.0 ? 3U
+                                     : per_solve == 8.0 ? 2U
+                                                        : 1U);
+    expect_the_rest(workshop, budget);
+  }
+}
+
+// The strip under a pressure of one, which its strength can be divided by some three to carry.
+problem::Case loaded_strip() {
+  problem::Case result;
+  result.lower = strip();
+  result.lower.most_multiplier = 4.0;
+  result.upper = result.lower;
+  result.seeks_strength = true;
+  return result;
+}
+
+TEST(Budget, OfAStrengthReductionIsHandedFromFactorToFactor) {
+  constexpr double budget = 100.0, per_solve = 8.0;
+  Workshop workshop(per_solve);
+  const bracket::Solution found =
+      bracket::solution_of(loaded_strip(), options(budget), {}, workshop.means);
+  EXPECT_TRUE(found.lower && found.upper);
+  EXPECT_EQ(workshop.given.size(), 13U);  // at 0, 8, .. 96 s
+  expect_the_rest(workshop, budget);
+}
+
+}  // namespace
