@@ -8,10 +8,7 @@ namespace {
 
 // A Gram-Schmidt sweep is repeated when it cancels more than this (Daniel et al. 1976): the memory
 // lives long, so Q is kept orthogonal to round-off.
-constexpr double reorthogonalise_below = 0.5;
-
-// Rows rotated together: 20 columns of 256 doubles stay in a first-level cache of 48 kB.
-constexpr Eigen::Index rows_per_block = 256;
+constexpr double reorthogonalise_below = 0.7;
 
 }  // namespace
 
@@ -30,9 +27,12 @@ void SecantMemory::resize(Eigen::Index n, int capacity) {
   r_.resize(capacity_, capacity_);
   work_.resize(n);
   column_.resize(capacity_);
+  sums_.resize(capacity_ + 1);
   gamma_.resize(capacity_);
   cosines_.resize(capacity_);
   sines_.resize(capacity_);
+  columns_.reserve(columns + 1);
+  rotated_.reserve(columns);
   clear();
 }
 
@@ -45,13 +45,13 @@ void SecantMemory::add(const Vector& du, const Vector& dr, double max_condition,
                        const InnerProductRef& product) {
   const double length = product.norm(dr);
   if (!(length > 0.0) || !std::isfinite(length)) return;
-  if (size_ == capacity_) drop_oldest();
+  if (size_ == capacity_) drop_oldest(product);
   double diagonal = 0.0;
   while (true) {
     work_ = dr / length;
     diagonal = orthogonalise(product);
     if (size_ == 0 || well_conditioned(diagonal, max_condition)) break;
-    drop_oldest();
+    drop_oldest(product);
   }
   this->du(size_) = du / length;
   q_[static_cast<std::size_t>(size_)] = work_ / diagonal;
@@ -73,18 +73,26 @@ bool SecantMemory::append(const Vector& du, const Vector& q,
   return true;
 }
 
+Vectors SecantMemory::orthonormal_columns() {
+  columns_.clear();
+  for (int j = 0; j < size_; ++j) columns_.push_back(&q_[static_cast<std::size_t>(j)]);
+  return columns_;
+}
+
 // Removes from work_ its parts along Q, whose coefficients go to column_; returns what is left.
+// Classical Gram-Schmidt: all the inner products of a sweep are one sum.
 double SecantMemory::orthogonalise(const InnerProductRef& product) {
   double before = 1.0;
-  double after = product.norm(work_);
+  double after = 1.0;
   column_.setZero();
-  for (int sweep = 0; sweep < 2 && size_ > 0; ++sweep) {
-    for (int j = 0; j < size_; ++j) {
-      const Vector& q = q_[static_cast<std::size_t>(j)];
-      const double h = product.dot(q, work_);
-      work_ -= h * q;
-      column_[j] += h;
-    }
+  if (size_ == 0) return product.norm(work_);
+  const auto size = static_cast<std::size_t>(size_);
+  for (int sweep = 0; sweep < 2; ++sweep) {
+    const Vectors q = orthonormal_columns();
+    product.dots(q, work_, {sums_.data(), size});
+    column_.head(size_) += sums_.head(size_);
+    sums_.head(size_) *= -1.0;
+    product.combine(1.0, q, {sums_.data(), size}, work_);
     after = product.norm(work_);
     if (after >= reorthogonalise_below * before) break;
     before = after;
@@ -105,7 +113,7 @@ bool SecantMemory::well_conditioned(double diagonal, double max_condition) const
 
 // R without its first column is Hessenberg; Givens rotations of its rows and of the columns of Q
 // bring the triangle back (Daniel, Gragg, Kaufman & Stewart 1976).
-void SecantMemory::drop_oldest() {
+void SecantMemory::drop_oldest(const InnerProductRef& product) {
   const int kept = size_ - 1;
   for (int j = 0; j < kept; ++j) r_.col(j).head(j + 2) = r_.col(j + 1).head(j + 2);
   for (int i = 0; i < kept; ++i) {
@@ -121,44 +129,30 @@ void SecantMemory::drop_oldest() {
     cosines_[i] = c;
     sines_[i] = s;
   }
-  rotate_columns();
+  rotated_.clear();
+  for (int j = 0; j < size_; ++j) rotated_.push_back(&q_[static_cast<std::size_t>(j)]);
+  const auto turns = static_cast<std::size_t>(kept);
+  product.rotate(rotated_, {cosines_.data(), turns}, {sines_.data(), turns});
   first_ = (first_ + 1) % capacity_;
   size_ = kept;
 }
 
-void SecantMemory::rotate_columns() {
-  const Eigen::Index n = work_.size();
-  for (Eigen::Index begin = 0; begin < n; begin += rows_per_block) {
-    const Eigen::Index rows = std::min(rows_per_block, n - begin);
-    for (int i = 0; i + 1 < size_; ++i) {
-      double* a = q_[static_cast<std::size_t>(i)].data() + begin;
-      double* b = q_[static_cast<std::size_t>(i) + 1].data() + begin;
-      const double c = cosines_[i];
-      const double s = sines_[i];
-      for (Eigen::Index k = 0; k < rows; ++k) {
-        const double upper = a[k];
-        const double lower = b[k];
-        a[k] = c * upper + s * lower;
-        b[k] = c * lower - s * upper;
-      }
-    }
-  }
-}
-
 void SecantMemory::project(const Vector& r, Vector& step, Vector& remainder,
                            const InnerProductRef& product) {
+  const auto size = static_cast<std::size_t>(size_);
+  const Vectors q = orthonormal_columns();
   remainder = r;
-  for (int j = 0; j < size_; ++j) {
-    const Vector& q = q_[static_cast<std::size_t>(j)];
-    gamma_[j] = product.dot(q, remainder);
-    remainder -= gamma_[j] * q;
-  }
+  product.dots(q, r, {gamma_.data(), size});
+  sums_.head(size_) = -gamma_.head(size_);
+  product.combine(1.0, q, {sums_.data(), size}, remainder);
   for (int i = size_ - 1; i >= 0; --i) {
     for (int j = i + 1; j < size_; ++j) gamma_[i] -= r_(i, j) * gamma_[j];
     gamma_[i] /= r_(i, i);
   }
-  step.setZero();
-  for (int j = 0; j < size_; ++j) step -= gamma_[j] * du(j);
+  sums_.head(size_) = -gamma_.head(size_);
+  columns_.clear();
+  for (int j = 0; j < size_; ++j) columns_.push_back(&du(j));
+  product.combine(0.0, columns_, {sums_.data(), size}, step);
 }
 
 }  // namespace jfnk::detail

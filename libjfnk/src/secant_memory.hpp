@@ -23,8 +23,8 @@ class SecantMemory {
 
   /// Adds a pair, dropping the oldest ones for room and until max |R_ii| / min |R_ii| is at most
   /// `max_condition`. A pair with dr = 0 or a NaN is ignored.
-  /// Cost: 2 n size() flops twice, and 6 n size() for each pair dropped. Allocates if so many pairs
-  /// were never held.
+  /// Cost: 4 n size() flops, twice if dr is all but dependent, and 6 n size() for each pair
+  /// dropped. Allocates if so many pairs were never held.
   void add(const Vector& du, const Vector& dr, double max_condition,
            const InnerProductRef& product);
 
@@ -66,8 +66,8 @@ class SecantMemory {
  private:
   double orthogonalise(const InnerProductRef& product);
   [[nodiscard]] bool well_conditioned(double diagonal, double max_condition) const;
-  void drop_oldest();
-  void rotate_columns();
+  void drop_oldest(const InnerProductRef& product);
+  Vectors orthonormal_columns();
   Vector& du(int i) { return du_[static_cast<std::size_t>((first_ + i) % capacity_)]; }
 
   Eigen::Index n_ = 0;
@@ -79,9 +79,12 @@ class SecantMemory {
   Eigen::MatrixXd r_;
   Vector work_;
   Eigen::VectorXd column_;  // coefficients of the newest column
+  Eigen::VectorXd sums_;
   Eigen::VectorXd gamma_;
   Eigen::VectorXd cosines_;
   Eigen::VectorXd sines_;
+  std::vector<const Vector*> columns_;  // those that an operation is about
+  std::vector<Vector*> rotated_;
 };
 
 }  // namespace jfnk::detail
