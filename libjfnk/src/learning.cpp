@@ -304,6 +304,7 @@ void use_learnt_jacobian(Workspace& work, const Options& options) {
   const Eigen::Index n = work.base.u.size();
   work.evaluator_state.learnt = true;
   work.evaluator_state.without_preconditioner = false;
+  for (Vector* v : {&work.preconditioned, &work.preconditioned_before}) v->resize(n);
   if (!options.multisecant.broyden) return;
   work.broyden.resize(n, options.multisecant.memory);
   for (Vector* v : {&work.by_least_squares, &work.by_broyden, &work.image}) v->resize(n);

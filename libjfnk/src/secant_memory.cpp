@@ -17,9 +17,10 @@ void SecantMemory::resize(Eigen::Index n, int capacity) {
   const auto columns = static_cast<std::size_t>(capacity_);
   du_.resize(columns);
   q_.resize(columns);
+  image_.resize(columns);
   n_ = n;
   // Grown as pairs come: most solves hold few.
-  for (std::vector<Vector>* vectors : {&du_, &q_}) {
+  for (std::vector<Vector>* vectors : {&du_, &q_, &image_}) {
     for (Vector& v : *vectors) {
       if (v.size() != n) v.resize(0);
     }
@@ -27,22 +28,24 @@ void SecantMemory::resize(Eigen::Index n, int capacity) {
   r_.resize(capacity_, capacity_);
   work_.resize(n);
   column_.resize(capacity_);
-  sums_.resize(capacity_ + 1);
+  sums_.resize(2 * capacity_);
   gamma_.resize(capacity_);
   cosines_.resize(capacity_);
   sines_.resize(capacity_);
-  columns_.reserve(columns + 1);
+  columns_.reserve(2 * columns);
   rotated_.reserve(columns);
   clear();
 }
 
-void SecantMemory::clear() {
+void SecantMemory::clear(bool with_images) {
   size_ = 0;
   first_ = 0;
+  with_images_ = with_images;
+  images_are_old_ = false;
 }
 
 void SecantMemory::add(const Vector& du, const Vector& dr, double max_condition,
-                       const InnerProductRef& product) {
+                       const InnerProductRef& product, const Vector* image) {
   const double length = product.norm(dr);
   if (!(length > 0.0) || !std::isfinite(length)) return;
   if (size_ == capacity_) drop_oldest(product);
@@ -53,8 +56,15 @@ void SecantMemory::add(const Vector& du, const Vector& dr, double max_condition,
     if (size_ == 0 || well_conditioned(diagonal, max_condition)) break;
     drop_oldest(product);
   }
+  const auto last = static_cast<std::size_t>(size_);
   this->du(size_) = du / length;
-  q_[static_cast<std::size_t>(size_)] = work_ / diagonal;
+  q_[last] = work_ / diagonal;
+  if (with_images_ && !images_are_old_) {
+    // q is what is left of dr, and so is its image.
+    sums_.head(size_) = -column_.head(size_) / diagonal;
+    image_[last] = *image;
+    product.combine(1.0 / length / diagonal, first_of(image_), {sums_.data(), last}, image_[last]);
+  }
   r_.col(size_).head(size_) = column_.head(size_);
   r_(size_, size_) = diagonal;
   ++size_;
@@ -69,13 +79,14 @@ bool SecantMemory::append(const Vector& du, const Vector& q,
   this->du(size_) = du / length;
   q_[static_cast<std::size_t>(size_)] = q;
   r_.col(size_).head(size_ + 1) = column / length;
+  images_are_old_ = true;
   ++size_;
   return true;
 }
 
-Vectors SecantMemory::orthonormal_columns() {
+Vectors SecantMemory::first_of(const std::vector<Vector>& vectors) {
   columns_.clear();
-  for (int j = 0; j < size_; ++j) columns_.push_back(&q_[static_cast<std::size_t>(j)]);
+  for (int j = 0; j < size_; ++j) columns_.push_back(&vectors[static_cast<std::size_t>(j)]);
   return columns_;
 }
 
@@ -88,7 +99,7 @@ double SecantMemory::orthogonalise(const InnerProductRef& product) {
   if (size_ == 0) return product.norm(work_);
   const auto size = static_cast<std::size_t>(size_);
   for (int sweep = 0; sweep < 2; ++sweep) {
-    const Vectors q = orthonormal_columns();
+    const Vectors q = first_of(q_);
     product.dots(q, work_, {sums_.data(), size});
     column_.head(size_) += sums_.head(size_);
     sums_.head(size_) *= -1.0;
@@ -129,30 +140,53 @@ void SecantMemory::drop_oldest(const InnerProductRef& product) {
     cosines_[i] = c;
     sines_[i] = s;
   }
-  rotated_.clear();
-  for (int j = 0; j < size_; ++j) rotated_.push_back(&q_[static_cast<std::size_t>(j)]);
-  const auto turns = static_cast<std::size_t>(kept);
-  product.rotate(rotated_, {cosines_.data(), turns}, {sines_.data(), turns});
+  rotate(q_, product);
+  if (with_images_ && !images_are_old_) rotate(image_, product);
   first_ = (first_ + 1) % capacity_;
   size_ = kept;
+}
+
+void SecantMemory::rotate(std::vector<Vector>& vectors, const InnerProductRef& product) {
+  rotated_.clear();
+  for (int j = 0; j < size_; ++j) rotated_.push_back(&vectors[static_cast<std::size_t>(j)]);
+  const auto turns = static_cast<std::size_t>(size_ - 1);
+  product.rotate(rotated_, {cosines_.data(), turns}, {sines_.data(), turns});
+}
+
+// gamma_ = Q^T r becomes R^-1 Q^T r.
+void SecantMemory::find_gamma() {
+  for (int i = size_ - 1; i >= 0; --i) {
+    for (int j = i + 1; j < size_; ++j) gamma_[i] -= r_(i, j) * gamma_[j];
+    gamma_[i] /= r_(i, i);
+  }
 }
 
 void SecantMemory::project(const Vector& r, Vector& step, Vector& remainder,
                            const InnerProductRef& product) {
   const auto size = static_cast<std::size_t>(size_);
-  const Vectors q = orthonormal_columns();
+  const Vectors q = first_of(q_);
   remainder = r;
   product.dots(q, r, {gamma_.data(), size});
   sums_.head(size_) = -gamma_.head(size_);
   product.combine(1.0, q, {sums_.data(), size}, remainder);
-  for (int i = size_ - 1; i >= 0; --i) {
-    for (int j = i + 1; j < size_; ++j) gamma_[i] -= r_(i, j) * gamma_[j];
-    gamma_[i] /= r_(i, i);
-  }
+  find_gamma();
   sums_.head(size_) = -gamma_.head(size_);
   columns_.clear();
   for (int j = 0; j < size_; ++j) columns_.push_back(&du(j));
   product.combine(0.0, columns_, {sums_.data(), size}, step);
+}
+
+void SecantMemory::invert(const Vector& r, const Vector& image, double mixing, Vector& z,
+                          const InnerProductRef& product) {
+  const auto size = static_cast<std::size_t>(size_);
+  product.dots(first_of(q_), r, {gamma_.data(), size});
+  sums_.head(size_) = -mixing * gamma_.head(size_);
+  find_gamma();
+  sums_.segment(size_, size_) = gamma_.head(size_);
+  (void)first_of(with_images_ ? image_ : q_);
+  for (int j = 0; j < size_; ++j) columns_.push_back(&du(j));
+  z = image;
+  product.combine(mixing, columns_, {sums_.data(), 2 * size}, z);
 }
 
 }  // namespace jfnk::detail
