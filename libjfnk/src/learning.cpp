@@ -202,9 +202,11 @@ bool factors_pay(const Solve& solve) {
   const Learning& rule = solve.options.learning;
   const LearntJacobian& jacobian = solve.work.evaluator.learnt;
   const auto n = static_cast<double>(solve.work.base.u.size());
-  const FactorCost cost = jacobian.cost(rule.most_entries);
-  return cost.entries <= rule.most_entries &&
-         cost.operations <= rule.operations * n * evaluations_left(solve);
+  const double most_operations = rule.operations * n * evaluations_left(solve);
+  const auto pays = [&](const FactorCost& cost) {
+    return cost.entries <= rule.most_entries && cost.operations <= most_operations;
+  };
+  return pays(jacobian.cost_of_band()) || pays(jacobian.cost(rule.most_entries));
 }
 
 /// Tries to learn the Jacobian.

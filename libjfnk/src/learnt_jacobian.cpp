@@ -41,13 +41,12 @@ void LearntJacobian::reset(Eigen::Index n) {
   group_of_.clear();
   groups_ = 0;
   matrix_.resize(0, 0);
-  eliminated_.resize(0, 0);
+  occupied_.resize(0, 0);
   shift_ = 0.0;
 }
 
 void LearntJacobian::group_columns() {
   matrix_ = pattern_.matrix();
-  order_ = order_of_elimination(matrix_);
   group_of_ = colour_columns(matrix_);
   groups_ = number_of(group_of_);
 }
@@ -76,13 +75,14 @@ bool LearntJacobian::factorise(double shift) {
   Eigen::SparseMatrix<double> shifted = matrix_;
   for (int i = 0; i < n_; ++i) shifted.coeffRef(i, i) += shift;
   // Diagonals that are occupied here and there only would fill the factors.
-  const Eigen::SparseMatrix<double> occupied = shifted.pruned();
+  Eigen::SparseMatrix<double> occupied = shifted.pruned();
   if (has_gap(occupied)) return false;
-  Eigen::SparseMatrix<double> next;
-  next = occupied.twistedBy(order_.inverse());
-  next = Eigen::SparseMatrix<double>(next.transpose()).transpose();  // sorted
-  const bool same = same_pattern(next, eliminated_);
-  eliminated_.swap(next);
+  const bool same = same_pattern(occupied, occupied_);
+  occupied_.swap(occupied);
+  if (!same) order_ = order_of_elimination(occupied_);
+  eliminated_ = occupied_.twistedBy(order_.inverse());
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = eliminated_;
+  eliminated_ = by_rows;  // sorted by that
   if (!same) {
     plain_.analyse(eliminated_);
     analysed_ = false;
@@ -115,6 +115,12 @@ bool LearntJacobian::factorise_plainly() {
   plain_.solve(permuted_);
   const double size = eliminated_.norm() * permuted_.norm() + expected.norm();
   return (eliminated_ * permuted_ - expected).norm() <= good * size;
+}
+
+FactorCost LearntJacobian::cost_of_band() const {
+  const auto n = static_cast<double>(n_);
+  const auto width = static_cast<double>(pattern_.reach());
+  return {n * (2.0 * width + 1.0), 2.0 * n * width * width};
 }
 
 void LearntJacobian::apply(const Vector& r, Vector& z) {

@@ -34,8 +34,10 @@ class LearntJacobian {
 
   /// What its factors would cost; after `group_columns`. Counting ends beyond so many entries.
   [[nodiscard]] FactorCost cost(double most_entries) const {
-    return factor_cost(matrix_, order_, most_entries);
+    return factor_cost(matrix_, order_of_elimination(matrix_), most_entries);
   }
+  /// A bound of that which costs nothing: those of its band.
+  [[nodiscard]] FactorCost cost_of_band() const;
   /// Factorises J + shift I. @return false if that is singular
   bool factorise(double shift);
   /// J v.
@@ -63,8 +65,9 @@ class LearntJacobian {
   int groups_ = 0;
   Eigen::SparseMatrix<double> matrix_;
   double shift_ = 0.0;
-  Order order_;                             // of elimination
-  Eigen::SparseMatrix<double> eliminated_;  // J + shift I in that order, without zeros
+  Eigen::SparseMatrix<double> occupied_;    // J + shift I without zeros
+  Order order_;                             // of its elimination
+  Eigen::SparseMatrix<double> eliminated_;  // the same in that order
   SymmetricLu plain_;
   bool by_plain_ = false;  // else by those with pivots chosen
   bool analysed_ = false;  // those

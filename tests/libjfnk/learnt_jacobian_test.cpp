@@ -116,6 +116,17 @@ TEST(LearntJacobian, ForetellsItsFactors) {
   EXPECT_LT(lattice.operations, 2.0 * 40 * 40 * 40 * 40);  // that of the band
 }
 
+TEST(LearntJacobian, KnowsWithoutLookingWhatItsBandCosts) {
+  LearntJacobian learnt;
+  learn(learnt, jfnk_test::laplacian(9), {40});
+  const auto band = learnt.cost_of_band();
+  EXPECT_EQ(band.entries, 81.0 * (2 * 9 + 1));
+  EXPECT_EQ(band.operations, 2.0 * 81 * 9 * 9);
+  const auto factors = learnt.cost(1e9);
+  EXPECT_GE(band.entries, factors.entries);
+  EXPECT_GE(band.operations, factors.operations);
+}
+
 TEST(LearntJacobian, FindsASingularMatrixUnusable) {
   Sparse matrix = jfnk_test::laplacian(6);
   for (Sparse::InnerIterator it(matrix, 7); it; ++it) it.valueRef() = 0.0;
