@@ -59,6 +59,7 @@ void SecantMemory::add(const Vector& du, const Vector& dr, double max_condition,
   const auto last = static_cast<std::size_t>(size_);
   this->du(size_) = du / length;
   q_[last] = work_ / diagonal;
+  if (image == nullptr) images_are_old_ = true;
   if (with_images_ && !images_are_old_) {
     // q is what is left of dr, and so is its image.
     sums_.head(size_) = -column_.head(size_) / diagonal;

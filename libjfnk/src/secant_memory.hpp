@@ -42,7 +42,7 @@ class SecantMemory {
   /// `max_condition`. A pair with dr = 0 or a NaN is ignored.
   /// Cost: 4 n size() flops, twice if dr is all but dependent, and 6 n size() for each pair
   /// dropped. Allocates if so many pairs were never held.
-  /// @param image  P dr if `has_images()`, else not looked at
+  /// @param image  P dr, if images are kept; without it they are to be renewed
   void add(const Vector& du, const Vector& dr, double max_condition, const InnerProductRef& product,
            const Vector* image = nullptr);
 

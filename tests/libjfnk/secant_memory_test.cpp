@@ -167,6 +167,7 @@ TEST(SecantMemory, ImagesAreThoseOfTheColumnsThroughAHundredPairs) {
   P = Eigen::MatrixXd::Random(n, n);
   memory.forget_images();
   ASSERT_TRUE(memory.images_are_old());
+  memory.add(random.vector(n), random.vector(n), loose_condition, euclidean);
   memory.renew_images([&](const Vector& q, Vector& z) { z = P * q; });
   expect_projection(100);
 }
