@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -65,11 +66,16 @@ class Bratu {
   /// Over all processes. MPI gives every process the same bits, so that all take the same path; a
   /// value that is not finite on one process is none on all.
   [[nodiscard]] double dot(const jfnk::Vector& a, const jfnk::Vector& b) const {
-    const double part = a.dot(b);
     double sum = 0.0;
-    MPI_Allreduce(&part, &sum, 1, MPI_DOUBLE, MPI_SUM,
-                  PetscObjectComm(reinterpret_cast<PetscObject>(grid_)));
+    const jfnk::Vector* const one = &a;
+    dots({&one, 1}, b, {&sum, 1});
     return sum;
+  }
+  /// All the products of an iteration are one message.
+  void dots(jfnk::Vectors columns, const jfnk::Vector& w, std::span<double> sums) const {
+    jfnk::InnerProductRef().dots(columns, w, sums);  // of the parts that are here
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(columns.size()), MPI_DOUBLE, MPI_SUM,
+                  PetscObjectComm(reinterpret_cast<PetscObject>(grid_)));
   }
   [[nodiscard]] Eigen::Index global_size() const {
     return static_cast<Eigen::Index>(info_.mx) * info_.my;

@@ -25,8 +25,8 @@ class BroydenMemory {
   /// Whether there is no room for another pair.
   [[nodiscard]] bool full() const { return size_ == static_cast<int>(s_.size()); }
 
-  /// P r becomes H r. Cost: 4 n size() flops. No allocation.
-  void improve(Vector& z, const InnerProductRef& product) const;
+  /// P r becomes H r. Cost: 4 n size() flops, one sum of inner products. No allocation.
+  void improve(Vector& z, const InnerProductRef& product);
   /// H r of before the last `add` becomes H r.
   void improve_by_last(Vector& z, const InnerProductRef& product) const;
 
@@ -47,14 +47,20 @@ class BroydenMemory {
       w_[static_cast<std::size_t>(i)].resize(n_);
       walk(s_[static_cast<std::size_t>(i)]);
       walk(w_[static_cast<std::size_t>(i)]);
+      for (int j = 0; j < i; ++j) walk(along_(i, j));
     }
   }
 
  private:
+  Vectors first_of(const std::vector<Vector>& vectors);
+
   Eigen::Index n_ = 0;
   int size_ = 0;
   std::vector<Vector> s_;
   std::vector<Vector> w_;
+  Eigen::MatrixXd along_;  // s_i^T w_j, j < i: what factor i finds of those before it
+  Eigen::VectorXd sums_;
+  std::vector<const Vector*> columns_;  // those that an operation is about
 };
 
 }  // namespace jfnk::detail

@@ -80,6 +80,7 @@ struct MultisecantCourse {
   double lead = 0.0;             ///< of least squares over Broyden; see Multisecant::broyden
   double broyden_error = 0.0;    ///< likewise
   bool inverted = false;         ///< work.by_broyden belongs to work.base
+  bool preconditioned = false;   ///< and so does work.preconditioned
 
   template <class Visitor>
   void for_each_field(Visitor& visit) {
@@ -92,6 +93,7 @@ struct MultisecantCourse {
     visit(lead);
     visit(broyden_error);
     visit(inverted);
+    visit(preconditioned);
   }
 };
 

@@ -165,6 +165,7 @@ void Evaluator::precondition(const Vector& r, Vector& z) {
     return;
   }
   ++counts_.preconditioner;
+  z.resize(r.size());
   if (preconditioned_by_learning()) {
     vectors_.learnt.apply(r, z);
     return;

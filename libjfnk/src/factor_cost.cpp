@@ -5,11 +5,16 @@
 
 namespace jfnk::detail {
 
-FactorCost factor_cost(const Eigen::SparseMatrix<double>& pattern, double most_entries) {
+Order order_of_elimination(const Eigen::SparseMatrix<double>& pattern) {
+  Order order;
+  Eigen::AMDOrdering<int>()(pattern, order);
+  return order;
+}
+
+FactorCost factor_cost(const Eigen::SparseMatrix<double>& pattern, const Order& order,
+                       double most_entries) {
   const Eigen::Index n = pattern.cols();
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-  Eigen::AMDOrdering<int>()(pattern, order);  // order.indices()[new] = old
-  const Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> place = order.inverse();
+  const Order place = order.inverse();
   std::vector<int> parent(static_cast<std::size_t>(n), -1);
   std::vector<int> met(static_cast<std::size_t>(n), -1);
   std::vector<double> below(static_cast<std::size_t>(n), 0.0);  // entries of L under the diagonal

@@ -196,7 +196,7 @@ Ending search_dogleg(Solve& solve, Iteration& line) {
   const PreconditionerRef P = counted.ref();
   SlopeTest test(norm);
   for (int cut = 0; cut <= rule.max_cuts; ++cut) {
-    if (length < full) predicted = work.gmres.shorten(length, P, work.direction);
+    if (length < full) predicted = work.gmres.shorten(length, P, work.direction, product);
     solve.evaluator.filter(work.base.u, work.direction);
     work.trial.u = work.base.u + work.direction;
     const Outcome outcome = look(solve, cut);

@@ -10,9 +10,10 @@ namespace {
 
 constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
 
-// One Gram-Schmidt sweep leaves an error of rounding_unit / ratio in the orthogonality when the
-// vector shrinks by `ratio`; below this ratio (2e-13) the sweep is repeated.
-constexpr double reorthogonalise_below = 1e-3;
+// A sweep of classical Gram-Schmidt is repeated where the vector shrinks by more than this: with a
+// lower bound errors in the orthogonality would grow from column to column (Daniel et al. 1976).
+// What is left of its length is known by Pythagoras otherwise.
+constexpr double reorthogonalise_below = 0.7;
 
 // After the second sweep what remains of a vector inside the space is a few rounding units of it.
 constexpr double breakdown_ratio = 100.0 * rounding_unit;
@@ -57,6 +58,8 @@ void Gmres::resize(Eigen::Index n, const GmresOptions& options, bool preconditio
   next_.resize(n);
   direction_.resize(preconditioned ? n : 0);
   const auto m = static_cast<Eigen::Index>(columns);
+  sums_.resize(m + 2);
+  columns_of_basis_.reserve(columns + 2);
   triangle_.resize(m + 1, m);
   cosines_.resize(m);
   sines_.resize(m);
@@ -111,7 +114,7 @@ GmresResult Gmres::solve(const OperatorRef& A, const Vector& b, Vector& x,
     result.iterations += cycle.columns;
     columns_ = cycle.columns;
     solve_triangle(columns_);
-    add_combination(columns_, coefficients_, P, x);
+    add_combination(columns_, coefficients_, P, product, x);
     if (result.iterations == cycle.columns) length_ = coefficients_.head(columns_).norm();
     can_shorten_ = zero_guess && result.iterations == cycle.columns && columns_ > 0;
     result.status = cycle.status;
@@ -121,7 +124,7 @@ GmresResult Gmres::solve(const OperatorRef& A, const Vector& b, Vector& x,
       ended = true;
     }
     if (!ended && result.iterations < options.max_iterations) {
-      residual_from_recurrence(cycle.columns);
+      residual_from_recurrence(cycle.columns, product);
     }
   }
   result.residual_norm = residual_norm_;
@@ -151,14 +154,15 @@ Gmres::Cycle Gmres::run_cycle(const OperatorRef& A, const PreconditionerRef& P,
       input = &z;
     }
     const Evaluation outcome = A(*input, w);
-    const double before = outcome == Evaluation::ok ? product.norm(w) : 0.0;
+    double before = 0.0;
+    double after = 0.0;
+    if (outcome == Evaluation::ok) after = orthogonalise(k, product, before);
     if (outcome != Evaluation::ok || !std::isfinite(before)) {
       cycle.ended = true;
       cycle.status =
           outcome == Evaluation::stop ? KrylovStatus::stopped : KrylovStatus::operator_failed;
       return cycle;
     }
-    const double after = orthogonalise(k, product);
     const bool exhausted = after <= breakdown_ratio * before;
     rotate_column(k, exhausted ? 0.0 : after);
     cycle.columns = k + 1;
@@ -170,29 +174,58 @@ Gmres::Cycle Gmres::run_cycle(const OperatorRef& A, const PreconditionerRef& P,
                                                               : KrylovStatus::breakdown;
       return cycle;
     }
-    w /= after;
   }
   return cycle;
 }
 
-// Modified Gram-Schmidt of basis_[k+1] against the columns before it; coefficients to triangle_.
-double Gmres::orthogonalise(int k, const InnerProductRef& product) {
-  Vector& w = basis_[static_cast<std::size_t>(k) + 1];
-  double before = product.norm(w);
-  double after = before;
-  triangle_.col(k).setZero();
-  for (int sweep = 0; sweep < 2; ++sweep) {
-    for (int j = 0; j <= k; ++j) {
-      const Vector& v = basis_[static_cast<std::size_t>(j)];
-      const double h = product.dot(v, w);
-      w -= h * v;
-      triangle_(j, k) += h;
-    }
-    after = product.norm(w);
-    if (after >= reorthogonalise_below * before) break;
-    before = after;
+Vectors Gmres::first_of(const std::vector<Vector>& vectors, int count) {
+  columns_of_basis_.clear();
+  for (int j = 0; j < count; ++j) {
+    columns_of_basis_.push_back(&vectors[static_cast<std::size_t>(j)]);
   }
-  return after;
+  return columns_of_basis_;
+}
+
+// Classical Gram-Schmidt of basis_[k+1] against the columns before it, with coefficients to
+// triangle_: all inner products of a sweep and the square of the vector are one sum, and the rest
+// is scaled to length one as it is formed. Returns the length it had; not finite: `before` is not.
+double Gmres::orthogonalise(int k, const InnerProductRef& product, double& before) {
+  Vector& w = basis_[static_cast<std::size_t>(k) + 1];
+  const auto count = static_cast<std::size_t>(k) + 1;
+  double scale = 1.0;  // of w over what it was
+  double shrunk = 1.0;
+  triangle_.col(k).setZero();
+  const auto look = [&] {
+    product.dots(first_of(basis_, k + 2), w, {sums_.data(), count + 1});
+    return sums_[k + 1];
+  };
+  double square = look();
+  before = std::sqrt(square);
+  if (std::isnan(square)) return square;
+  if (!InnerProductRef::is_safe_square(square)) {
+    before = product.norm(w);
+    if (!(before > 0.0 && std::isfinite(before))) return before;
+    scale = std::ldexp(1.0, std::ilogb(before));  // leaves the digits as they are
+    w /= scale;
+    square = look();
+  }
+  for (int sweep = 0; sweep < 2; ++sweep) {
+    if (!(square > 0.0)) return 0.0;
+    const double length = std::sqrt(square);
+    const double rest = square - sums_.head(k + 1).squaredNorm();
+    const bool known = rest > reorthogonalise_below * reorthogonalise_below * square;
+    const double after = known ? std::sqrt(rest) : length;
+    triangle_.col(k).head(k + 1) += (scale * shrunk) * sums_.head(k + 1);
+    sums_.head(k + 1) *= -1.0 / after;
+    product.combine(1.0 / after, first_of(basis_, k + 1), {sums_.data(), count}, w);
+    shrunk *= after;
+    if (known) return scale * shrunk;
+    // What is left is too small a part to be known by its square: look again.
+    if (sweep == 0) square = look();
+  }
+  const double left = product.norm(w);
+  if (left > 0.0) w /= left;
+  return scale * shrunk * left;
 }
 
 // Brings the new column of the Hessenberg matrix to triangular form by Givens rotations.
@@ -233,19 +266,14 @@ void Gmres::solve_triangle(int columns) {
 
 // x += P V y (or Z y).
 void Gmres::add_combination(int columns, const Eigen::VectorXd& coefficients,
-                            const PreconditionerRef& P, Vector& x) {
+                            const PreconditionerRef& P, const InnerProductRef& product, Vector& x) {
   if (columns == 0) return;
+  const std::span<const double> weights{coefficients.data(), static_cast<std::size_t>(columns)};
   if (flexible_ || P.is_identity()) {
-    const std::vector<Vector>& directions = flexible_ ? preconditioned_ : basis_;
-    for (int j = 0; j < columns; ++j) {
-      x += coefficients[j] * directions[static_cast<std::size_t>(j)];
-    }
+    product.combine(1.0, first_of(flexible_ ? preconditioned_ : basis_, columns), weights, x);
     return;
   }
-  work_.setZero();
-  for (int j = 0; j < columns; ++j) {
-    work_ += coefficients[j] * basis_[static_cast<std::size_t>(j)];
-  }
+  product.combine(0.0, first_of(basis_, columns), weights, work_);
   P.apply(work_, direction_);
   ++preconditioner_applications_;
   x += direction_;
@@ -270,7 +298,8 @@ const Vector& Gmres::column_of_space(int j, const PreconditionerRef& P) {
   return direction_;
 }
 
-double Gmres::shorten(double length, const PreconditionerRef& P, Vector& x) {
+double Gmres::shorten(double length, const PreconditionerRef& P, Vector& x,
+                      const InnerProductRef& product) {
   const int k = columns_;
   double steepness = 0.0;
   for (int j = 0; j < k; ++j) {
@@ -313,12 +342,12 @@ double Gmres::shorten(double length, const PreconditionerRef& P, Vector& x) {
     distance += sum * sum;
   }
   x.setZero();
-  add_combination(k, path_, P, x);
+  add_combination(k, path_, P, product, x);
   return std::sqrt(distance);
 }
 
 // r = V Q^T (0, ..., 0, rhs[m]): the Arnoldi relation gives the new residual without applying A.
-void Gmres::residual_from_recurrence(int columns) {
+void Gmres::residual_from_recurrence(int columns, const InnerProductRef& product) {
   coefficients_.setZero();
   coefficients_[columns] = rhs_[columns];
   for (int j = columns - 1; j >= 0; --j) {
@@ -327,10 +356,8 @@ void Gmres::residual_from_recurrence(int columns) {
     coefficients_[j] = cosines_[j] * upper - sines_[j] * lower;
     coefficients_[j + 1] = sines_[j] * upper + cosines_[j] * lower;
   }
-  work_.setZero();
-  for (int j = 0; j <= columns; ++j) {
-    work_ += coefficients_[j] * basis_[static_cast<std::size_t>(j)];
-  }
+  const auto count = static_cast<std::size_t>(columns) + 1;
+  product.combine(0.0, first_of(basis_, columns + 1), {coefficients_.data(), count}, work_);
   basis_[0].swap(work_);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -34,6 +35,10 @@ class LatticePattern {
 
   /// The largest `width` so far.
   [[nodiscard]] Eigen::Index width() const { return width_; }
+  /// How far from the main diagonal the outermost lies, in the matrix and not on the ring.
+  [[nodiscard]] Eigen::Index reach() const {
+    return std::max(-diagonals_.front(), diagonals_.back());
+  }
   /// Lets it be that, or more.
   void widen(Eigen::Index width);
 

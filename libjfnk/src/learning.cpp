@@ -202,9 +202,11 @@ bool factors_pay(const Solve& solve) {
   const Learning& rule = solve.options.learning;
   const LearntJacobian& jacobian = solve.work.evaluator.learnt;
   const auto n = static_cast<double>(solve.work.base.u.size());
-  const FactorCost cost = jacobian.cost(rule.most_entries);
-  return cost.entries <= rule.most_entries &&
-         cost.operations <= rule.operations * n * evaluations_left(solve);
+  const double most_operations = rule.operations * n * evaluations_left(solve);
+  const auto pays = [&](const FactorCost& cost) {
+    return cost.entries <= rule.most_entries && cost.operations <= most_operations;
+  };
+  return pays(jacobian.cost_of_band()) || pays(jacobian.cost(rule.most_entries));
 }
 
 /// Tries to learn the Jacobian.
@@ -304,6 +306,7 @@ void use_learnt_jacobian(Workspace& work, const Options& options) {
   const Eigen::Index n = work.base.u.size();
   work.evaluator_state.learnt = true;
   work.evaluator_state.without_preconditioner = false;
+  for (Vector* v : {&work.preconditioned, &work.preconditioned_before}) v->resize(n);
   if (!options.multisecant.broyden) return;
   work.broyden.resize(n, options.multisecant.memory);
   for (Vector* v : {&work.by_least_squares, &work.by_broyden, &work.image}) v->resize(n);

@@ -7,6 +7,7 @@
 #include "factor_cost.hpp"
 #include "jfnk/residual.hpp"
 #include "lattice_pattern.hpp"
+#include "symmetric_lu.hpp"
 
 namespace jfnk::detail {
 
@@ -33,14 +34,16 @@ class LearntJacobian {
 
   /// What its factors would cost; after `group_columns`. Counting ends beyond so many entries.
   [[nodiscard]] FactorCost cost(double most_entries) const {
-    return factor_cost(matrix_, most_entries);
+    return factor_cost(matrix_, order_of_elimination(matrix_), most_entries);
   }
+  /// A bound of that which costs nothing: those of its band.
+  [[nodiscard]] FactorCost cost_of_band() const;
   /// Factorises J + shift I. @return false if that is singular
   bool factorise(double shift);
   /// J v.
   [[nodiscard]] Vector multiply(const Vector& v) const { return matrix_ * v; }
   /// z = (J + shift I)^-1 r; after `factorise`.
-  void apply(const Vector& r, Vector& z) const { z = factors_.solve(r); }
+  void apply(const Vector& r, Vector& z);
 
   /// Calls `walk` on every number that decides what `apply` does, for saving and loading; the
   /// pattern must have been walked before.
@@ -54,13 +57,22 @@ class LearntJacobian {
   [[nodiscard]] double shift() const { return shift_; }
 
  private:
+  bool factorise_plainly();
+
   Eigen::Index n_ = 0;
   LatticePattern pattern_;
   std::vector<int> group_of_;  // of each column
   int groups_ = 0;
   Eigen::SparseMatrix<double> matrix_;
   double shift_ = 0.0;
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> factors_;
+  Eigen::SparseMatrix<double> occupied_;    // J + shift I without zeros
+  Order order_;                             // of its elimination
+  Eigen::SparseMatrix<double> eliminated_;  // the same in that order
+  SymmetricLu plain_;
+  bool by_plain_ = false;  // else by those with pivots chosen
+  bool analysed_ = false;  // those
+  Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::NaturalOrdering<int>> factors_;
+  Vector permuted_;
 };
 
 }  // namespace jfnk::detail

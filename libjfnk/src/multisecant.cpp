@@ -38,25 +38,54 @@ bool has_broyden(const Solve& solve) {
   return solve.options.multisecant.broyden && !solve.evaluator.preconditioner().is_identity();
 }
 
-/// H r = dU gamma + mixing P (r - dF gamma), gamma = argmin ||r - dF gamma||, or of P times that.
-void invert_by_least_squares(Solve& solve, const Vector& r, Vector& z) {
-  Workspace& work = solve.work;
-  Vector& remainder = work.evaluator.probe;
-  if (in_preconditioned_norm(solve)) {
-    solve.evaluator.precondition(r, work.direction);
-    work.secants.project(work.direction, z, remainder, solve.evaluator.product());
-    z = solve.course.multisecant.mixing * remainder - z;
-    return;
-  }
-  work.secants.project(r, z, remainder, solve.evaluator.product());
-  solve.evaluator.precondition(remainder, work.direction);
-  z = solve.course.multisecant.mixing * work.direction - z;
+/// Whether P q is kept besides each column of the least squares: P is then applied to F alone.
+bool keeps_images(const Solve& solve) {
+  return has_broyden(solve) && !in_preconditioned_norm(solve);
 }
 
-/// H r by rank-one updates of mixing P.
-void invert_by_broyden(Solve& solve, const Vector& r, Vector& z) {
-  solve.evaluator.precondition(r, z);
-  z *= solve.course.multisecant.mixing;
+/// Whether P F at work.base is of use.
+bool keeps_preconditioned(const Solve& solve) {
+  return keeps_images(solve) || in_preconditioned_norm(solve);
+}
+
+/// Forgets what belongs to a point that work.base is no more.
+void forget_base(Solve& solve) {
+  solve.course.multisecant.inverted = false;
+  solve.course.multisecant.preconditioned = false;
+}
+
+/// P F at work.base into work.preconditioned, unless it is there.
+void precondition_base(Solve& solve) {
+  Workspace& work = solve.work;
+  const bool known = std::exchange(solve.course.multisecant.preconditioned, true);
+  if (known && work.preconditioned.size() == work.base.r.size()) return;
+  solve.evaluator.precondition(work.base.r, work.preconditioned);
+}
+
+/// H F = dU gamma + mixing P (F - dF gamma) at work.base, gamma = argmin ||F - dF gamma||, or of P
+/// times that.
+void invert_by_least_squares(Solve& solve, Vector& z) {
+  Workspace& work = solve.work;
+  const Vector& r = work.base.r;
+  const double mixing = solve.course.multisecant.mixing;
+  const InnerProductRef& product = solve.evaluator.product();
+  if (in_preconditioned_norm(solve)) {
+    work.secants.invert(work.preconditioned, work.preconditioned, mixing, z, product);
+  } else if (keeps_images(solve)) {
+    work.secants.invert(r, work.preconditioned, mixing, z, product);
+  } else if (solve.evaluator.preconditioner().is_identity()) {
+    work.secants.invert(r, r, mixing, z, product);
+  } else {
+    Vector& remainder = work.evaluator.probe;
+    work.secants.project(r, z, remainder, product);
+    solve.evaluator.precondition(remainder, work.direction);
+    z = mixing * work.direction - z;
+  }
+}
+
+/// H F at work.base by rank-one updates of mixing P.
+void invert_by_broyden(Solve& solve, Vector& z) {
+  z = solve.course.multisecant.mixing * solve.work.preconditioned;
   solve.work.broyden.improve(z, solve.evaluator.product());
 }
 
@@ -74,12 +103,18 @@ bool trusts_broyden(const Solve& solve) {
 /// The step from work.base into work.step.
 void find_step(Solve& solve) {
   Workspace& work = solve.work;
+  if (keeps_images(solve) != work.secants.has_images()) work.secants.clear(keeps_images(solve));
+  if (work.secants.images_are_old()) {
+    work.secants.renew_images(
+        [&](const Vector& q, Vector& image) { solve.evaluator.precondition(q, image); });
+  }
+  if (keeps_preconditioned(solve)) precondition_base(solve);
   if (!has_broyden(solve)) {
-    invert_by_least_squares(solve, work.base.r, work.step);
+    invert_by_least_squares(solve, work.step);
     work.step *= -1.0;
   } else {
-    invert_by_least_squares(solve, work.base.r, work.by_least_squares);
-    if (!solve.course.multisecant.inverted) invert_by_broyden(solve, work.base.r, work.by_broyden);
+    invert_by_least_squares(solve, work.by_least_squares);
+    if (!solve.course.multisecant.inverted) invert_by_broyden(solve, work.by_broyden);
     work.step = trusts_broyden(solve) ? -work.by_broyden : -work.by_least_squares;
   }
   solve.evaluator.filter(work.base.u, work.step);
@@ -119,10 +154,10 @@ void compare_models(Solve& solve) {
                ? std::clamp(relative, std::numeric_limits<double>::epsilon(), hopeless)
                : hopeless;
   };
-  invert_by_least_squares(solve, work.base.r, work.image);
+  invert_by_least_squares(solve, work.image);
   work.by_least_squares = work.image - work.by_least_squares;
   const double by_least_squares = error(work.by_least_squares);
-  invert_by_broyden(solve, work.base.r, work.image);
+  invert_by_broyden(solve, work.image);
   work.by_broyden = work.image - work.by_broyden;
   const double by_broyden = error(work.by_broyden);
   course.multisecant.lead =
@@ -145,14 +180,26 @@ double move(Solve& solve, Iteration& line) {
   work.step = work.trial.u - work.base.u;
   line.step_norm = product.norm(work.step);
   std::swap(work.base, work.trial);
-  if (has_broyden(solve)) compare_models(solve);
   Vector& difference = work.evaluator.probe;
+  // Nothing has to be learnt for where all is done.
+  if (solve.evaluator.converged(work.base, line.step_norm)) {
+    forget_base(solve);
+    difference = work.base.r - work.trial.r;
+    return product.norm(difference);
+  }
+  // P F was, and becomes its change.
+  Vector& image = work.preconditioned_before;
+  if (keeps_preconditioned(solve)) {
+    image.swap(work.preconditioned);
+    solve.course.multisecant.preconditioned = false;
+    precondition_base(solve);
+  }
+  if (has_broyden(solve)) compare_models(solve);
+  if (keeps_preconditioned(solve)) image = work.preconditioned - image;
   difference = work.base.r - work.trial.r;
   const double change = product.norm(difference);
-  const bool by_image = in_preconditioned_norm(solve);
-  if (by_image) solve.evaluator.precondition(difference, work.direction);
-  work.secants.add(work.step, by_image ? work.direction : difference,
-                   solve.options.multisecant.max_condition, product);
+  work.secants.add(work.step, in_preconditioned_norm(solve) ? image : difference,
+                   solve.options.multisecant.max_condition, product, &image);
   return change;
 }
 
@@ -181,7 +228,7 @@ Ending measure_mixing(Solve& solve) {
 void renew_memory(Solve& solve) {
   Workspace& work = solve.work;
   CountedPreconditioner counted{&solve.evaluator};
-  work.secants.clear();
+  work.secants.clear(keeps_images(solve));
   work.gmres.hand_out_space(counted.ref(), [&](const Vector& z, const Vector& q, const auto& r) {
     return work.secants.append(z, q, r, solve.options.multisecant.max_condition);
   });
@@ -203,7 +250,7 @@ bool loses_patience(Solve& solve, double change) {
 bool adapts_to_noise(Solve& solve, Ending& ending) {
   if (!may_measure_noise(solve) || !adapt_to_noise(solve, ending)) return false;
   solve.return_to_best();
-  solve.course.multisecant.inverted = false;
+  forget_base(solve);
   return true;
 }
 
@@ -228,7 +275,7 @@ void begin_multisecant(Solve& solve) {
   course.multisecant.wild = 0;
   course.multisecant.lead = 0.0;
   course.multisecant.broyden_error = 0.0;
-  course.multisecant.inverted = false;
+  forget_base(solve);
   course.multisecant.mark = solve.work.best.norm;
   course.multisecant.last_fall = solve.evaluations();
   solve.work.broyden.clear();
@@ -277,7 +324,7 @@ Ending multisecant_step(Solve& solve) {
   }
   if (work.base.norm > rule.rejection * work.best.norm) {
     solve.return_to_best();
-    course.multisecant.inverted = false;
+    forget_base(solve);
   }
   return Ending::go_on;
 }

@@ -288,7 +288,9 @@ Ending renew_preconditioner(Solve& solve) {
   // as are Broyden's updates
   solve.work.broyden.clear();
   if (in_preconditioned_norm(solve)) solve.work.secants.clear();
+  solve.work.secants.forget_images();
   course.multisecant.inverted = false;
+  course.multisecant.preconditioned = false;
   return Ending::go_on;
 }
 

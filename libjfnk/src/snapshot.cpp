@@ -10,7 +10,7 @@ namespace detail {
 namespace {
 
 // First integer of a snapshot; raised when its fields change.
-constexpr std::int64_t snapshot_version = 5;
+constexpr std::int64_t snapshot_version = 6;
 
 struct Writer {
   Snapshot& out;
@@ -150,6 +150,7 @@ void walk_state(Walker& walk, Workspace& work, Course& course, Report& report) {
   work.broyden.for_each_field(walk);
   walk(work.by_least_squares);
   walk(work.by_broyden);
+  walk(work.preconditioned);
   for (Iteration& line : report.history) walk_line(walk, line);
 }
 

@@ -83,6 +83,11 @@ void resize(Workspace& work, Eigen::Index n, Eigen::Index global, const Options&
     for (Vector* v : {&work.by_least_squares, &work.by_broyden, &work.image}) {
       v->resize(broyden ? n : 0);
     }
+    const Multisecant& rule = options.multisecant;
+    const bool kept = rule.broyden || rule.preconditioned_norm || options.learning.enabled;
+    for (Vector* v : {&work.preconditioned, &work.preconditioned_before}) {
+      v->resize(preconditioned && kept ? n : 0);
+    }
   }
 }
 

@@ -29,6 +29,8 @@ struct Workspace {
   Vector by_least_squares;  // H F at base by secants
   Vector by_broyden;        // and by broyden
   Vector image;
+  Vector preconditioned;         // P F at base
+  Vector preconditioned_before;  // and where it was before
 };
 
 /// One solve: the problem, the choices, the workspace and the record, shared by the stages.

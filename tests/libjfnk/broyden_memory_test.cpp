@@ -4,7 +4,6 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
 namespace {
 
@@ -38,7 +37,7 @@ struct Broyden {
   explicit Broyden(const Eigen::MatrixXd& preconditioner, int capacity = 20) : P(preconditioner) {
     memory.resize(n, capacity);
   }
-  [[nodiscard]] Vector apply(const Vector& r) const {
+  [[nodiscard]] Vector apply(const Vector& r) {
     Vector z = P * r;
     memory.improve(z, product);
     return z;
@@ -70,7 +69,7 @@ TEST(BroydenMemory, LastFactorAloneBringsAnImageUpToDate) {
   Vector z = broyden.apply(wave(5));
   ASSERT_TRUE(broyden.add(wave(1), J * wave(1)));
   broyden.memory.improve_by_last(z, broyden.product);
-  EXPECT_EQ(z, broyden.apply(wave(5)));
+  EXPECT_LE((z - broyden.apply(wave(5))).norm(), round_off);
 }
 
 // Gay (1979): on a linear system no more than 2 n steps.

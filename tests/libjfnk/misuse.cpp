@@ -26,6 +26,12 @@ struct AcceptMutable : Good {
 struct ReferenceNotConst : Good {
   double reference_norm() { return 1.0; }
 };
+struct SumsOfAMatrix : Good {
+  double dot(const Vector& a, const Vector& b) const { return a.dot(b); }
+  Vector dots(const Eigen::MatrixXd& columns, const Vector& w) const {
+    return columns.transpose() * w;
+  }
+};
 struct Solves {
   Vector solve(const Vector& r) const { return r; }
 };
@@ -68,5 +74,7 @@ int main() {
   return solve(good, u, {}, jfnk::Identity{}, [](const jfnk::Iteration&) { return 1; }).converged();
 #elif CASE == 11
   return solve(good, std::vector<int>(2)).converged() ? 0 : 1;
+#elif CASE == 12
+  return solve(SumsOfAMatrix{}, u).converged() ? 0 : 1;
 #endif
 }

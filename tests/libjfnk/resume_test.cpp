@@ -116,6 +116,30 @@ TEST(Resume, ContinuesBitForBitFromAnyStepOfEveryStage) {
   }
 }
 
+TEST(Resume, ContinuesBitForBitWithTheImagesOfAPreconditioner) {
+  // So poor a one that the steps are the least squares', with columns that come and go.
+  struct Poor {
+    void apply(const Vector& r, Vector& z) const { z = 0.1 * r; }
+  };
+  const jfnk_test::Bratu bratu(12, 6.0);
+  for (const bool in_its_norm : {false, true}) {
+    Options options;
+    options.method = Method::multisecant;
+    options.multisecant.memory = 12;
+    options.multisecant.preconditioned_norm = in_its_norm;
+    const auto make = [] { return Poor{}; };
+    for (const int at : {1, 5, 12, 15, 20}) {
+      Vector whole = Vector::Zero(bratu.size());
+      const Report expected = jfnk::solve(bratu, whole, options, make());
+      ASSERT_GT(expected.multisecant_iterations, 20);
+      Vector broken = Vector::Zero(bratu.size());
+      const Report report = solve_with_break(bratu, broken, options, make, at);
+      EXPECT_EQ(report.reason, expected.reason) << at;
+      EXPECT_TRUE(same_bits(broken, whole)) << at;
+    }
+  }
+}
+
 TEST(Resume, ContinuesBitForBitWithALearntJacobian) {
   // Learnt, renewed in rounds and, where Newton stands still, shifted by pseudo-transient steps.
   const jfnk_test::Bratu easy(12, 6.0);

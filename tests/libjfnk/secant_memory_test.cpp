@@ -138,4 +138,55 @@ TEST(SecantMemory, HoldsNoMorePairsThanUnknowns) {
   EXPECT_TRUE(step.allFinite());
 }
 
+TEST(SecantMemory, ImagesAreThoseOfTheColumnsThroughAHundredPairs) {
+  constexpr int n = 40;
+  constexpr double mixing = 0.7;
+  // The pairs come and go at a condition of a few; as above.
+  constexpr double tolerance = 1e4 * rounding_unit;
+  Randoms random;
+  Eigen::MatrixXd P = Eigen::MatrixXd::Random(n, n);
+  SecantMemory memory;
+  memory.resize(n, 6);
+  memory.clear(true);
+  const auto expect_projection = [&](int k) {
+    const Vector r = random.vector(n);
+    Vector z(n);
+    Vector step(n);
+    Vector remainder(n);
+    memory.invert(r, P * r, mixing, z, euclidean);
+    memory.project(r, step, remainder, euclidean);
+    const Vector expected = mixing * (P * remainder) - step;
+    EXPECT_LE((z - expected).norm(), tolerance * (P.norm() * r.norm() + step.norm())) << k;
+  };
+  for (int k = 0; k < 100; ++k) {
+    const Vector dr = random.vector(n);
+    const Vector image = P * dr;
+    memory.add(random.vector(n), dr, loose_condition, euclidean, &image);
+    expect_projection(k);
+  }
+  P = Eigen::MatrixXd::Random(n, n);
+  memory.forget_images();
+  ASSERT_TRUE(memory.images_are_old());
+  memory.add(random.vector(n), random.vector(n), loose_condition, euclidean);
+  memory.renew_images([&](const Vector& q, Vector& z) { z = P * q; });
+  expect_projection(100);
+}
+
+TEST(SecantMemory, WithoutImagesInvertsByTheIdentity) {
+  constexpr int n = 12;
+  Randoms random;
+  SecantMemory memory;
+  memory.resize(n, 5);
+  for (int k = 0; k < 5; ++k) {
+    memory.add(random.vector(n), random.vector(n), loose_condition, euclidean);
+  }
+  const Vector r = random.vector(n);
+  Vector z(n);
+  Vector step(n);
+  Vector remainder(n);
+  memory.invert(r, r, 0.5, z, euclidean);
+  memory.project(r, step, remainder, euclidean);
+  EXPECT_LE((z - (0.5 * remainder - step)).norm(), 1e4 * rounding_unit * (r.norm() + step.norm()));
+}
+
 }  // namespace

@@ -68,9 +68,10 @@ class OperatorRef {
 
 /// Right-preconditioned restarted GMRES with a workspace that grows as columns are built.
 ///
-/// Arnoldi by modified Gram-Schmidt, repeated where cancellation asks for it; least squares by
-/// Givens rotations. The residual after a restart comes from the Arnoldi relation, so A is applied
-/// `iterations` times and never more (once more if the first guess is not zero).
+/// Arnoldi by classical Gram-Schmidt, repeated where cancellation asks for it, so that the inner
+/// products of an iteration are one sum, mostly; least squares by Givens rotations. The residual
+/// after a restart comes from the Arnoldi relation, so A is applied `iterations` times and never
+/// more (once more if the first guess is not zero).
 class Gmres {
  public:
   /// For n unknowns; what the last call left is kept if the sizes are the same.
@@ -91,7 +92,8 @@ class Gmres {
   /// ||b - A x|| to its solution, both in the Krylov space (Powell 1970). Applies P once unless it
   /// is stored, never A. No allocation.
   /// @return ||b - A x|| there, by the Arnoldi relation
-  double shorten(double length, const PreconditionerRef& P, Vector& x);
+  double shorten(double length, const PreconditionerRef& P, Vector& x,
+                 const InnerProductRef& product = {});
 
   /// Hands out the space of the last solve as A Z = Q R: `take(z, q, r)` is called for each column,
   /// r being the column of R down to its diagonal, until it returns false. Applies P to every
@@ -123,14 +125,15 @@ class Gmres {
 
   Cycle run_cycle(const OperatorRef& A, const PreconditionerRef& P, const InnerProductRef& product,
                   const GmresOptions& options, int allowed, double target);
-  double orthogonalise(int k, const InnerProductRef& product);
+  double orthogonalise(int k, const InnerProductRef& product, double& before);
+  Vectors first_of(const std::vector<Vector>& vectors, int count);
   void rotate_column(int k, double subdiagonal);
   const Vector& column_of_space(int j, const PreconditionerRef& P);
   void rotate_basis(int j);
   void solve_triangle(int columns);
   void add_combination(int columns, const Eigen::VectorXd& coefficients, const PreconditionerRef& P,
-                       Vector& x);
-  void residual_from_recurrence(int columns);
+                       const InnerProductRef& product, Vector& x);
+  void residual_from_recurrence(int columns, const InnerProductRef& product);
 
   std::vector<Vector> basis_;
   std::vector<Vector> preconditioned_;
@@ -144,7 +147,9 @@ class Gmres {
   Eigen::VectorXd coefficients_;
   Eigen::VectorXd descent_;
   Eigen::VectorXd path_;
-  int columns_ = 0;  // of the last cycle
+  Eigen::VectorXd sums_;
+  std::vector<const Vector*> columns_of_basis_;  // those that an operation is about
+  int columns_ = 0;                              // of the last cycle
   bool flexible_ = false;
   bool can_shorten_ = false;
   double length_ = 0.0;

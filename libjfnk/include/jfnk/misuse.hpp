@@ -32,6 +32,18 @@ concept NamesDot = requires {
   &T::dot;
 };
 template <class T>
+concept NamesDots = requires {
+  &T::dots;
+};
+template <class T>
+concept NamesCombine = requires {
+  &T::combine;
+};
+template <class T>
+concept NamesRotate = requires {
+  &T::rotate;
+};
+template <class T>
 concept NamesGlobalSize = requires {
   &T::global_size;
 };
@@ -88,6 +100,17 @@ constexpr void explain_members() {
   static_assert(!NamesDot<F> || HasInnerProduct<F>,
                 "jfnk: `dot` of the residual must be const, take two jfnk::Vector and return a "
                 "double");
+  static_assert(!NamesDots<F> || HasDots<F>,
+                "jfnk: `dots` of the residual must be const and take jfnk::Vectors, a const "
+                "jfnk::Vector& and a std::span<double>");
+  static_assert(!HasDots<F> || HasInnerProduct<F>,
+                "jfnk: a residual with `dots` needs the `dot` that they are many of");
+  static_assert(!NamesCombine<F> || HasCombine<F>,
+                "jfnk: `combine` of the residual must be const and take a double, jfnk::Vectors, a "
+                "std::span<const double> and a jfnk::Vector&");
+  static_assert(!NamesRotate<F> || HasRotate<F>,
+                "jfnk: `rotate` of the residual must be const and take a "
+                "std::span<jfnk::Vector* const> and two std::span<const double>");
   static_assert(!NamesGlobalSize<F> || HasGlobalSize<F>,
                 "jfnk: `global_size` of the residual must be const and return a number");
   static_assert(!HasGlobalSize<F> || HasInnerProduct<F>,

@@ -154,13 +154,12 @@ struct Multisecant {
   double max_condition = 1e4;
   /// With a preconditioner, keep Broyden's rank-one updates of it besides the least squares over
   /// all pairs. A step is by Broyden's H where ||s - H y|| <= 0.6 ||s|| held for the last pairs (s,
-  /// y) and was smaller there than by least squares. Costs three applications of the preconditioner
-  /// per iteration instead of one, and twice the memory.
+  /// y) and was smaller there than by least squares. Costs no application of the preconditioner
+  /// beyond one at each point, and two and a half times the memory.
   bool broyden = true;
   /// With a preconditioner P, let gamma minimise ||P (F - dF gamma)|| instead of ||F - dF gamma||,
   /// as KINSOL's Anderson does on u - P F. Suits flows and contact, where P F is an error and F is
-  /// not; all else is still judged by ||F||. Costs another application of P per iteration. Done
-  /// with learnt factors in any case.
+  /// not; all else is still judged by ||F||. Done with learnt factors in any case.
   bool preconditioned_norm = false;
   /// After Newton steps begin with the Krylov space of the last one instead of the pairs of before.
   bool renew = true;

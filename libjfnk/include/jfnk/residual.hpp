@@ -8,10 +8,9 @@
 #include <type_traits>
 #include <utility>
 
-namespace jfnk {
+#include "jfnk/vector_operations.hpp"
 
-/// The vector of unknowns and of residuals.
-using Vector = Eigen::VectorXd;
+namespace jfnk {
 
 /// What a residual says about one evaluation.
 enum class Evaluation {
@@ -107,12 +106,6 @@ concept HasReferenceNorm = requires(const F& f) {
   { f.reference_norm() } -> std::convertible_to<double>;
 };
 
-/// A residual with its own inner product, as vectors spread over processes need.
-template <class F>
-concept HasInnerProduct = requires(const F& f, const Vector& a, const Vector& b) {
-  { f.dot(a, b) } -> std::convertible_to<double>;
-};
-
 /// A residual spread over processes: the number of unknowns on all of them together. Its `dot` must
 /// sum over all, and every process must return the same Evaluation.
 template <class F>
@@ -132,28 +125,6 @@ concept HasOnAccept = requires(F& f, const Vector& u) {
 template <class F>
 concept HasStepFilter = requires(F& f, const Vector& u, Vector& du) {
   f.filter_step(u, du);
-};
-
-/// Non-owning view of an inner product; the Euclidean one when default constructed.
-class InnerProductRef {
- public:
-  InnerProductRef() = default;
-  template <HasInnerProduct F>
-  explicit InnerProductRef(const F& f)
-      : object_(std::addressof(f)), dot_([](const void* o, const Vector& a, const Vector& b) {
-          return static_cast<double>(static_cast<const F*>(o)->dot(a, b));
-        }) {}
-
-  /// <a, b>. Cost: one pass over both.
-  [[nodiscard]] double dot(const Vector& a, const Vector& b) const {
-    return dot_ == nullptr ? a.dot(b) : dot_(object_, a, b);
-  }
-  /// sqrt(<a, a>), free of overflow and underflow for the Euclidean product.
-  [[nodiscard]] double norm(const Vector& a) const;
-
- private:
-  const void* object_ = nullptr;
-  double (*dot_)(const void*, const Vector&, const Vector&) = nullptr;
 };
 
 /// Non-owning, type-erased view of a residual and of the optional members it was found to have.
@@ -181,7 +152,9 @@ class ResidualRef {
         return static_cast<double>(detail::restore<F>(o).reference_norm());
       };
     }
-    if constexpr (HasInnerProduct<F>) inner_product_ = InnerProductRef(std::as_const(f));
+    if constexpr (HasInnerProduct<F> || HasCombine<F> || HasRotate<F>) {
+      inner_product_ = InnerProductRef(std::as_const(f));
+    }
     if constexpr (HasGlobalSize<F>) {
       global_size_ = [](void* o) {
         return static_cast<Eigen::Index>(detail::restore<F>(o).global_size());

@@ -1,0 +1,206 @@
+#include "jfnk/vector_operations.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include "jfnk/jfnk.hpp"
+#include "problems.hpp"
+
+namespace {
+
+using jfnk::InnerProductRef;
+using jfnk::Options;
+using jfnk::Report;
+using jfnk::Vector;
+using jfnk::Vectors;
+
+constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
+
+struct Set {
+  std::vector<Vector> vectors;
+  std::vector<const Vector*> columns;
+  std::vector<Vector*> mutable_columns;
+  Vector w;
+
+  Set(int n, int count) {
+    std::mt19937 generator(5);
+    std::normal_distribution<double> normal;
+    const auto random = [&] {
+      return Vector(Vector::NullaryExpr(n, [&](Eigen::Index) { return normal(generator); }));
+    };
+    for (int j = 0; j < count; ++j) vectors.push_back(random());
+    for (Vector& v : vectors) columns.push_back(&v);
+    for (Vector& v : vectors) mutable_columns.push_back(&v);
+    w = random();
+  }
+};
+
+// Sizes on either side of a block's, columns on either side of four at once and of a strip.
+constexpr int sizes[] = {0, 1, 7, 8, 100, 1023, 1024, 1025, 3000};
+constexpr int counts[] = {1, 3, 4, 9, 70};
+
+TEST(VectorOperations, SumsAreInnerProductsHoweverManyAtOnce) {
+  for (const int n : sizes) {
+    for (const int count : counts) {
+      const Set set(n, count);
+      Vector sums(count);
+      const InnerProductRef product;
+      product.dots(set.columns, set.w, {sums.data(), set.columns.size()});
+      for (int j = 0; j < count; ++j) {
+        const Vector& column = set.vectors[static_cast<std::size_t>(j)];
+        // Either sum is off by n rounding units of the sum of magnitudes at most.
+        const double size = column.cwiseAbs().dot(set.w.cwiseAbs());
+        EXPECT_LE(std::abs(sums[j] - column.dot(set.w)), 2 * n * rounding_unit * size) << n;
+        EXPECT_EQ(sums[j], product.dot(column, set.w)) << n << " rows, column " << j;
+      }
+    }
+  }
+}
+
+TEST(VectorOperations, CombinationsAddUpInOrder) {
+  for (const int n : sizes) {
+    for (const int count : counts) {
+      const Set set(n, count);
+      const Vector factors = Vector::LinSpaced(count, -1.0, 2.0);
+      for (const double own : {0.0, 1.0, -0.3}) {
+        Vector combined = set.w;
+        if (own == 0.0) combined.setConstant(std::numeric_limits<double>::quiet_NaN());
+        Vector expected = own == 0.0 ? Vector(Vector::Zero(n)) : Vector(own * set.w);
+        InnerProductRef().combine(own, set.columns, {factors.data(), set.columns.size()}, combined);
+        for (int j = 0; j < count; ++j) {
+          expected += factors[j] * set.vectors[static_cast<std::size_t>(j)];
+        }
+        EXPECT_EQ(combined, expected) << n << " rows, " << count << " columns";
+      }
+    }
+  }
+}
+
+TEST(VectorOperations, RotationsTurnNeighbours) {
+  for (const int n : sizes) {
+    Set set(n, 3);
+    std::vector<Vector> expected = set.vectors;
+    const double cosines[] = {0.6, 0.28};
+    const double sines[] = {0.8, -0.96};
+    for (std::size_t j = 0; j < 2; ++j) {
+      const Vector a = expected[j];
+      const Vector b = expected[j + 1];
+      expected[j] = cosines[j] * a + sines[j] * b;
+      expected[j + 1] = cosines[j] * b - sines[j] * a;
+    }
+    InnerProductRef().rotate(set.mutable_columns, cosines, sines);
+    EXPECT_EQ(set.vectors, expected) << n;
+  }
+}
+
+/// Calls `work(block)` for all blocks, on as many threads as are wanted.
+template <class Work>
+void spread(int threads, Eigen::Index n, Work&& work) {
+  std::vector<std::thread> team;
+  for (int thread = 0; thread < threads; ++thread) {
+    team.emplace_back([&, thread] {
+      for (Eigen::Index b = thread; b < jfnk::blocks_of(n); b += threads) work(b);
+    });
+  }
+  for (std::thread& member : team) member.join();
+}
+
+/// A residual whose vectors are worked on by several threads, as the header says.
+struct Threaded : jfnk_test::Bratu {
+  Threaded(int m, int threads) : Bratu(m, 6.0), threads_(threads) {}
+  double dot(const Vector& a, const Vector& b) const {
+    double sum = 0.0;
+    const Vector* const one = &a;
+    dots({&one, 1}, b, {&sum, 1});
+    return sum;
+  }
+  void dots(Vectors columns, const Vector& w, std::span<double> sums) const {
+    ++sweeps;
+    const Eigen::Index blocks = jfnk::blocks_of(w.size());
+    Eigen::MatrixXd parts(sums.size(), blocks);
+    spread(threads_, w.size(), [&](Eigen::Index b) {
+      jfnk::dots_of_block(b, columns, w, {parts.col(b).data(), columns.size()});
+    });
+    for (std::size_t j = 0; j < columns.size(); ++j) sums[j] = 0.0;
+    for (Eigen::Index b = 0; b < blocks; ++b) {
+      for (std::size_t j = 0; j < columns.size(); ++j) {
+        sums[j] += parts(static_cast<Eigen::Index>(j), b);
+      }
+    }
+  }
+  void combine(double own, Vectors columns, std::span<const double> factors, Vector& w) const {
+    ++combinations;
+    spread(threads_, w.size(),
+           [&](Eigen::Index b) { jfnk::combine_block(b, own, columns, factors, w); });
+  }
+  void rotate(std::span<Vector* const> columns, std::span<const double> cosines,
+              std::span<const double> sines) const {
+    ++rotations;
+    spread(threads_, columns.front()->size(),
+           [&](Eigen::Index b) { jfnk::rotate_block(b, columns, cosines, sines); });
+  }
+  mutable int sweeps = 0;
+  mutable int combinations = 0;
+  mutable int rotations = 0;
+
+ private:
+  int threads_;
+};
+
+TEST(VectorOperations, ThreadsGiveTheBitsOfNone) {
+  constexpr int m = 46;  // three blocks, the last not full
+  for (const jfnk::Method method : jfnk_test::all_methods) {
+    Options options;
+    options.method = method;
+    options.learning.enabled = false;
+    options.multisecant.memory = 10;  // so that columns are rotated
+    Vector expected = Vector::Zero(m * m);
+    const Report plain = solve(jfnk_test::Bratu(m, 6.0), expected, options);
+    for (const int threads : {2, 3}) {
+      Threaded F(m, threads);
+      Vector u = Vector::Zero(m * m);
+      const Report report = solve(F, u, options);
+      EXPECT_EQ(u, expected) << threads;
+      EXPECT_EQ(report.counts.total(), plain.counts.total()) << threads;
+      EXPECT_GT(F.sweeps, 0);
+      EXPECT_GT(F.combinations, 0);
+      EXPECT_TRUE(F.rotations > 0 || method != jfnk::Method::multisecant);
+    }
+  }
+}
+
+/// The same residual with nothing but `dot`.
+struct WithDotOnly : jfnk_test::Bratu {
+  using Bratu::Bratu;
+  double dot(const Vector& a, const Vector& b) const {
+    ++sums;
+    return InnerProductRef().dot(a, b);
+  }
+  mutable int sums = 0;
+};
+
+TEST(VectorOperations, TheInnerProductsOfAnIterationAreFewSums) {
+  constexpr int m = 20;
+  // Sums per Krylov vector: its difference's three norms, one of all the products, and perhaps
+  // another if it lies close to the others.
+  constexpr int most_sums = 6;
+  Options options;
+  options.method = jfnk::Method::newton_krylov;
+  options.learning.enabled = false;
+  Threaded F(m, 1);
+  Vector u = Vector::Zero(m * m);
+  const Report report = solve(F, u, options);
+  const WithDotOnly G(m, 6.0);
+  Vector v = Vector::Zero(m * m);
+  EXPECT_EQ(solve(G, v, options).counts.total(), report.counts.total());
+  EXPECT_EQ(u, v);
+  EXPECT_GE(report.krylov_iterations, 30);
+  EXPECT_LE(F.sweeps, most_sums * report.counts.total());
+  EXPECT_GT(G.sums, 2 * F.sweeps);
+}
+
+}  // namespace
