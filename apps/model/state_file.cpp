@@ -92,6 +92,8 @@ class FieldReader {
   void read_particles(const std::string& name, Matrix& field) const {
     const std::string path = particle_group + name;
     std::vector<double> values(static_cast<std::size_t>(field.size()));
+    // A field the scene does not have: how long its columns would be does not matter.
+    if (values.empty() && file_.read_all<double>(path).empty()) return;
     file_.read<double>(path, values, file_shape(field));
     require_finite(path, values);
     if constexpr (component_major<Matrix>) {

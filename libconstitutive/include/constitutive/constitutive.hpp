@@ -7,6 +7,7 @@
 #include "constitutive/elastic.hpp"
 #include "constitutive/material.hpp"
 #include "constitutive/mixed.hpp"
+#include "constitutive/mixed_mohr_coulomb.hpp"
 #include "constitutive/mohr_coulomb.hpp"
 #include "constitutive/objective.hpp"
 #include "constitutive/parameters.hpp"
