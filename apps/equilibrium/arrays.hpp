@@ -30,18 +30,19 @@ template <int Dim>
 struct StepArrays {
   template <int Rows>
   using Columns = Eigen::Matrix<double, Rows, Eigen::Dynamic>;
+  static constexpr int second_size = Dim * fpm::second_gradient_size<Dim>;
 
   ArraySizes sizes;
   double load = 0.0;         // load parameter at the end of the step
   Eigen::VectorXd external;  // [N/m or N] dead loads
   fpm::Field<Dim> start_position;
-  Eigen::VectorXd position;          // from a point next to the body, extended to the images
-  fpm::Field<Dim> image_motion;      // what the planes' motion of the step adds to the images
-  Columns<6> second_gradient;        // H_a(n), with sub-points
-  Columns<Dim> memory_first;         // sum kappa e(n)
-  Columns<Dim * Dim> memory_second;  // sum kappa e(n) x X
-  Columns<Dim * Dim> pair_gradient;  // of the motion, since Xref
-  Eigen::VectorXd pair_stiffness;    // k_a
+  Eigen::VectorXd position;              // from a point next to the body, extended to the images
+  fpm::Field<Dim> image_motion;          // what the planes' motion of the step adds to the images
+  Columns<second_size> second_gradient;  // H_a(n), with sub-points
+  Columns<Dim> memory_first;             // sum kappa e(n)
+  Columns<Dim * Dim> memory_second;      // sum kappa e(n) x X
+  Columns<Dim * Dim> pair_gradient;      // of the motion, since Xref
+  Eigen::VectorXd pair_stiffness;        // k_a
 
   template <class Self, class Visitor>
   static void for_each_array(Self& self, Visitor&& visit) {
@@ -50,7 +51,7 @@ struct StepArrays {
     visit("start_position", self.start_position, n.particles, Dim);
     visit("position", self.position, n.extended * Dim, 1);
     visit("image_motion", self.image_motion, n.moving_images, Dim);
-    visit("second_gradient", self.second_gradient, 6, n.subpoints);
+    visit("second_gradient", self.second_gradient, second_size, n.subpoints);
     visit("memory_first", self.memory_first, Dim, n.pairs);
     visit("memory_second", self.memory_second, Dim * Dim, n.pairs);
     visit("pair_gradient", self.pair_gradient, Dim * Dim, n.pairs);

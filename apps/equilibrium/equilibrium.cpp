@@ -17,10 +17,9 @@ namespace {
 
 template <int Dim>
 LawLoops<Dim> choose_loops(const model::StateLayout& layout) {
-  if constexpr (Dim == 2) {
-    if (layout.subpoints) {
-      return layout.finite ? law_loops<2, MixedLaw<true>>() : law_loops<2, MixedLaw<false>>();
-    }
+  if (layout.subpoints) {
+    return layout.finite ? law_loops<Dim, MixedLaw<Dim, true>>()
+                         : law_loops<Dim, MixedLaw<Dim, false>>();
   }
   return layout.finite ? law_loops<Dim, PlainLaw<Dim, true>>()
                        : law_loops<Dim, PlainLaw<Dim, false>>();
@@ -128,7 +127,10 @@ void Equilibrium<Dim>::begin_step(double load) {
         for (int e = 0; e < m * Dim; ++e) {
           row[e] = moments[e * fpm::MomentOperator<Dim>::block_stride + r];
         }
-        if (model_.channels.second) step_.second_gradient.col(a) = row.segment(second_moment, 6);
+        if (model_.channels.second) {
+          step_.second_gradient.col(a) =
+              row.template segment<StepArrays<Dim>::second_size>(second_moment);
+        }
         if (model_.channels.pair) remember_pairs(a, row);
       }
     }

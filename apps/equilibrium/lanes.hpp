@@ -97,6 +97,11 @@ inline Lanes sqrt(const Lanes& a) {
   for (int lane = 0; lane < lane_count; ++lane) r[lane] = std::sqrt(a[lane]);
   return Lanes(r);
 }
+inline Lanes cbrt(const Lanes& a) {
+  Lanes::Register r;
+  for (int lane = 0; lane < lane_count; ++lane) r[lane] = std::cbrt(a[lane]);
+  return Lanes(r);
+}
 inline Lanes min(const Lanes& a, const Lanes& b) {
   return select(b < a, b, a);
 }

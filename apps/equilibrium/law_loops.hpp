@@ -39,7 +39,7 @@ struct LawLoops {
 
 template <int Dim, bool Finite>
 struct PlainLaw;
-template <bool Finite>
+template <int Dim, bool Finite>
 struct MixedLaw;
 
 /// The loops of a law; instantiated law by law in instances/.

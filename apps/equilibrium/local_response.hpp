@@ -15,18 +15,18 @@ namespace equilibrium {
 template <int Dim, class Real = double>
 struct ParticleStart {
   fpm::Tensor<Dim, Real> gradient;                 // F_a(n); identity in small strain
-  fpm::BasicSecondGradient<Real> second_gradient;  // H_a(n), total; with sub-points only
+  fpm::SecondGradient<Dim, Real> second_gradient;  // H_a(n), total; with sub-points only
   Real reference_volume = 0.0;                     // Vref
   constitutive::PointState<Dim, Real> point;
   // With sub-points only.
-  std::array<constitutive::StressVector<2, Real>, fpm::subpoint_count> deviator;
+  std::array<constitutive::StressVector<Dim, Real>, fpm::subpoint_count> deviator;
 };
 
 /// The increments the row's neighbourhood gives it.
 template <int Dim, class Real = double>
 struct ParticleIncrement {
   fpm::Tensor<Dim, Real> gradient;                 // sum du x G
-  fpm::BasicSecondGradient<Real> second_gradient;  // sum du x h; with sub-points only
+  fpm::SecondGradient<Dim, Real> second_gradient;  // sum du x h; with sub-points only
 };
 
 /// What comes out: nominal stresses for the forces, and the end-of-step point.
@@ -34,17 +34,18 @@ template <int Dim, class Real = double>
 struct ParticleResponse {
   constitutive::Mask<Real> admissible{};         // false: inverted or not finite, the rest is void
   fpm::Tensor<Dim, Real> nominal;                // P_a = V sigma F^-T, volume included
-  fpm::BasicSecondGradient<Real> second_stress;  // T_a, conjugate to H; with sub-points only
+  fpm::SecondGradient<Dim, Real> second_stress;  // T_a, conjugate to H; with sub-points only
   fpm::Tensor<Dim, Real> rotation;               // Q of the step
   constitutive::PointState<Dim, Real> point;
-  std::array<constitutive::StressVector<2, Real>, fpm::subpoint_count> deviator;
+  std::array<constitutive::StressVector<Dim, Real>, fpm::subpoint_count> deviator;
   Real plastic_increment = 0.0;
   constitutive::Mask<Real> plastic{};
 };
 
 /// Number of generalised strains: gradient, and with sub-points the second gradient.
 template <int Dim, bool Mixed>
-inline constexpr int generalised_size = Dim* Dim + (Mixed ? 2 * 3 : 0);
+inline constexpr int generalised_size = Dim* Dim +
+                                        (Mixed ? Dim * fpm::second_gradient_size<Dim> : 0);
 
 /// d(P, T) / d(gradient, second gradient), both column-major, and dQ / d(gradient).
 template <int Dim, bool Mixed, class Real = double>

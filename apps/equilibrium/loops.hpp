@@ -17,14 +17,16 @@ struct LoopsOf {
   template <class Real>
   using Vector = fpm::Vector<Dim, Real>;
   template <class Real>
+  using Second = fpm::SecondGradient<Dim, Real>;
+  template <class Real>
   using Mask = constitutive::Mask<Real>;
   static constexpr int size = generalised_size<Dim, Law::mixed>;
+  static constexpr int second_size = fpm::SecondGradient<Dim>::SizeAtCompileTime;
 
   /// Stores generalised stresses and pair forces of one row where `scatter` looks for them.
   template <class Real>
   static void put(const Data& data, fpm::Index a, const Tensor<Real>& nominal,
-                  const fpm::BasicSecondGradient<Real>& second,
-                  const fpm::PairResponse<Dim, Real>* pair) {
+                  const Second<Real>& second, const fpm::PairResponse<Dim, Real>* pair) {
     const Eigen::Index stride = data.op.stride();
     double* out = data.evaluation.stress.data() + a;
     const auto put_all = [&](const Real* values, int count) {
@@ -45,7 +47,7 @@ struct LoopsOf {
       for (int i = 0; i < Dim; ++i)
         store(data.evaluation.own_force.data() + i * n + a, pair->own_force[i]);
     }
-    if constexpr (Law::mixed) put_all(second.data(), 6);
+    if constexpr (Law::mixed) put_all(second.data(), second_size);
   }
 
   template <class Real>
@@ -159,14 +161,14 @@ struct LoopsOf {
       Eigen::Matrix<Real, size, 1> strain;
       strain.template head<Dim * Dim>() = detail::flat(direction.gradient);
       if constexpr (Law::mixed) {
-        strain.template tail<6>() = detail::flat(direction.second_gradient);
+        strain.template tail<second_size>() = detail::flat(direction.second_gradient);
       }
       const auto stress =
           product<size, Real>(data.tangents.stress.data() + StressTangents<size>::at(a, 0), strain);
       const Tensor<Real> nominal = Eigen::Map<const Tensor<Real>>(stress.data());
-      fpm::BasicSecondGradient<Real> second;
+      Second<Real> second;
       if constexpr (Law::mixed) {
-        second = Eigen::Map<const fpm::BasicSecondGradient<Real>>(stress.data() + 4);
+        second = Eigen::Map<const Second<Real>>(stress.data() + Dim * Dim);
       }
       const Mask<Real> everywhere = Real(0.0) < Real(1.0);
       if (!moments.channels.pair) {
@@ -210,7 +212,8 @@ struct LoopsOf {
       if (s.layout.incremental && response.plastic) s.released[a] = 1.0;
       if constexpr (Law::mixed) {
         for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
-          s.subpoint_deviator.template block<4, 1>(4 * static_cast<Eigen::Index>(k), a) =
+          constexpr int rows = constitutive::stress_size<Dim>;
+          s.subpoint_deviator.template block<rows, 1>(rows * static_cast<Eigen::Index>(k), a) =
               response.deviator[k];
         }
       }

@@ -1,82 +1,88 @@
 #pragma once
 
-#include "constitutive/mixed.hpp"
+#include "constitutive/mixed_mohr_coulomb.hpp"
 #include "equilibrium/local_response.hpp"
 
 namespace equilibrium {
 
-/// Mixed sub-point integration in plane strain: one pressure per particle, four deviators.
+/// Mixed sub-point integration: one pressure per particle, four deviators.
 ///
 /// Each sub-point has its own finite motion dF_k = F_k F_k(n)^-1 of the Taylor field, so a rigid
-/// rotation of a bent body strains nothing; its in-plane dilation is replaced by the particle's,
-/// which leaves the two unknowns per dilation constraint that collapse needs. Forces are
-/// work-conjugate: with A = dev2 s_k the in-plane deviator of s_k and tr2 its in-plane trace,
-///   P = V ((p + sum w tr2(s_k) / 2) F^-T + sum w A_k F_k^-T),  T = V sum w (A_k F_k^-T) x xi_k.
+/// rotation of a bent body strains nothing; its dilation (in plane strain that in the plane) is left
+/// to the particle's, which leaves as many unknowns per dilation constraint as there are dimensions,
+/// as collapse needs. Forces are work-conjugate. In plane strain, with A = dev2 s_k the in-plane
+/// deviator of s_k and tr2 its in-plane trace,
+///   P = V ((p + sum w tr2(s_k) / 2) F^-T + sum w A_k F_k^-T),  T = V sum w (A_k F_k^-T) x xi_k;
+/// in space A = s_k and tr2 is 0.
 /// Departure: not in Chen, Huang & Lyamin 2020 (share/doc/decisions/mixed-subpoints.md).
-template <bool Finite>
+template <int Dim, bool Finite>
 struct MixedLaw {
   static constexpr bool mixed = true;
-  template <class Material>
-  static constexpr bool supports =
-      constitutive::ConeMaterial<Material> || std::same_as<Material, constitutive::Elastic>;
   template <class Material, class Real>
-  static void respond(const Material& material, const ParticleStart<2, Real>& start,
-                      const ParticleIncrement<2, Real>& increment,
-                      ParticleResponse<2, Real>& response);
+  static void respond(const Material& material, const ParticleStart<Dim, Real>& start,
+                      const ParticleIncrement<Dim, Real>& increment,
+                      ParticleResponse<Dim, Real>& response);
   template <class Material, class Real>
   static constitutive::Mask<Real> linearise(const Material& material,
-                                            const ParticleStart<2, Real>& start,
-                                            const ParticleIncrement<2, Real>& increment,
-                                            ParticleTangent<2, true, Real>& tangent);
+                                            const ParticleStart<Dim, Real>& start,
+                                            const ParticleIncrement<Dim, Real>& increment,
+                                            ParticleTangent<Dim, true, Real>& tangent);
 };
 
 namespace detail {
 
-template <class Real>
-using MixedTrial = constitutive::MixedTrial<fpm::subpoint_count, 2, Real>;
+template <int Dim, class Real>
+using MixedTrial = constitutive::MixedTrial<fpm::subpoint_count, Dim, Real>;
 
 /// Motion of a particle and of its sub-points; in small strain the gradients alone.
-template <bool Finite, class Real>
+template <int Dim, bool Finite, class Real>
 struct MixedMotion {
-  using Motion = constitutive::ObjectiveIncrement<2, Real>;
-  using Tensor = fpm::Tensor<2, Real>;
+  using Motion = constitutive::ObjectiveIncrement<Dim, Real>;
+  using Tensor = fpm::Tensor<Dim, Real>;
 
   Motion particle;
   std::array<Motion, fpm::subpoint_count> sub;
-  std::array<fpm::Vector<2, Real>, fpm::subpoint_count> offset;  // xi_k
-  std::array<Tensor, fpm::subpoint_count> inverse_now;           // F_k^-1
+  std::array<fpm::Vector<Dim, Real>, fpm::subpoint_count> offset;  // xi_k
+  std::array<Tensor, fpm::subpoint_count> inverse_now;             // F_k^-1
   Tensor particle_inverse_now;
   Real volume;
   constitutive::Mask<Real> admissible;
 
-  MixedMotion(const ParticleStart<2, Real>& start, const ParticleIncrement<2, Real>& increment) {
+  MixedMotion(const ParticleStart<Dim, Real>& start,
+              const ParticleIncrement<Dim, Real>& increment) {
     Real ratio = 1.0;
     admissible = follow(start.gradient, increment.gradient, particle, particle_inverse_now, ratio);
     volume = start.reference_volume * ratio;
     for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
-      offset[k] = fpm::subpoint_offset(k, start.reference_volume);
+      offset[k] = fpm::subpoint_offset<Dim>(k, start.reference_volume);
       const Tensor change =
-          increment.gradient + fpm::second_gradient_at(increment.second_gradient, offset[k]);
+          increment.gradient + fpm::second_gradient_at<Dim>(increment.second_gradient, offset[k]);
       Tensor begin = start.gradient;
-      if constexpr (Finite) begin += fpm::second_gradient_at(start.second_gradient, offset[k]);
+      if constexpr (Finite) begin += fpm::second_gradient_at<Dim>(start.second_gradient, offset[k]);
       admissible = admissible & follow(begin, change, sub[k], inverse_now[k], ratio);
     }
   }
 
-  /// Deviatoric tensor components (xx yy zz xy) of a sub-point's strain, its in-plane dilation
-  /// replaced by the particle's.
-  static constitutive::StressVector<2, Real> deviatoric(const Tensor& sub_strain,
-                                                        const Real& dilation) {
-    const Real difference = 0.5 * (sub_strain(0, 0) - sub_strain(1, 1));
-    const Real sixth = dilation / 6.0;
-    return {difference + sixth, sixth - difference, -2.0 * sixth, sub_strain(0, 1)};
+  /// Deviatoric tensor components of a sub-point's strain; in the plane its dilation is replaced by
+  /// the particle's, as out of the plane there is no strain to make up for it.
+  static constitutive::StressVector<Dim, Real> deviatoric(const Tensor& sub_strain,
+                                                          const Real& dilation) {
+    if constexpr (Dim == 2) {
+      const Real difference = 0.5 * (sub_strain(0, 0) - sub_strain(1, 1));
+      const Real sixth = dilation / 6.0;
+      return {difference + sixth, sixth - difference, -2.0 * sixth, sub_strain(0, 1)};
+    } else {
+      const Real third = sub_strain.trace() / 3.0;
+      return {sub_strain(0, 0) - third, sub_strain(1, 1) - third, sub_strain(2, 2) - third,
+              sub_strain(0, 1),         sub_strain(1, 2),         sub_strain(2, 0)};
+    }
   }
 
  private:
   static constitutive::Mask<Real> follow(const Tensor& start, const Tensor& change, Motion& motion,
                                          Tensor& inverse_now, Real& volume_ratio) {
     if constexpr (Finite) {
-      const CurrentGradient<2, Real> now(start, change);
+      const CurrentGradient<Dim, Real> now(start, change);
       inverse_now = now.inverse;
       motion = constitutive::objective_increment(change, midpoint(start, change));
       volume_ratio = now.determinant;
@@ -91,17 +97,17 @@ struct MixedMotion {
   }
 };
 
-template <bool Finite, class Material, class Real>
-MixedTrial<Real> mixed_trial(const Material& material, const ParticleStart<2, Real>& start,
-                             const MixedMotion<Finite, Real>& motion) {
+template <int Dim, bool Finite, class Material, class Real>
+MixedTrial<Dim, Real> mixed_trial(const Material& material, const ParticleStart<Dim, Real>& start,
+                                  const MixedMotion<Dim, Finite, Real>& motion) {
   using namespace constitutive;
   const Real dilation = motion.particle.strain.trace();
   const Real twice_shear = 2.0 * material.moduli.shear;
-  MixedTrial<Real> trial;
+  MixedTrial<Dim, Real> trial;
   trial.pressure = mean_stress(start.point.stress) + material.moduli.bulk * dilation;
   for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
     trial.deviator[k] =
-        twice_shear * MixedMotion<Finite, Real>::deviatoric(motion.sub[k].strain, dilation);
+        twice_shear * MixedMotion<Dim, Finite, Real>::deviatoric(motion.sub[k].strain, dilation);
     if constexpr (Finite) {
       trial.deviator[k] += rotate(start.deviator[k], motion.sub[k].rotation);
     } else {
@@ -111,42 +117,54 @@ MixedTrial<Real> mixed_trial(const Material& material, const ParticleStart<2, Re
   return trial;
 }
 
-/// The in-plane deviator of a deviatoric stress vector.
-template <class Real>
-fpm::Tensor<2, Real> plane_deviator(const constitutive::StressVector<2, Real>& s) {
-  const Real half_difference = 0.5 * (s[0] - s[1]);
-  fpm::Tensor<2, Real> a;
-  a << half_difference, s[3], s[3], -half_difference;
-  return a;
+/// The part of a deviatoric stress that works on the sub-points' own gradients: in the plane its
+/// deviator there.
+template <int Dim, class Real>
+fpm::Tensor<Dim, Real> own_part(const constitutive::StressVector<Dim, Real>& s) {
+  if constexpr (Dim == 2) {
+    const Real half_difference = 0.5 * (s[0] - s[1]);
+    fpm::Tensor<2, Real> a;
+    a << half_difference, s[3], s[3], -half_difference;
+    return a;
+  } else {
+    return constitutive::spatial_part<3>(s);
+  }
+}
+
+/// The rest, which works on the particle's dilation: half the trace in the plane, nothing in space.
+template <int Dim, class Real>
+Real spherical_part(const constitutive::StressVector<Dim, Real>& s) {
+  if constexpr (Dim == 2) return 0.5 * (s[0] + s[1]);
+  return Real(0.0);
 }
 
 }  // namespace detail
 
-template <bool Finite>
+template <int Dim, bool Finite>
 template <class Material, class Real>
-void MixedLaw<Finite>::respond(const Material& material, const ParticleStart<2, Real>& start,
-                               const ParticleIncrement<2, Real>& increment,
-                               ParticleResponse<2, Real>& response) {
+void MixedLaw<Dim, Finite>::respond(const Material& material, const ParticleStart<Dim, Real>& start,
+                                    const ParticleIncrement<Dim, Real>& increment,
+                                    ParticleResponse<Dim, Real>& response) {
   using namespace constitutive;
   using constitutive::select;
-  const detail::MixedMotion<Finite, Real> motion(start, increment);
+  const detail::MixedMotion<Dim, Finite, Real> motion(start, increment);
   const auto trial = detail::mixed_trial(material, start, motion);
   const auto result =
       mixed_return(material, trial, fpm::subpoint_weights, start.point.plastic_volume_strain);
 
-  StressVector<2, Real> mean = isotropic<2>(result.pressure);
+  StressVector<Dim, Real> mean = isotropic<Dim>(result.pressure);
   Real spherical = result.pressure;
-  fpm::Tensor<2, Real> nominal = fpm::Tensor<2, Real>::Zero();
+  fpm::Tensor<Dim, Real> nominal = fpm::Tensor<Dim, Real>::Zero();
   response.second_stress.setZero();
   for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
     const Real share = fpm::subpoint_weights[k];
-    const StressVector<2, Real>& s = result.deviator[k];
+    const StressVector<Dim, Real>& s = result.deviator[k];
     mean += share * s;
-    spherical += 0.5 * share * (s[0] + s[1]);
-    const fpm::Tensor<2, Real> own =
-        (motion.volume * share) * detail::plane_deviator(s) * motion.inverse_now[k].transpose();
+    spherical += share * detail::spherical_part<Dim>(s);
+    const fpm::Tensor<Dim, Real> own =
+        (motion.volume * share) * detail::own_part<Dim>(s) * motion.inverse_now[k].transpose();
     nominal += own;
-    fpm::add_second_stress(own, motion.offset[k], response.second_stress);
+    fpm::add_second_stress<Dim>(own, motion.offset[k], response.second_stress);
   }
   response.nominal =
       nominal + (motion.volume * spherical) * motion.particle_inverse_now.transpose();
@@ -165,25 +183,25 @@ void MixedLaw<Finite>::respond(const Material& material, const ParticleStart<2, 
 namespace detail {
 
 /// Changes along one direction (gradient, second gradient) of a particle's increment.
-template <class Real>
+template <int Dim, class Real>
 struct MixedDirection {
-  fpm::Tensor<2, Real> gradient;
-  std::array<fpm::Tensor<2, Real>, fpm::subpoint_count> sub;  // at the sub-points
-  fpm::Tensor<2, Real> rotation;                              // dQ of the particle
-  MixedTrial<Real> trial;                                     // of the trial stress
+  fpm::Tensor<Dim, Real> gradient;
+  std::array<fpm::Tensor<Dim, Real>, fpm::subpoint_count> sub;  // at the sub-points
+  fpm::Tensor<Dim, Real> rotation;                              // dQ of the particle
+  MixedTrial<Dim, Real> trial;                                  // of the trial stress
 };
 
-template <bool Finite, class Material, class Real>
-MixedDirection<Real> differentiate_trial(const Material& material,
-                                         const ParticleStart<2, Real>& start,
-                                         const MixedMotion<Finite, Real>& motion,
-                                         const fpm::Tensor<2, Real>& gradient,
-                                         const fpm::BasicSecondGradient<Real>& second) {
+template <int Dim, bool Finite, class Material, class Real>
+MixedDirection<Dim, Real> differentiate_trial(const Material& material,
+                                              const ParticleStart<Dim, Real>& start,
+                                              const MixedMotion<Dim, Finite, Real>& motion,
+                                              const fpm::Tensor<Dim, Real>& gradient,
+                                              const fpm::SecondGradient<Dim, Real>& second) {
   using namespace constitutive;
-  using Motion = MixedMotion<Finite, Real>;
-  MixedDirection<Real> d;
+  using Motion = MixedMotion<Dim, Finite, Real>;
+  MixedDirection<Dim, Real> d;
   d.gradient = gradient;
-  fpm::Tensor<2, Real> strain = symmetric(gradient);
+  fpm::Tensor<Dim, Real> strain = symmetric(gradient);
   d.rotation.setZero();
   if constexpr (Finite) {
     const auto particle = derivative(motion.particle, gradient);
@@ -194,11 +212,11 @@ MixedDirection<Real> differentiate_trial(const Material& material,
   const Real twice_shear = 2.0 * material.moduli.shear;
   d.trial.pressure = material.moduli.bulk * dilation;
   for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
-    d.sub[k] = gradient + fpm::second_gradient_at(second, motion.offset[k]);
+    d.sub[k] = gradient + fpm::second_gradient_at<Dim>(second, motion.offset[k]);
     if constexpr (Finite) {
       const auto sub = derivative(motion.sub[k], d.sub[k]);
       d.trial.deviator[k] =
-          rotate_derivative<2>(start.deviator[k], motion.sub[k].rotation, sub.rotation) +
+          rotate_derivative<Dim>(start.deviator[k], motion.sub[k].rotation, sub.rotation) +
           twice_shear * Motion::deviatoric(sub.strain, dilation);
     } else {
       d.trial.deviator[k] = twice_shear * Motion::deviatoric(symmetric(d.sub[k]), dilation);
@@ -208,30 +226,30 @@ MixedDirection<Real> differentiate_trial(const Material& material,
 }
 
 /// Product rule over volume, stress and inverse gradients: (dP, dT) of a stress change.
-template <bool Finite, class Real>
-Eigen::Matrix<Real, 10, 1> differentiate_forces(
-    const MixedMotion<Finite, Real>& motion,
-    const constitutive::MixedResult<fpm::subpoint_count, 2, Real>& stress,
-    const MixedTrial<Real>& change, const MixedDirection<Real>& d) {
-  using Tensor = fpm::Tensor<2, Real>;
+template <int Dim, bool Finite, class Real>
+Eigen::Matrix<Real, generalised_size<Dim, true>, 1> differentiate_forces(
+    const MixedMotion<Dim, Finite, Real>& motion,
+    const constitutive::MixedResult<fpm::subpoint_count, Dim, Real>& stress,
+    const MixedTrial<Dim, Real>& change, const MixedDirection<Dim, Real>& d) {
+  using Tensor = fpm::Tensor<Dim, Real>;
   const Real log_volume = Finite ? (motion.particle_inverse_now * d.gradient).trace() : Real(0.0);
   Real spherical = stress.pressure;
   Real d_spherical = change.pressure;
   Tensor nominal = Tensor::Zero();
-  fpm::BasicSecondGradient<Real> second = fpm::BasicSecondGradient<Real>::Zero();
+  fpm::SecondGradient<Dim, Real> second = fpm::SecondGradient<Dim, Real>::Zero();
   for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
     const Real share = fpm::subpoint_weights[k];
-    spherical += 0.5 * share * (stress.deviator[k][0] + stress.deviator[k][1]);
-    d_spherical += 0.5 * share * (change.deviator[k][0] + change.deviator[k][1]);
+    spherical += share * spherical_part<Dim>(stress.deviator[k]);
+    d_spherical += share * spherical_part<Dim>(change.deviator[k]);
     const Tensor inverse_t = motion.inverse_now[k].transpose();
-    Tensor own = plane_deviator(change.deviator[k]) * inverse_t;
+    Tensor own = own_part<Dim>(change.deviator[k]) * inverse_t;
     if constexpr (Finite) {
-      const Tensor base = plane_deviator(stress.deviator[k]) * inverse_t;
+      const Tensor base = own_part<Dim>(stress.deviator[k]) * inverse_t;
       own += log_volume * base - base * d.sub[k].transpose() * inverse_t;
     }
     own *= motion.volume * share;
     nominal += own;
-    fpm::add_second_stress(own, motion.offset[k], second);
+    fpm::add_second_stress<Dim>(own, motion.offset[k], second);
   }
   const Tensor inverse_t = motion.particle_inverse_now.transpose();
   Tensor sphere = d_spherical * inverse_t;
@@ -239,21 +257,20 @@ Eigen::Matrix<Real, 10, 1> differentiate_forces(
     sphere += spherical * (log_volume * inverse_t - inverse_t * d.gradient.transpose() * inverse_t);
   }
   nominal += motion.volume * sphere;
-  Eigen::Matrix<Real, 10, 1> forces;
+  Eigen::Matrix<Real, generalised_size<Dim, true>, 1> forces;
   forces << flat(nominal), flat(second);
   return forces;
 }
 
 }  // namespace detail
 
-template <bool Finite>
+template <int Dim, bool Finite>
 template <class Material, class Real>
-constitutive::Mask<Real> MixedLaw<Finite>::linearise(const Material& material,
-                                                     const ParticleStart<2, Real>& start,
-                                                     const ParticleIncrement<2, Real>& increment,
-                                                     ParticleTangent<2, true, Real>& tangent) {
-  using Generalised = Eigen::Matrix<Real, generalised_size<2, true>, 1>;
-  const detail::MixedMotion<Finite, Real> motion(start, increment);
+constitutive::Mask<Real> MixedLaw<Dim, Finite>::linearise(
+    const Material& material, const ParticleStart<Dim, Real>& start,
+    const ParticleIncrement<Dim, Real>& increment, ParticleTangent<Dim, true, Real>& tangent) {
+  using Generalised = Eigen::Matrix<Real, generalised_size<Dim, true>, 1>;
+  const detail::MixedMotion<Dim, Finite, Real> motion(start, increment);
   const auto trial = detail::mixed_trial(material, start, motion);
   const Real& plastic_volume = start.point.plastic_volume_strain;
   const auto stress =
@@ -262,14 +279,14 @@ constitutive::Mask<Real> MixedLaw<Finite>::linearise(const Material& material,
       constitutive::mixed_tangent(material, trial, fpm::subpoint_weights, plastic_volume, stress);
   for (int column = 0; column < Generalised::SizeAtCompileTime; ++column) {
     const auto unit = detail::unit<Generalised>(column);
-    const fpm::Tensor<2, Real> gradient = Eigen::Map<const fpm::Tensor<2, Real>>(unit.data());
-    const fpm::BasicSecondGradient<Real> second =
-        Eigen::Map<const fpm::BasicSecondGradient<Real>>(unit.data() + 4);
+    const fpm::Tensor<Dim, Real> gradient = Eigen::Map<const fpm::Tensor<Dim, Real>>(unit.data());
+    const fpm::SecondGradient<Dim, Real> second =
+        Eigen::Map<const fpm::SecondGradient<Dim, Real>>(unit.data() + Dim * Dim);
     const auto d = detail::differentiate_trial(material, start, motion, gradient, second);
-    detail::MixedTrial<Real> change;
+    detail::MixedTrial<Dim, Real> change;
     on_trial.apply_to_trial(d.trial, change);
     tangent.stress.col(column) = detail::differentiate_forces(motion, stress, change, d);
-    if (column < 4) tangent.rotation.col(column) = detail::flat(d.rotation);
+    if (column < Dim * Dim) tangent.rotation.col(column) = detail::flat(d.rotation);
   }
   return motion.admissible & !stress.outcome.failed;
 }

@@ -10,8 +10,6 @@ namespace equilibrium {
 template <int Dim, bool Finite>
 struct PlainLaw {
   static constexpr bool mixed = false;
-  template <class Material>
-  static constexpr bool supports = true;
   template <class Material, class Real>
   static void respond(const Material& material, const ParticleStart<Dim, Real>& start,
                       const ParticleIncrement<Dim, Real>& increment,

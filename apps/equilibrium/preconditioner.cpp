@@ -24,6 +24,7 @@ void TwoLevelPreconditioner<Dim>::build_blocks(const model::Model<Dim>& model,
                                                const fpm::MomentOperator<Dim>& op) {
   using Tensor = fpm::Tensor<Dim>;
   using Vector = fpm::Vector<Dim>;
+  using Second = Eigen::Matrix<double, fpm::second_gradient_size<Dim>, 1>;
   const bool pair = model.channels.pair;
   const bool second = model.channels.second;
   Blocks sum(Dim * Dim, size_);
@@ -40,18 +41,16 @@ void TwoLevelPreconditioner<Dim>::build_blocks(const model::Model<Dim>& model,
                    model.youngs_modulus[model.material[static_cast<std::size_t>(a)]]
              : 0.0;
     Vector own = Vector::Zero();
-    Eigen::Vector3d own_second = Eigen::Vector3d::Zero();
+    Second own_second = Second::Zero();
     double own_kappa = 0.0;
-    const auto subpoint_block = [&](const Eigen::Vector3d& h) {
+    const auto subpoint_block = [&](const Second& h) {
       Tensor block = Tensor::Zero();
-      if constexpr (Dim == 2) {
-        for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
-          const Vector xi = fpm::subpoint_offset(k, volume);
-          const Vector g{h[0] * xi[0] + h[1] * xi[1], h[1] * xi[0] + h[2] * xi[1]};
-          // The in-plane deviator alone works at the sub-points.
-          block +=
-              fpm::subpoint_weights[k] * m.shear * volume * g.squaredNorm() * Tensor::Identity();
-        }
+      for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
+        const Vector xi = fpm::subpoint_offset<Dim>(k, volume);
+        const Vector g = fpm::second_weight_at<Dim>(h, xi);
+        // The deviator alone works at the sub-points, in the plane that of the plane.
+        block += fpm::subpoint_weights[k] * m.shear * volume *
+                 (g.squaredNorm() * Tensor::Identity() + (1.0 - 2.0 / Dim) * g * g.transpose());
       }
       return block;
     };
@@ -64,8 +63,7 @@ void TwoLevelPreconditioner<Dim>::build_blocks(const model::Model<Dim>& model,
         own_kappa += w[fpm::Channels::kappa(Dim)];
       }
       if (second) {
-        const Eigen::Vector3d h =
-            Eigen::Map<const Eigen::Vector3d>(w + model.channels.second_gradient(Dim));
+        const Second h = Eigen::Map<const Second>(w + model.channels.second_gradient(Dim));
         own_second -= h;
         block += subpoint_block(h);
       }

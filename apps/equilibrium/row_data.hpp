@@ -27,7 +27,8 @@ struct RowMoments {
     ParticleIncrement<Dim, Real> i;
     read(0, Dim * Dim, i.gradient.data());
     if constexpr (Mixed) {
-      read(Dim * channels.second_gradient(Dim), 6, i.second_gradient.data());
+      read(Dim * channels.second_gradient(Dim), fpm::SecondGradient<Dim>::SizeAtCompileTime,
+           i.second_gradient.data());
     }
     return i;
   }
@@ -75,15 +76,14 @@ ParticleStart<Dim, Real> particle_start(const LoopData<Dim>& data, Eigen::Index 
     start.point.plastic_strain = load<Real>(state.plastic_strain.data() + a);
     start.point.plastic_volume_strain = load<Real>(state.plastic_volume_strain.data() + a);
   }
-  if constexpr (Dim == 2) {
-    if (state.layout.subpoints) {
-      load_columns<6>(data.step.second_gradient.col(a).data(), start.second_gradient.data());
-      std::array<Real, State::subpoint_rows> deviator;
-      load_columns<State::subpoint_rows>(state.subpoint_deviator.col(a).data(), deviator.data());
-      for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
-        start.deviator[k] =
-            Eigen::Map<const constitutive::StressVector<2, Real>>(deviator.data() + 4 * k);
-      }
+  if (state.layout.subpoints) {
+    constexpr int second = fpm::SecondGradient<Dim>::SizeAtCompileTime;
+    load_columns<second>(data.step.second_gradient.col(a).data(), start.second_gradient.data());
+    std::array<Real, State::subpoint_rows> deviator;
+    load_columns<State::subpoint_rows>(state.subpoint_deviator.col(a).data(), deviator.data());
+    for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
+      start.deviator[k] = Eigen::Map<const constitutive::StressVector<Dim, Real>>(
+          deviator.data() + State::stress_rows * k);
     }
   }
   return start;

@@ -71,10 +71,7 @@ struct RowLoop {
   template <class Work, class Material>
   static fpm::Index rows(const LoopData<Dim>& data, fpm::Index begin, fpm::Index end,
                          const double* moments, const Material& material) {
-    // The scene's check refuses a material that its integration does not support.
-    if constexpr (!Law::template supports<Material>) {
-      return begin;
-    } else if constexpr (wide<Work, Material>) {
+    if constexpr (wide<Work, Material>) {
       return hot_rows<Work>(data, begin, end, moments, material);
     } else {
       return plain_rows<Work>(data, begin, end, moments, material);

@@ -180,7 +180,8 @@ State<Dim> initial_state(const Model<Dim>& model) {
       const constitutive::StressVector<Dim> s =
           constitutive::deviator(constitutive::StressVector<Dim>(state.stress.col(a)));
       for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(fpm::subpoint_count); ++k) {
-        state.subpoint_deviator.template block<4, 1>(4 * k, a) = s.template head<4>();
+        state.subpoint_deviator.col(a).template segment<State<Dim>::stress_rows>(
+            State<Dim>::stress_rows * k) = s;
       }
     }
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "constitutive/tensor.hpp"
+#include "fpm/recovery.hpp"
 
 namespace model {
 
@@ -30,13 +31,12 @@ class Collector {
     constexpr int rows = constitutive::stress_size<Dim>;
     if (wanted(name)) fields_.push_back(files::tensor_field(name, unit, particles_, rows, at));
   }
-  std::vector<files::PointField> take() { return std::move(fields_); }
-
- private:
   bool wanted(const std::string& name) const {
     return names_.empty() || std::ranges::find(names_, name) != names_.end();
   }
+  std::vector<files::PointField> take() { return std::move(fields_); }
 
+ private:
   std::size_t particles_;
   std::span<const std::string> names_;
   std::vector<files::PointField> fields_;
@@ -55,6 +55,27 @@ void add_stress_fields(const State<Dim>& state, Collector<Dim>& fields) {
   fields.scalar("deviatoric_stress", "Pa", [&](std::size_t a) {
     return std::sqrt(3.0 * constitutive::j2(Stress(state.stress.col(at(a)))));  // von Mises
   });
+}
+
+// Each material by itself: across an interface the mean stress jumps. In the geometry the stress
+// belongs to, which small strains do not change.
+template <int Dim>
+Eigen::VectorXd recovered_mean_stress(const Model<Dim>& model, const State<Dim>& state) {
+  fpm::ParticleSet<Dim> now = model.particles;
+  if (state.layout.finite) {
+    now.position += state.displacement;
+    now.volume = state.rows.reference_volume();
+    for (Eigen::Index a = 0; a < model.size(); ++a) {
+      const Eigen::Map<const fpm::Tensor<Dim>> f(state.deformation_gradient.col(a).data());
+      now.volume[a] *= f.determinant();
+    }
+  }
+  const Eigen::VectorXd mean = state.stress.template topRows<3>().colwise().mean().transpose();
+  const std::vector<fpm::Index> body(model.material.begin(), model.material.end());
+  // Twice the rows' radius: what alternates along a face is to vanish there, too.
+  const fpm::RecoveryOptions options{model.row_options.kernel,
+                                     2.0 * model.row_options.support_radius};
+  return fpm::recover<Dim>(now, mean, body, model.ghosts.planes(), options);
 }
 
 template <int Dim>
@@ -96,6 +117,10 @@ std::vector<files::PointField> particle_fields(const Model<Dim>& model, const St
   fields.vector("displacement", "m",
                 [&](std::size_t a, int i) { return state.displacement(at(a), i); });
   add_stress_fields(state, fields);
+  if (fields.wanted("recovered_mean_stress")) {
+    const Eigen::VectorXd mean = recovered_mean_stress(model, state);
+    fields.scalar("recovered_mean_stress", "Pa", [&](std::size_t a) { return mean[at(a)]; });
+  }
   add_strain_fields(state, fields);
   fields.scalar("material", "-", [&](std::size_t a) { return model.material[a]; });
   fields.vector("reaction", Dim == 2 ? "N/m" : "N",

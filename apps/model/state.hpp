@@ -52,8 +52,7 @@ struct ProgrammeState {
 template <int Dim>
 struct State {
   static constexpr int stress_rows = constitutive::stress_size<Dim>;
-  static constexpr int subpoint_rows =
-      static_cast<int>(fpm::subpoint_count) * constitutive::stress_size<2>;
+  static constexpr int subpoint_rows = static_cast<int>(fpm::subpoint_count) * stress_rows;
   template <int Rows>
   using Columns = Eigen::Matrix<double, Rows, Eigen::Dynamic>;
 
@@ -63,7 +62,7 @@ struct State {
   Columns<Dim * Dim> deformation_gradient;   // F_a(n), column-major, since the row's reference
   Eigen::VectorXd searched_volume_ratio;     // volume at the last search over initial volume
   Columns<stress_rows> stress;               // Cauchy, tension positive; of the particle
-  Columns<subpoint_rows> subpoint_deviator;  // xx yy zz xy of each of the four sub-points
+  Columns<subpoint_rows> subpoint_deviator;  // of each of the four sub-points
   Eigen::VectorXd plastic_strain;            // accumulated equivalent
   Eigen::VectorXd plastic_volume_strain;     // accumulated
   Eigen::VectorXd plastic_strain_at_search;  // at the row's last search

@@ -94,6 +94,8 @@ class FieldReader {
   template <class Matrix>
   void read_columns(const std::string& path, Matrix& field) const {
     std::vector<double> values(static_cast<std::size_t>(field.size()));
+    // A field the scene does not have: how long its columns would be does not matter.
+    if (values.empty() && file_.read_all<double>(path).empty()) return;
     file_.read<double>(path, values, file_shape(field));
     require_finite(path, values);
     if constexpr (component_major<Matrix>) {

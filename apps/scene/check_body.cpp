@@ -256,21 +256,10 @@ void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis) {
     const auto refuse = [&](const std::string& found, const std::string& why) {
       diagnosis.error("hourglass.control", found, why);
     };
-    if (scene.geometry.dimension == 3) {
-      refuse("found mixed in 3D", "sub-points exist in 2D only: use \"incremental\"");
-    }
     bool none_yields = true;
     for (std::size_t i = 0; i < scene.material.size(); ++i) {
-      const Material& material = scene.material[i];
-      none_yields =
-          none_yields && diagnosis.good({fmt::format("material.{}.model", i)}) && !yields(material);
-      if (!diagnosis.good({fmt::format("material.{}.model", i)}) || !yields(material) ||
-          model_of(material).one_pressure) {
-        continue;
-      }
-      refuse(fmt::format("found mixed with the {} material \"{}\"", material.model, material.name),
-             "the sub-points share one pressure, which true corners do not allow: use "
-             "\"incremental\", or the model drucker_prager");
+      none_yields = none_yields && diagnosis.good({fmt::format("material.{}.model", i)}) &&
+                    !yields(scene.material[i]);
     }
     if (none_yields) {
       refuse("found mixed with elastic materials only",

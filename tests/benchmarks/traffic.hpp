@@ -39,15 +39,16 @@ Traffic traffic_of(const Prepared<Dim>& p) {
   const double one_layout = 0.5 * (static_cast<double>(op.bytes()) / n - pair_moments);
 
   // What a particle knows at the beginning of a step.
+  constexpr int second = fpm::SecondGradient<Dim>::SizeAtCompileTime;
   double state = (constitutive::stress_size<Dim> + 1) * number + 1.0;  // stress, volume, material
   if (layout.finite) state += tensor;
   if (layout.plastic) state += 2.0 * number;
-  if (layout.subpoints) state += (6 + model::State<Dim>::subpoint_rows) * number;
+  if (layout.subpoints) state += (second + model::State<Dim>::subpoint_rows) * number;
   // What its row knows of its pairs: stiffness, moments, memory, position, gradient; own force out.
   double pair_row = pairs ? number + pair_moments + (field + tensor) + field + tensor + field : 0.0;
   if (layout.incremental) pair_row += number;
 
-  const double strain = Dim * Dim + (layout.subpoints ? 6 : 0);
+  const double strain = Dim * Dim + (layout.subpoints ? second : 0);
   const double tangent = strain * strain * number;
   const double rotation = layout.incremental ? tensor * Dim * Dim : 0.0;
   const double released = layout.incremental ? p.state.released.mean() : 0.0;

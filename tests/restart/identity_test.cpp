@@ -59,7 +59,16 @@ const std::vector<Case> cases{
      {"interface.0.kind=contact", "interface.0.friction_angle=15", "drive.method=contact",
       "drive.friction_angle=10"},
      20},
+    {"mixed_mohr_coulomb",
+     &footing,
+     {"material.0.model=mohr_coulomb", "hourglass.control=mixed"},
+     20,
+     true},
     {"block_3d", &block, {}, 6},
+    {"mixed_block_3d",
+     &block,
+     {"material.0.model=von_mises", "material.0.cohesion=5e3", "hourglass.control=mixed"},
+     6},
 };
 
 class Resume : public ::testing::TestWithParam<Case> {};

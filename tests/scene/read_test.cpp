@@ -133,10 +133,14 @@ TEST(SceneReader, RefusesThePlaneStrainMatchIn3D) {
                           "model = \"mohr_coulomb\""));
 }
 
-TEST(SceneReader, RefusesSubPointsIn3D) {
-  EXPECT_THAT(texts(parse_scene(in_3d() + "[hourglass]\ncontrol = \"mixed\"\n", "s.toml").errors),
-              ElementsAre("s.toml:36:11: hourglass.control: found mixed in 3D; sub-points exist in "
-                          "2D only: use \"incremental\""));
+TEST(SceneReader, AcceptsSubPointsWhereverSomethingYields) {
+  const std::string mixed = "[hourglass]\ncontrol = \"mixed\"\n";
+  EXPECT_TRUE(parse_scene(in_3d() + mixed, "s.toml").errors.empty());
+  std::string corners = in_3d();
+  const std::string cone = "drucker_prager", match = "\nmatch = \"compression_cone\"";
+  corners.erase(corners.find(match), match.size());
+  corners.replace(corners.find(cone), cone.size(), "mohr_coulomb");
+  EXPECT_TRUE(parse_scene(corners + mixed, "s.toml").errors.empty());
 }
 
 TEST(SceneReader, StaysSilentOnRulesWhoseKeysAreAlreadyBad) {

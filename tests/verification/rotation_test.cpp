@@ -71,6 +71,13 @@ TEST(RigidRotation, FullTurnInThreeDimensionsDriftsByRoundOff) {
   body.control = "incremental";
   expect_full_turn_changes_nothing<3>(body);
 }
+TEST(RigidRotation, FullTurnInThreeDimensionsDriftsByRoundOffWithSubPoints) {
+  BodyOptions body;
+  body.dimension = 3;
+  expect_full_turn_changes_nothing<3>(body);
+  body.model = "mohr_coulomb";
+  expect_full_turn_changes_nothing<3>(body);
+}
 
 // The internal forces of a body that was bent and yielded turn with it.
 TEST(RigidRotation, TurnsTheForcesOfBentYieldedBody) {

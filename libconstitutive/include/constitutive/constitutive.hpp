@@ -8,6 +8,7 @@
 #include "constitutive/interface_law.hpp"
 #include "constitutive/material.hpp"
 #include "constitutive/mixed.hpp"
+#include "constitutive/mixed_mohr_coulomb.hpp"
 #include "constitutive/mohr_coulomb.hpp"
 #include "constitutive/objective.hpp"
 #include "constitutive/parameters.hpp"

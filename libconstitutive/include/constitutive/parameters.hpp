@@ -61,7 +61,8 @@ struct ModelInfo {
   std::string_view match = "";
   bool yields = true;       ///< Cohesion is a parameter.
   bool frictional = false;  ///< Friction, dilation and its cut-off are, too.
-  /// Deviatoric points can share one pressure (`mixed.hpp`).
+  /// Deviatoric points share one pressure side by side (`mixed.hpp`); true corners can as well, one
+  /// by one (`mixed_mohr_coulomb.hpp`).
   bool one_pressure = false;
   /// Why it is for plane strain only; "" if it is for three dimensions as well.
   std::string_view only_plane_strain = "";

@@ -13,6 +13,7 @@
 #include "fpm/neighbour_search.hpp"
 #include "fpm/particles.hpp"
 #include "fpm/points.hpp"
+#include "fpm/recovery.hpp"
 #include "fpm/rows.hpp"
 #include "fpm/stencil.hpp"
 #include "fpm/subpoints.hpp"

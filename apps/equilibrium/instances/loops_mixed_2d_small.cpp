@@ -3,6 +3,6 @@
 
 namespace equilibrium {
 
-template LawLoops<2> law_loops<2, MixedLaw<false>>();
+template LawLoops<2> law_loops<2, MixedLaw<2, false>>();
 
 }  // namespace equilibrium

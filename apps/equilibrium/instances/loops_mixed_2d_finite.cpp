@@ -3,6 +3,6 @@
 
 namespace equilibrium {
 
-template LawLoops<2> law_loops<2, MixedLaw<true>>();
+template LawLoops<2> law_loops<2, MixedLaw<2, true>>();
 
 }  // namespace equilibrium
