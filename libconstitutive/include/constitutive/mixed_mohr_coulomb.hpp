@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "constitutive/mixed.hpp"
 #include "constitutive/mohr_coulomb.hpp"
