@@ -100,9 +100,9 @@ class Flank {
   /// Bounds the multiplier of the loads with the strength divided by the factor.
   void solve_at(double factor, const BracketOptions& options,
                 const std::function<void(const Attempt&)>& watch, std::vector<Attempt>& attempts) {
-    if (!is_lower_ && failures_ > 0 && !rests_) put_to_rest(factor);
+    if (failures_ > 0 && !rests_) put_to_rest(factor);
     std::vector<problem::Soil> soils = problem_.soils;
-    for (problem::Soil& soil : soils) soil = weakened(soil, factor);
+    for (problem::Soil& soil : soils) soil = weakened(soil, weakening(soil, factor));
     side_.set_soils(soils);
     Bracket found;
     BracketOptions once = options;
@@ -126,6 +126,12 @@ class Flank {
     return std::tan(soil.friction_angle) > factor * std::tan(steep);
   }
 
+  // A stress field of soils that are weaker than they must be is one of theirs.
+  [[nodiscard]] double weakening(const problem::Soil& soil, double factor) const {
+    if (!is_lower_ || !rests_) return factor;
+    return std::max(factor, std::tan(soil.friction_angle) / std::tan(steep));
+  }
+
   // Steep soils that the solver has failed with stay at rest from here on, if anything else moves.
   void put_to_rest(double factor) {
     std::vector<bool> rests;
@@ -140,6 +146,7 @@ class Flank {
     }
     rests_ = true;
     failures_ = 0;
+    if (is_lower_) return;  // weakened instead
     side_ = Side(problem::with_soils_at_rest(problem_, rests), false, means_);
     search_ = FactorSearch(factor);
   }
