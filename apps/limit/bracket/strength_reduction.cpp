@@ -100,7 +100,7 @@ class Flank {
   /// Bounds the multiplier of the loads with the strength divided by the factor.
   void solve_at(double factor, const BracketOptions& options,
                 const std::function<void(const Attempt&)>& watch, std::vector<Attempt>& attempts) {
-    if (!is_lower_ && failures_ > 0 && !rests_) put_to_rest(factor);
+    if (failures_ > 0 && !rests_) put_to_rest(factor);
     std::vector<problem::Soil> soils = problem_.soils;
     for (problem::Soil& soil : soils) soil = weakened(soil, weakening(soil, factor));
     side_.set_soils(soils);
@@ -128,8 +128,8 @@ class Flank {
 
   // A stress field of soils that are weaker than they must be is one of theirs.
   [[nodiscard]] double weakening(const problem::Soil& soil, double factor) const {
-    if (!is_lower_ || !is_steep(soil, factor)) return factor;
-    return std::tan(soil.friction_angle) / std::tan(steep);
+    if (!is_lower_ || !rests_) return factor;
+    return std::max(factor, std::tan(soil.friction_angle) / std::tan(steep));
   }
 
   // Steep soils that the solver has failed with stay at rest from here on, if anything else moves.
@@ -146,6 +146,7 @@ class Flank {
     }
     rests_ = true;
     failures_ = 0;
+    if (is_lower_) return;  // weakened instead
     side_ = Side(problem::with_soils_at_rest(problem_, rests), false, means_);
     search_ = FactorSearch(factor);
   }
@@ -159,12 +160,22 @@ class Flank {
     return search_.root_towards(is_lower_, share * failures_) * away;
   }
 
+  // What a solver certified before it failed may be far from the multiplier. But if it decides for
+  // this factor there is nothing to go back from; and between a mechanism and the stresses proposed
+  // with it lies the multiplier.
+  [[nodiscard]] bool is_of_use(const Attempt& attempt) const {
+    if (!attempt.certified) return false;
+    constexpr double close = 0.01;
+    const double bound = *attempt.certified;
+    if (is_lower_) return bound >= one_;
+    return bound <= one_ || std::abs(bound - attempt.proposed) <= close * bound;
+  }
+
   void learn(double factor, const Bracket& found) {
     const Attempt& last = found.attempts.back();
     const bool is_solved = last.status == solver::SolverStatus::solved ||
                            last.status == solver::SolverStatus::acceptable;
-    // What a solver certified before it failed is a bound, but may be far from the multiplier.
-    if (!is_solved || !std::isfinite(last.proposed)) {
+    if (!(is_solved || is_of_use(last)) || !std::isfinite(last.proposed)) {
       ++failures_;
       return;
     }

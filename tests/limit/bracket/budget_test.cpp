@@ -112,4 +112,27 @@ TEST(Budget, OfAStrengthReductionIsHandedFromFactorToFactor) {
   expect_the_rest(workshop, budget);
 }
 
+// Solvers that end short of their optimum, as they do in soil of hardly any cohesion, but have come
+// close by then: what is certified is gone on from.
+TEST(StrengthReduction, GoesOnFromWhatWasCertifiedBeforeASolverFailed) {
+  bracket::Means means;
+  means.solve = [](const programme::ConeProgram& program, const solver::SolverOptions& options) {
+    solver::ConeSolution solution = solver::solve(program, options);
+    constexpr double without_end = 3.9;  // as far as multipliers are followed
+    if (program.objective.dot(solution.variables) < without_end) {
+      solution.status = solver::SolverStatus::failed;
+    }
+    return solution;
+  };
+  bracket::BracketOptions first = options(100.0);
+  first.gap = 0.02;
+  first.max_triangles = 1;
+  const bracket::Solution found = bracket::solution_of(loaded_strip(), first, {}, means);
+  ASSERT_TRUE(found.upper);
+  // A first mesh is settled to half the gap in the factor, and the multiplier of such soil falls
+  // with its second power or less.
+  EXPECT_NEAR(found.bracket.upper_bound(), 1.0, first.gap);
+  EXPECT_LE(found.bracket.upper_bound(), 1.0);
+}
+
 }  // namespace

@@ -121,7 +121,7 @@ TEST(Slope, OfSoftClayOnSandIsThatOfTheClayOnRigidGround) {
                           [](const bracket::Attempt& attempt) {
                             return attempt.status != solver::SolverStatus::solved;
                           }),
-            1);
+            2);  // one below, one above
 }
 
 TEST(Slope, KeepsToItsBudgetAndSaysWhatWasCertified) {
