@@ -99,16 +99,17 @@ void write_checkpoint(const std::filesystem::path& path, const Model<Dim>& model
 }
 
 scene::Scene scene_of(const std::filesystem::path& path, const record::CheckpointNotes& notes) {
-  scene::SceneReading reading = scene::parse_scene(notes.scene, path.string() + ":/meta/scene");
+  const scene::SceneReading reading = scene::parse_scene(notes.scene, path.string() + ":/meta/scene");
   if (!reading.scene) {
     const std::string first = reading.errors.empty() ? "" : reading.errors.front().text();
     throw files::FileError(path, "/meta/scene is no scene of this program: " + first);
   }
-  if (notes.schema < schema_of_bodies) keep_one_body(*reading.scene);
-  if (restored(path, notes.materials) != parameters_of(*reading.scene)) {
+  scene::Scene scene = *reading.scene;
+  if (notes.schema < schema_of_bodies) keep_one_body(scene);
+  if (restored(path, notes.materials) != parameters_of(scene)) {
     throw files::FileError(path, "/meta/materials are not the materials of /meta/scene");
   }
-  return std::move(*reading.scene);
+  return scene;
 }
 
 bool adapt_programme(const scene::Scene& former, const scene::Scene& scene,
