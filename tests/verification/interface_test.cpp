@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "limit_load.hpp"
 #include "run.hpp"
 
 namespace verification {
@@ -152,6 +153,18 @@ INSTANTIATE_TEST_SUITE_P(All, Tied, testing::ValuesIn(samples()), [](const auto&
   return fmt::format("in{}D{}{}{}", s.dimension, s.layout, std::lround(10 * s.jitter),
                      s.kinematics.substr(0, 5));
 });
+
+// Two clays, the upper five times softer and half a half-width thick. fpm-limit certifies 6.06 c
+// and 6.35 c for it; 2 % is what steps and tolerance leave open.
+TEST(LayeredClay, CarriesWhatItsBoundsSay) {
+  const double coarse = 1.0 + limit_load("layered_clay.toml", 1e3, 8).raw;
+  const double fine = 1.0 + limit_load("layered_clay.toml", 1e3, 16).raw;
+  report("load_over_c_at_8", coarse);
+  report("load_over_c_at_16", fine);
+  EXPECT_GT(fine, 6.06 * 0.98);
+  EXPECT_LT(fine, 6.35 * 1.02);
+  EXPECT_LT(fine, coarse);
+}
 
 // A block of this weight on a rigid base.
 constexpr double weight = 2000.0 * 9.81 * 0.8 * 1.2;  // [N/m]
