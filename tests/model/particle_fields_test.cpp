@@ -44,7 +44,7 @@ struct Body {
   State<2> state;
 
   Body() {
-    model = build_model<2>(scene::parse_scene(two_soils, "two soils").scene.value());
+    model = build_model<2>(*scene::parse_scene(two_soils, "two soils").scene);
     state = initial_state(model);
   }
 };
