@@ -8,10 +8,10 @@ namespace equilibrium {
 /// Mixed sub-point integration: one pressure per particle, four deviators.
 ///
 /// Each sub-point has its own finite motion dF_k = F_k F_k(n)^-1 of the Taylor field, so a rigid
-/// rotation of a bent body strains nothing; its dilation (in plane strain that in the plane) is left
-/// to the particle's, which leaves as many unknowns per dilation constraint as there are dimensions,
-/// as collapse needs. Forces are work-conjugate. In plane strain, with A = dev2 s_k the in-plane
-/// deviator of s_k and tr2 its in-plane trace,
+/// rotation of a bent body strains nothing; its dilation (in plane strain that in the plane) is
+/// left to the particle's, which leaves as many unknowns per dilation constraint as there are
+/// dimensions, as collapse needs. Forces are work-conjugate. In plane strain, with A = dev2 s_k the
+/// in-plane deviator of s_k and tr2 its in-plane trace,
 ///   P = V ((p + sum w tr2(s_k) / 2) F^-T + sum w A_k F_k^-T),  T = V sum w (A_k F_k^-T) x xi_k;
 /// in space A = s_k and tr2 is 0.
 /// Departure: not in Chen, Huang & Lyamin 2020 (share/doc/decisions/mixed-subpoints.md).

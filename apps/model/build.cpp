@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/bodies.hpp"
 #include "model/initial_stress.hpp"
 #include "model/interfaces.hpp"
 #include "model/loads.hpp"
@@ -163,7 +164,9 @@ Model<Dim> build_model(const scene::Scene& scene) {
   add_loads(scene, model);
   add_initial_stress(scene, model);
   add_interfaces(scene, model);
-  model.consistency = scene::resolve_consistency(scene);
+  const bool parted = !model.particles.body.empty();
+  model.consistency = scene::resolve_consistency(scene) ||
+                      (parted && scene.approximation.consistency == scene::Switch::automatic);
   if (model.consistency) model.area_vector = boundary_area_vectors(scene, model);
   return model;
 }

@@ -99,7 +99,8 @@ void write_checkpoint(const std::filesystem::path& path, const Model<Dim>& model
 }
 
 scene::Scene scene_of(const std::filesystem::path& path, const record::CheckpointNotes& notes) {
-  const scene::SceneReading reading = scene::parse_scene(notes.scene, path.string() + ":/meta/scene");
+  const scene::SceneReading reading =
+      scene::parse_scene(notes.scene, path.string() + ":/meta/scene");
   if (!reading.scene) {
     const std::string first = reading.errors.empty() ? "" : reading.errors.front().text();
     throw files::FileError(path, "/meta/scene is no scene of this program: " + first);

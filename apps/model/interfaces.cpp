@@ -16,31 +16,6 @@ namespace {
 
 using Pair = std::pair<fpm::Index, fpm::Index>;  // of materials, the smaller first
 
-// What the scene says of each pair of materials.
-class Rules {
- public:
-  explicit Rules(const scene::Scene& scene) {
-    otherwise_.kind = scene.approximation.interfaces;
-    const auto index_of = [&](const std::string& name) {
-      const auto at = std::ranges::find(scene.material, name, &scene::Material::name);
-      return static_cast<fpm::Index>(at - scene.material.begin());
-    };
-    for (const scene::Interface& each : scene.interface) {
-      const auto [low, high] = std::minmax({index_of(each.between[0]), index_of(each.between[1])});
-      named_[{low, high}] = each;
-    }
-  }
-
-  const scene::Interface& of(const Pair& pair) const {
-    const auto named = named_.find(pair);
-    return named == named_.end() ? otherwise_ : named->second;
-  }
-
- private:
-  scene::Interface otherwise_;
-  std::map<Pair, scene::Interface> named_;
-};
-
 constitutive::InterfaceLaw law_of(const scene::Contact& contact) {
   constitutive::InterfaceLaw law;
   law.tied = false;
@@ -132,7 +107,6 @@ Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
 template <int Dim>
 void add_between_materials(const scene::Scene& scene, Model<Dim>& model) {
   if (model.particles.body.empty()) return;
-  const Rules rules(scene);
   const auto faces = fpm::common_faces(model.lattice, model.particles.body);
   const auto pair_of = [&](Eigen::Index c) {
     const auto k = static_cast<std::size_t>(c);
@@ -143,7 +117,8 @@ void add_between_materials(const scene::Scene& scene, Model<Dim>& model) {
   std::map<Pair, bool> pairs;
   for (Eigen::Index c = 0; c < faces.points.weight.size(); ++c) pairs[pair_of(c)] = true;
   for (const auto& [pair, present] : pairs) {
-    const scene::Interface& rule = rules.of(pair);
+    const scene::Interface rule = scene::interface_between(
+        scene, static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
     const auto part = part_of<Dim>(faces, [&](Eigen::Index c) { return pair_of(c) == pair; });
     model.interfaces.push_back(
         interface_at(scene, model, part, rule.contact, rule.kind != scene::InterfaceKind::contact));
@@ -183,40 +158,11 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
 }  // namespace
 
 template <int Dim>
-void part_into_bodies(const scene::Scene& scene, Model<Dim>& model) {
-  const Rules rules(scene);
-  const std::vector<fpm::Index> label(model.material.begin(), model.material.end());
-  // Fewer particles across a body leave its rows singular.
-  const fpm::Index thickness = model.channels.second ? 3 : 2;
-  auto body = fpm::lattice_bodies<Dim>(
-      model.lattice, label,
-      [&](fpm::Index low, fpm::Index high) {
-        return rules.of({low, high}).kind == scene::InterfaceKind::through;
-      },
-      thickness);
-  if (std::ranges::max(body) > 0) model.particles.body = std::move(body);
-}
-
-template <int Dim>
-std::vector<fpm::Index> bodies_at(const Model<Dim>& model, const fpm::BoundaryPoints<Dim>& points) {
-  std::vector<fpm::Index> bodies;
-  for (Eigen::Index c = 0; c < points.weight.size() && !model.particles.body.empty(); ++c) {
-    const fpm::Index cell = fpm::cell_at<Dim>(model.lattice, points.position.row(c).transpose());
-    bodies.push_back(model.particles.body[static_cast<std::size_t>(cell)]);
-  }
-  return bodies;
-}
-
-template <int Dim>
 void add_interfaces(const scene::Scene& scene, Model<Dim>& model) {
   add_between_materials(scene, model);
   add_rigid(scene, model);
 }
 
-template void part_into_bodies<2>(const scene::Scene&, Model<2>&);
-template void part_into_bodies<3>(const scene::Scene&, Model<3>&);
-template std::vector<fpm::Index> bodies_at<2>(const Model<2>&, const fpm::BoundaryPoints<2>&);
-template std::vector<fpm::Index> bodies_at<3>(const Model<3>&, const fpm::BoundaryPoints<3>&);
 template void add_interfaces<2>(const scene::Scene&, Model<2>&);
 template void add_interfaces<3>(const scene::Scene&, Model<3>&);
 

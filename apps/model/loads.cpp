@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/interfaces.hpp"
+#include "model/bodies.hpp"
 #include "model/selection.hpp"
 #include "model/side_points.hpp"
 #include "scene/derived.hpp"

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "model/interfaces.hpp"
+#include "model/bodies.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
 

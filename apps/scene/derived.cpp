@@ -76,19 +76,11 @@ bool holds_by_images(const Scene& scene) {
          });
 }
 
-bool has_interfaces(const Scene& scene) {
-  if (scene.material.size() < 2) return false;
-  return scene.approximation.interfaces != InterfaceKind::through ||
-         std::ranges::any_of(scene.interface, [](const Interface& interface) {
-           return interface.kind != InterfaceKind::through;
-         });
-}
-
 }  // namespace
 
 bool resolve_consistency(const Scene& scene) {
   if (scene.approximation.consistency == Switch::automatic) {
-    return scene.geometry.jitter > 0.0 || holds_by_images(scene) || has_interfaces(scene);
+    return scene.geometry.jitter > 0.0 || holds_by_images(scene);
   }
   return scene.approximation.consistency == Switch::on;
 }
@@ -202,6 +194,21 @@ double geostatic_stress(const Scene& scene, std::span<const double> place) {
 double resolve_k0(const Scene& scene, const Material& material) {
   return scene.initial_stress.K0.value_or(material.poissons_ratio /
                                           (1.0 - material.poissons_ratio));
+}
+
+Interface interface_between(const Scene& scene, std::size_t one, std::size_t other) {
+  const std::string& first = scene.material[one].name;
+  const std::string& second = scene.material[other].name;
+  for (const Interface& interface : scene.interface) {
+    const auto& names = interface.between;
+    if ((names[0] == first && names[1] == second) || (names[0] == second && names[1] == first)) {
+      return interface;
+    }
+  }
+  Interface otherwise;
+  otherwise.between = {first, second};
+  otherwise.kind = scene.approximation.interfaces;
+  return otherwise;
 }
 
 double resolve_stiffness_factor(const Contact& contact, bool yields) {

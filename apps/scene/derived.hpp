@@ -17,6 +17,7 @@ namespace scene {
 
 struct Contact;
 struct Geometry;
+struct Interface;
 struct Material;
 struct Measure;
 struct Scene;
@@ -46,8 +47,8 @@ struct Solver;
 /// 0.01 for mixed, 0 for none and viscosity.
 [[nodiscard]] double resolve_stiffness_ratio(const Scene& scene);
 
-/// Whether the consistency correction is on: `automatic` means on for jittered sets, where sides are
-/// held by images, and where materials are bodies of their own.
+/// Whether the consistency correction is on: `automatic` means on for jittered sets, where sides
+/// are held by images and, what the particles decide, where materials are bodies of their own.
 [[nodiscard]] bool resolve_consistency(const Scene& scene);
 
 /// The solver's settings with the preset's values filled in.
@@ -85,6 +86,10 @@ struct SolverSettings {
 
 /// Horizontal over vertical geostatic stress in a material.
 [[nodiscard]] double resolve_k0(const Scene& scene, const Material& material);
+
+/// What happens where two materials meet, by their numbers: the scene's table of them, or its
+/// approximation.interfaces.
+[[nodiscard]] Interface interface_between(const Scene& scene, std::size_t one, std::size_t other);
 
 /// Stiffness of a face over the softer Young's modulus per spacing: the scene's, else 100 between
 /// elastic materials, whose gap is all the error there is, and 10 where one yields.

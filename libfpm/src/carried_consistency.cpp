@@ -117,7 +117,7 @@ class Carrier {
     return b < rows_.size() ? 1.0 : ghosts_.sign(b - rows_.size(), i);
   }
 
-  Eigen::SparseMatrix<double> system(int component) {
+  Eigen::SparseMatrix<double> matrix_of(int component) {
     std::vector<Eigen::Triplet<double>> entries;
     std::vector<Eigen::Index> id;
     std::vector<double> signs;
@@ -156,7 +156,7 @@ class Carrier {
     double left = 0.0;
     std::optional<const detail::RegularisedSolver> solver;
     for (int i = 0; i < Dim; ++i) {
-      if (i == 0 || ghosts_.size() > 0) solver.emplace(system(i));
+      if (i == 0 || ghosts_.size() > 0) solver.emplace(matrix_of(i));
       const auto solution = solver->solve(missing.col(i), round_off);
       potential_.col(i) = solution.x;
       left += solution.residual * solution.residual;

@@ -146,7 +146,7 @@ TEST(Rows, AreTheSameToTheLastBitAfterSaveAndRestore) {
     EXPECT_EQ(found.own_volume, expected.own_volume);
     EXPECT_EQ(found.support_radius, expected.support_radius);
   }
-  EXPECT_EQ(saved(copy).size(), 7U);
+  EXPECT_EQ(saved(copy).size(), 9U);
 }
 
 struct Damage {

@@ -83,13 +83,38 @@ TEST(Programme, TakesStepsFromTheSpacingWhenNoneAreGiven) {
   EXPECT_EQ(nominal_steps(scene), 1);
 }
 
-TEST(Consistency, AutoIsOnForJitteredSetsOnly) {
+TEST(Consistency, AutoIsOnForJitteredSetsAndSidesHeldByImages) {
   Scene scene;
   EXPECT_FALSE(resolve_consistency(scene));
   scene.geometry.jitter = 0.2;
   EXPECT_TRUE(resolve_consistency(scene));
   scene.approximation.consistency = Switch::off;
   EXPECT_FALSE(resolve_consistency(scene));
+  Scene held;
+  held.support.resize(1);
+  EXPECT_FALSE(resolve_consistency(held));
+  held.support[0].method = SupportMethod::ghosts;
+  EXPECT_TRUE(resolve_consistency(held));
+}
+
+TEST(Interfaces, AreThoseOfTheirTableOrTheRest) {
+  Scene scene;
+  for (const char* name : {"clay", "sand", "rock"}) scene.material.emplace_back().name = name;
+  scene.interface.resize(1);
+  scene.interface[0].between = {"rock", "clay"};
+  scene.interface[0].kind = InterfaceKind::contact;
+  scene.interface[0].contact.friction_angle = 12.0;
+  for (const auto& [one, other] : {std::pair{0U, 2U}, std::pair{2U, 0U}}) {
+    EXPECT_EQ(interface_between(scene, one, other), scene.interface[0]);
+  }
+  EXPECT_EQ(interface_between(scene, 0, 1).kind, InterfaceKind::tied);
+  scene.approximation.interfaces = InterfaceKind::through;
+  EXPECT_EQ(interface_between(scene, 1, 2).kind, InterfaceKind::through);
+  EXPECT_EQ(interface_between(scene, 0, 2).kind, InterfaceKind::contact);
+
+  EXPECT_EQ(resolve_stiffness_factor({}, true), 10.0);
+  EXPECT_EQ(resolve_stiffness_factor({}, false), 100.0);
+  EXPECT_EQ(resolve_stiffness_factor({.stiffness_factor = 3.0}, true), 3.0);
 }
 
 TEST(Side, KnowsItsAxisAndEnd) {

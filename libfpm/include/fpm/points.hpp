@@ -70,7 +70,8 @@ class PointOperator {
   /// the sign of each component.
   template <class Visitor>
   void for_each_value(Index point, Visitor&& visit) const {
-    for_each_entry(point, [&](const Entry& entry) { visit(entry.particle, entry.value, entry.sign); });
+    for_each_entry(point,
+                   [&](const Entry& entry) { visit(entry.particle, entry.value, entry.sign); });
   }
 
   /// `value` at every point, m x Dim. @throws ShapeError if sizes disagree.
