@@ -4,6 +4,7 @@
 
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
+#include "scene/names.hpp"
 
 namespace scene {
 
@@ -11,6 +12,28 @@ namespace {
 
 bool is_pair(const Interface& one, const Interface& other) {
   return std::ranges::is_permutation(one.between, other.between);
+}
+
+// A body has rows of its own from three particles on.
+void check_thickness(const Scene& scene, const Material& material, const std::string& key,
+                     tables::Diagnosis& diagnosis) {
+  constexpr double fewest = 3.0;
+  const Geometry& geometry = scene.geometry;
+  const double widths = geometry.layout == Layout::cell ? fewest - 0.5 : fewest - 1.0;
+  for (std::size_t i = 0; i < material.region_min.size(); ++i) {
+    const double from = std::max(material.region_min[i], geometry.min[i]);
+    const double to = std::min(material.region_max[i], geometry.max[i]);
+    if (to - from >= widths * geometry.spacing - same_place(geometry)) continue;
+    diagnosis.error(
+        key,
+        fmt::format("\"{}\" is {:.3g} wide along {}", material.name, to - from,
+                    name_of(static_cast<Axis>(i))),
+        fmt::format(
+            "a body of its own is at least {:g} particles wide, which are {} apart: refine, "
+            "or use kind = \"through\"",
+            fewest, geometry.spacing));
+    return;
+  }
 }
 
 void check_interface(const Scene& scene, std::size_t index, tables::Diagnosis& diagnosis) {
@@ -23,7 +46,14 @@ void check_interface(const Scene& scene, std::size_t index, tables::Diagnosis& d
     return;
   }
   for (const std::string& name : interface.between) {
-    if (std::ranges::find(scene.material, name, &Material::name) != scene.material.end()) continue;
+    const auto found = std::ranges::find(scene.material, name, &Material::name);
+    if (found != scene.material.end()) {
+      const bool places = box_is_good(scene, diagnosis) && diagnosis.good({"geometry.spacing"});
+      if (interface.kind != InterfaceKind::through && places) {
+        check_thickness(scene, *found, key, diagnosis);
+      }
+      continue;
+    }
     std::vector<std::string> names;
     for (const Material& material : scene.material) names.push_back(material.name);
     diagnosis.error(key, fmt::format("found \"{}\"", name),
