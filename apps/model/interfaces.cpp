@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <set>
+#include <utility>
 
 #include "constitutive/tensor.hpp"
 #include "model/initial_stress.hpp"
@@ -114,9 +115,9 @@ void add_between_materials(const scene::Scene& scene, Model<Dim>& model) {
     const fpm::Index other = model.material[static_cast<std::size_t>(faces.second[k])];
     return Pair(std::min(one, other), std::max(one, other));
   };
-  std::map<Pair, bool> pairs;
-  for (Eigen::Index c = 0; c < faces.points.weight.size(); ++c) pairs[pair_of(c)] = true;
-  for (const auto& [pair, present] : pairs) {
+  std::set<Pair> pairs;
+  for (Eigen::Index c = 0; c < faces.points.weight.size(); ++c) pairs.insert(pair_of(c));
+  for (const Pair& pair : pairs) {
     const scene::Interface rule = scene::interface_between(
         scene, static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
     const auto part = part_of<Dim>(faces, [&](Eigen::Index c) { return pair_of(c) == pair; });
