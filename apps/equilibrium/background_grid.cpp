@@ -120,39 +120,34 @@ void BackgroundGrid<Dim>::add_grid_supports(const model::Model<Dim>& model,
   Eigen::Matrix<fpm::Index, corners, 1> nodes;
   Eigen::Matrix<double, corners, 1> values;
   Eigen::Matrix<double, Dim, corners> gradients;
-  for (const model::Interface<Dim>& interface : model.interfaces) {
-    if (!interface.is_rigid()) continue;
-    const auto& points = interface.faces.points;
-    for (fpm::Index c = 0; c < points.size(); ++c) {
-      interpolation_of(points.position.row(c), nodes, values, gradients);
-      double stiffness = interface.stiffness[c] * points.weight[c];
-      for (const fpm::Index node : nodes) stiffness = std::min(stiffness, most[node]);
-      const bool sticks = interface.law.friction_tangent > 0.0 || interface.law.adhesion > 0.0;
-      for (int i = 0; i < Dim; ++i) {
-        if (!sticks && points.normal(c, i) == 0.0) continue;
-        for (int p = 0; p < corners; ++p) {
-          for (int q = 0; q < corners; ++q) {
-            entries.emplace_back(nodes[p] * Dim + i, nodes[q] * Dim + i,
-                                 stiffness * values[p] * values[q]);
-          }
+  // `holds(i)`: whether the spring acts along axis i.
+  const auto add_spring = [&](const Eigen::Matrix<double, 1, Dim>& place, double stiffness,
+                              auto&& holds) {
+    interpolation_of(place, nodes, values, gradients);
+    for (const fpm::Index node : nodes) stiffness = std::min(stiffness, most[node]);
+    for (int i = 0; i < Dim; ++i) {
+      if (!holds(i)) continue;
+      for (int p = 0; p < corners; ++p) {
+        for (int q = 0; q < corners; ++q) {
+          entries.emplace_back(nodes[p] * Dim + i, nodes[q] * Dim + i,
+                               stiffness * values[p] * values[q]);
         }
       }
+    }
+  };
+  for (const model::Interface<Dim>& interface : model.interfaces) {
+    if (!interface.is_rigid()) continue;  // two bodies are one on the grid
+    const auto& points = interface.faces.points;
+    const bool sticks = interface.law.friction_tangent > 0.0 || interface.law.adhesion > 0.0;
+    for (fpm::Index c = 0; c < points.size(); ++c) {
+      add_spring(points.position.row(c), interface.stiffness[c] * points.weight[c],
+                 [&](int i) { return sticks || points.normal(c, i) != 0.0; });
     }
   }
   for (const model::PenaltySupport<Dim>& support : model.penalty_supports) {
     for (fpm::Index c = 0; c < support.points.size(); ++c) {
-      interpolation_of(support.points.position.row(c), nodes, values, gradients);
-      double stiffness = support.options.penalty * support.points.weight[c];
-      for (const fpm::Index node : nodes) stiffness = std::min(stiffness, most[node]);
-      for (int i = 0; i < Dim; ++i) {
-        if (!support.options.prescribed[static_cast<std::size_t>(i)]) continue;
-        for (int p = 0; p < corners; ++p) {
-          for (int q = 0; q < corners; ++q) {
-            entries.emplace_back(nodes[p] * Dim + i, nodes[q] * Dim + i,
-                                 stiffness * values[p] * values[q]);
-          }
-        }
-      }
+      add_spring(support.points.position.row(c), support.options.penalty * support.points.weight[c],
+                 [&](int i) { return support.options.prescribed[static_cast<std::size_t>(i)]; });
     }
   }
 }

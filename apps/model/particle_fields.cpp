@@ -71,11 +71,11 @@ Eigen::VectorXd recovered_mean_stress(const Model<Dim>& model, const State<Dim>&
     }
   }
   const Eigen::VectorXd mean = state.stress.template topRows<3>().colwise().mean().transpose();
-  const std::vector<fpm::Index> body(model.material.begin(), model.material.end());
+  now.body.assign(model.material.begin(), model.material.end());
   // Twice the rows' radius: what alternates along a face is to vanish there, too.
   const fpm::RecoveryOptions options{model.row_options.kernel,
                                      2.0 * model.row_options.support_radius};
-  return fpm::recover<Dim>(now, mean, body, model.ghosts.planes(), options);
+  return fpm::recover<Dim>(now, mean, model.ghosts.planes(), options);
 }
 
 template <int Dim>

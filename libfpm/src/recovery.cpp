@@ -110,7 +110,6 @@ class Grid {
 template <int Dim>
 std::vector<Member<Dim>> members_of(const ParticleSet<Dim>& particles,
                                     const Eigen::Ref<const Eigen::VectorXd>& field,
-                                    std::span<const Index> body,
                                     const std::vector<GhostPlane<Dim>>& planes, double reach) {
   const Ghosts<Dim> images(particles.position, mirrors_among(planes), reach);
   const Index n = particles.size();
@@ -121,8 +120,9 @@ std::vector<Member<Dim>> members_of(const ParticleSet<Dim>& particles,
   members.reserve(static_cast<std::size_t>(position.rows()));
   for (Index b = 0; b < static_cast<Index>(position.rows()); ++b) {
     const Index source = b < n ? b : images.source(b - n);
-    members.push_back({position.row(b).transpose(), particles.volume[source], field[source],
-                       body.empty() ? 0 : body[static_cast<std::size_t>(source)]});
+    members.push_back(
+        {position.row(b).transpose(), particles.volume[source], field[source],
+         particles.body.empty() ? 0 : particles.body[static_cast<std::size_t>(source)]});
   }
   return members;
 }
@@ -168,16 +168,16 @@ double fitted(const Grid<Dim>& grid, const Member<Dim>& own, const RecoveryOptio
 
 template <int Dim>
 Eigen::VectorXd recover(const ParticleSet<Dim>& particles,
-                        const Eigen::Ref<const Eigen::VectorXd>& field, std::span<const Index> body,
+                        const Eigen::Ref<const Eigen::VectorXd>& field,
                         const std::vector<GhostPlane<Dim>>& planes,
                         const RecoveryOptions& options) {
   require_size("particle volumes", particles.volume.size(), particles.size());
   require_size("field to recover", field.size(), particles.size());
-  if (!body.empty()) {
-    require_size("bodies", static_cast<Eigen::Index>(body.size()), particles.size());
+  if (!particles.body.empty()) {
+    require_size("bodies", static_cast<Eigen::Index>(particles.body.size()), particles.size());
   }
   if (!(options.radius > 0.0)) throw std::invalid_argument("the radius must be positive");
-  const auto members = members_of(particles, field, body, planes, options.radius);
+  const auto members = members_of(particles, field, planes, options.radius);
   const Grid<Dim> grid(members, options.radius);
   Eigen::VectorXd recovered(particles.size());
 #pragma omp parallel for schedule(static)
@@ -188,10 +188,8 @@ Eigen::VectorXd recover(const ParticleSet<Dim>& particles,
 }
 
 template Eigen::VectorXd recover<2>(const ParticleSet<2>&, const Eigen::Ref<const Eigen::VectorXd>&,
-                                    std::span<const Index>, const std::vector<GhostPlane<2>>&,
-                                    const RecoveryOptions&);
+                                    const std::vector<GhostPlane<2>>&, const RecoveryOptions&);
 template Eigen::VectorXd recover<3>(const ParticleSet<3>&, const Eigen::Ref<const Eigen::VectorXd>&,
-                                    std::span<const Index>, const std::vector<GhostPlane<3>>&,
-                                    const RecoveryOptions&);
+                                    const std::vector<GhostPlane<3>>&, const RecoveryOptions&);
 
 }  // namespace fpm

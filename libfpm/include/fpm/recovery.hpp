@@ -1,6 +1,6 @@
 #pragma once
 
-#include <span>
+#include <vector>
 
 #include "fpm/ghosts.hpp"
 #include "fpm/kernel.hpp"
@@ -24,15 +24,15 @@ struct RecoveryOptions {
 /// that exert no force on the particles and so are not determined. Linear fields are kept to
 /// round-off, at faces, too; along a direction in which a neighbourhood has no extent (a seam of
 /// one row) the fit is constant.
-/// @param particles  where they are and what volumes they have now
-/// @param body  of each particle, or empty for one body: only particles of its own take part
+/// @param particles  where they are and what volumes they have now; of their bodies only a
+///   particle's own takes part
 /// @param planes  of these, mirrors serve: the field's image there is its mirror image
 /// @returns n values, in the unit of the field. Independent of the number of threads.
 /// @throws ShapeError if sizes disagree; std::invalid_argument unless the radius is positive
 /// Departure: not in Chen, Huang & Lyamin 2020 (share/doc/decisions/recovered-mean-stress.md).
 template <int Dim>
 Eigen::VectorXd recover(const ParticleSet<Dim>& particles,
-                        const Eigen::Ref<const Eigen::VectorXd>& field, std::span<const Index> body,
+                        const Eigen::Ref<const Eigen::VectorXd>& field,
                         const std::vector<GhostPlane<Dim>>& planes, const RecoveryOptions& options);
 
 }  // namespace fpm

@@ -65,9 +65,9 @@ class Rows {
   std::span<const double> correction(Index row) const;
 
   /// Gives rows such weights, in place of those they had.
-  /// @param rows  ascending
+  /// @param rows  in any order
   /// @param weights  [1/m] of each of them, Dim x neighbours
-  /// @throws ShapeError if sizes disagree, a row does not exist or rows do not ascend.
+  /// @throws ShapeError if sizes disagree or a row does not exist.
   void correct(const std::vector<Index>& rows,
                const std::vector<Eigen::Matrix<double, Dim, Eigen::Dynamic>>& weights);
 
