@@ -276,8 +276,7 @@ int thread_count(int asked, std::int64_t particles) {
 
 program::ExitCode run_programme(const RunRequest& request, std::ostream& out, std::ostream& err,
                                 const files::SystemCalls& system) {
-  omp_set_num_threads(
-      thread_count(request.threads, scene::particle_count(request.scene->geometry)));
+  omp_set_num_threads(thread_count(request.threads, model::particle_count(*request.scene)));
   if (request.scene->geometry.dimension == 2) return Run<2>(request, out, err, system)();
   return Run<3>(request, out, err, system)();
 }

@@ -47,8 +47,9 @@ struct Solver;
 /// 0.01 for mixed, 0 for none and viscosity.
 [[nodiscard]] double resolve_stiffness_ratio(const Scene& scene);
 
-/// Whether the consistency correction is on: `automatic` means on for jittered sets, where sides
-/// are held by images and, what the particles decide, where materials are bodies of their own.
+/// Whether the consistency correction is on: `automatic` means on for jittered and graded sets,
+/// where sides are held by images and, what the particles decide, where materials are bodies of
+/// their own.
 [[nodiscard]] bool resolve_consistency(const Scene& scene);
 
 /// The solver's settings with the preset's values filled in.

@@ -102,6 +102,13 @@ Vector<Dim> Cells<Dim>::upper(Index cell) const {
 }
 
 template <int Dim>
+Vector<Dim> Cells<Dim>::site(Index cell) const {
+  Vector<Dim> at = place(cell).template cast<double>();
+  if (!vertex()) at.array() += 0.5 * steps(cell);
+  return lattice_.min + at * lattice_.spacing;
+}
+
+template <int Dim>
 Index Cells<Dim>::holding(const Place& finest) const {
   if ((finest.array() < 0).any() || (finest.array() >= count_.array()).any()) return -1;
   if (!graded_) {

@@ -24,7 +24,7 @@ void expect_a_partition(const Cells<Dim>& cells) {
   const double volume = (box.max - box.min).prod();
   EXPECT_NEAR(set.volume.sum(), volume, 1e-13 * volume);
   for (Index a = 0; a < cells.size(); ++a) {
-    EXPECT_EQ(cells.containing(cells.centre(a)), a);
+    EXPECT_EQ(cells.containing(cells.site(a)), a);
     EXPECT_NEAR((cells.upper(a) - cells.lower(a)).prod(), set.volume[a], 1e-13 * set.volume[a]);
   }
 }
@@ -99,7 +99,7 @@ TEST(Cells, Coarsened) {
     expect_a_partition(coarse);
     expect_balance(coarse);
     for (Index a = 0; a < cells.size(); ++a) {
-      const Index around = coarse.containing(cells.centre(a));
+      const Index around = coarse.containing(cells.site(a));
       EXPECT_GE(coarse.steps(around), cells.steps(a));
       EXPECT_LE(coarse.steps(around), cells.steps(a) << levels);
     }

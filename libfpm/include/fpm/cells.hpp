@@ -56,7 +56,7 @@ class Cells {
   double width(Index cell) const { return steps(cell) * lattice_.spacing; }
   Vector<Dim> lower(Index cell) const;  ///< [m] lower corner
   Vector<Dim> upper(Index cell) const;  ///< [m] upper corner
-  Vector<Dim> centre(Index cell) const { return 0.5 * (lower(cell) + upper(cell)); }
+  Vector<Dim> site(Index cell) const;   ///< [m] its particle's place, but for the jitter
 
   /// The cell that a point of the box is in; of one outside, the nearest.
   Index containing(const Vector<Dim>& point) const;
