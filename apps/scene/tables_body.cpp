@@ -184,8 +184,8 @@ SceneTable approximation() {
            .source = "1.2 smoothing lengths per spacing, as in the paper"})
       .key("consistency", &Approximation::consistency,
            {.doc = "Correction that makes nodal integration pass the patch test, of rows whose "
-                   "neighbourhoods are cut or irregular; auto: on for jittered sets, where sides "
-                   "are held by ghosts, and where materials are bodies of their own."})
+                   "neighbourhoods are cut or irregular; auto: on for jittered and graded sets, where "
+                   "sides are held by ghosts, and where materials are bodies of their own."})
       .key("kinematics", &Approximation::kinematics,
            {.doc = "finite_strain: updated Lagrangian, Hughes-Winget. small_strain: geometrically "
                    "linear, for comparison with limit loads and beam theory.",
