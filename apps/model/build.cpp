@@ -107,7 +107,7 @@ void constrain(const scene::Scene& scene, Model<Dim>& model) {
         support.method == scene::SupportMethod::contact) {  // interfaces.cpp
       continue;
     }
-    const bool ghosts = support.method == scene::SupportMethod::ghosts;
+    const bool ghosts = scene::resolve_method(scene, support) == scene::SupportMethod::ghosts;
     for (const Eigen::Index a : supported_particles(scene, support, model)) {
       if (ghosts && !on_face) continue;
       for (const scene::Axis axis : support.directions) prescribe(a, static_cast<int>(axis));
@@ -118,7 +118,7 @@ void constrain(const scene::Scene& scene, Model<Dim>& model) {
     return;
   }
   const fpm::Vector<Dim> direction = to_vector<Dim>(scene.drive.direction).normalized();
-  const bool ghosts = scene.drive.method == scene::DriveMethod::ghosts;
+  const bool ghosts = scene::resolve_drive_method(scene) == scene::DriveMethod::ghosts;
   if (ghosts) {
     const std::size_t count = model.ghosts.planes().size();
     model.plane_drive.assign(count, fpm::Vector<Dim>::Zero());

@@ -25,8 +25,20 @@ namespace {
 // The load parameter of a state that stands at a new target, computed by a division.
 constexpr double load_round_off = 1e-12;
 
-// Before this schema materials were one body, and `auto` meant the correction for jitter alone.
+// Before this schema materials were one body, `auto` meant the correction for jitter alone, and a
+// side was held by the particles next to it unless the scene said otherwise.
 constexpr std::int64_t schema_of_bodies = 5;
+
+void hold_directly(scene::Scene& scene) {
+  for (scene::Support& support : scene.support) {
+    if (support.method == scene::SupportMethod::automatic) {
+      support.method = scene::SupportMethod::direct;
+    }
+  }
+  if (scene.drive.method == scene::DriveMethod::automatic) {
+    scene.drive.method = scene::DriveMethod::direct;
+  }
+}
 
 void keep_one_body(scene::Scene& scene) {
   if (scene.material.size() > 1) scene.approximation.interfaces = scene::InterfaceKind::through;
@@ -106,7 +118,10 @@ scene::Scene scene_of(const std::filesystem::path& path, const record::Checkpoin
     throw files::FileError(path, "/meta/scene is no scene of this program: " + first);
   }
   scene::Scene scene = *reading.scene;
-  if (notes.schema < schema_of_bodies) keep_one_body(scene);
+  if (notes.schema < schema_of_bodies) {
+    hold_directly(scene);
+    keep_one_body(scene);
+  }
   if (restored(path, notes.materials) != parameters_of(scene)) {
     throw files::FileError(path, "/meta/materials are not the materials of /meta/scene");
   }

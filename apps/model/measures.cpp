@@ -78,7 +78,7 @@ void Measures<Dim>::find_support(const scene::Scene& scene, const std::string& n
         add_contacts(scene.support[i].name, measure);
         return;
       }
-      if (scene.support[i].method == scene::SupportMethod::ghosts) {
+      if (scene::resolve_method(scene, scene.support[i]) == scene::SupportMethod::ghosts) {
         const scene::Side side = *scene.support[i].side;
         measure.unknowns = borne_by_planes(model_, scene::axis_of(side),
                                            scene::side_position(scene.geometry, side));

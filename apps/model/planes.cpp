@@ -41,12 +41,12 @@ template <int Dim>
 std::vector<fpm::GhostPlane<Dim>> ghost_planes(const scene::Scene& scene) {
   std::vector<fpm::GhostPlane<Dim>> planes;
   if (scene.drive.kind == scene::DriveKind::displacement &&
-      scene.drive.method == scene::DriveMethod::ghosts) {
+      scene::resolve_drive_method(scene) == scene::DriveMethod::ghosts) {
     planes.push_back(driven<Dim>(scene));
   }
   const auto first_support = static_cast<std::ptrdiff_t>(planes.size());
   for (const scene::Support& support : scene.support) {
-    if (support.method != scene::SupportMethod::ghosts) continue;
+    if (scene::resolve_method(scene, support) != scene::SupportMethod::ghosts) continue;
     const auto plane = plane_at<Dim>(scene, *support.side);
     auto known = std::find_if(planes.begin() + first_support, planes.end(), [&](const auto& other) {
       return other.axis == plane.axis && other.position == plane.position;

@@ -25,7 +25,7 @@ std::string check_report(const scene::Scene& scene, std::size_t particles, std::
     fmt::format_to(std::back_inserter(out), "  {:<12} {}\n", name, value);
   };
   const double per_particle = static_cast<double>(bytes) / static_cast<double>(particles);
-  line("model", fmt::format("{} particles, {} mirror ghosts", particles, ghosts));
+  line("model", fmt::format("{} particles, {} ghosts", particles, ghosts));
   line("memory", fmt::format("{:.1f} MiB, {:.0f} bytes per particle, the solver's vectors apart",
                              mebibytes(bytes), per_particle));
   line("checkpoint", fmt::format("at least {:.1f} MiB each", mebibytes(state_bytes)));

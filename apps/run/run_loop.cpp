@@ -276,9 +276,11 @@ int thread_count(int asked, std::int64_t particles) {
 
 program::ExitCode run_programme(const RunRequest& request, std::ostream& out, std::ostream& err,
                                 const files::SystemCalls& system) {
-  omp_set_num_threads(thread_count(request.threads, model::particle_count(*request.scene)));
-  if (request.scene->geometry.dimension == 2) return Run<2>(request, out, err, system)();
-  return Run<3>(request, out, err, system)();
+  RunRequest begun = request;
+  begun.scene = scene_in_force(request);
+  omp_set_num_threads(thread_count(begun.threads, model::particle_count(*begun.scene)));
+  if (begun.scene->geometry.dimension == 2) return Run<2>(begun, out, err, system)();
+  return Run<3>(begun, out, err, system)();
 }
 
 }  // namespace run

@@ -24,6 +24,12 @@ std::filesystem::path newest_checkpoint(const std::filesystem::path& directory,
                                                                   fmt::join(objections, "\n  ")));
 }
 
+std::filesystem::path checkpoint_of(const RunRequest& request,
+                                    std::vector<std::string>& objections) {
+  return request.resume->checkpoint.empty() ? newest_checkpoint(request.directory, objections)
+                                            : request.resume->checkpoint;
+}
+
 std::string older_usable(const std::filesystem::path& checkpoint) {
   const auto step = record::step_of(checkpoint);
   if (!step) return "";
@@ -82,6 +88,21 @@ void resume(const std::filesystem::path& checkpoint, const scene::Scene& scene,
 
 }  // namespace
 
+std::shared_ptr<const scene::Scene> scene_in_force(const RunRequest& request) {
+  if (!request.resume) return request.scene;
+  try {
+    std::vector<std::string> ignored;
+    const std::filesystem::path checkpoint = checkpoint_of(request, ignored);
+    record::CheckpointNotes notes;
+    (void)record::open_checkpoint(checkpoint, notes);
+    auto scene = std::make_shared<scene::Scene>(*request.scene);
+    scene::keep_methods(model::scene_of(checkpoint, notes), *scene);
+    return scene;
+  } catch (const files::FileError&) {
+    return request.scene;
+  }
+}
+
 template <int Dim>
 RunStart<Dim> find_start(const RunRequest& request, const model::Model<Dim>& model,
                          const std::vector<std::string>& measures) {
@@ -91,9 +112,7 @@ RunStart<Dim> find_start(const RunRequest& request, const model::Model<Dim>& mod
     start.state = initial_state(model);
     return start;
   }
-  const std::filesystem::path checkpoint =
-      request.resume->checkpoint.empty() ? newest_checkpoint(request.directory, start.warnings)
-                                         : request.resume->checkpoint;
+  const std::filesystem::path checkpoint = checkpoint_of(request, start.warnings);
   try {
     resume(checkpoint, *request.scene, model, start);
   } catch (const files::FileError& failure) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct RunStart {
   std::vector<std::string> warnings;  // newer checkpoints that are damaged
   bool re_search_changed = false;
 };
+
+/// The scene of a request: with methods that it leaves to `auto` as the run to resume has them
+/// (keep_methods). What is wrong with the checkpoint is left for `find_start` to say.
+std::shared_ptr<const scene::Scene> scene_in_force(const RunRequest& request);
 
 /// The start of a run: the scene's initial state, or the state of the checkpoint that the request
 /// names or, if it names none, of the newest usable one in the output folder.

@@ -40,6 +40,14 @@ std::string what_may_change() {
                      fmt::join(free_tables, "*, "));
 }
 
+void keep_methods(const Scene& before, Scene& scene) {
+  for (std::size_t i = 0; i < std::min(before.support.size(), scene.support.size()); ++i) {
+    SupportMethod& method = scene.support[i].method;
+    if (method == SupportMethod::automatic) method = before.support[i].method;
+  }
+  if (scene.drive.method == DriveMethod::automatic) scene.drive.method = before.drive.method;
+}
+
 std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after) {
   std::vector<SceneChange> changes;
   for (const SceneTable& table : scene_tables()) {

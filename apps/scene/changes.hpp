@@ -28,6 +28,10 @@ struct SceneChange {
 /// These keys in words.
 [[nodiscard]] std::string what_may_change();
 
+/// What `scene` leaves to `auto` of how sides are held and driven becomes what `before`, with which
+/// the run began, says: before there was `auto`, no method meant direct.
+void keep_methods(const Scene& before, Scene& scene);
+
 /// Every key whose value differs, in the order of the scene file.
 [[nodiscard]] std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after);
 

@@ -78,7 +78,9 @@ void check_ghosts(const Scene& scene, const Support& support, const std::string&
   const auto across = static_cast<Axis>(axis_of(*support.side));
   const bool held_across =
       std::any_of(scene.support.begin(), scene.support.end(), [&](const Support& other) {
-        return other.side == support.side && other.method == SupportMethod::ghosts &&
+        const bool images = other.method == SupportMethod::ghosts ||
+                            other.method == SupportMethod::automatic;  // which follows
+        return other.side == support.side && images &&
                std::count(other.directions.begin(), other.directions.end(), across) > 0;
       });
   if (held_across) return;

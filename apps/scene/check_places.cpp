@@ -65,14 +65,6 @@ void check_held_and_moved(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
 }
 
-bool is_mirror(const Scene& scene, Side side) {
-  return std::any_of(scene.symmetry.begin(), scene.symmetry.end(), [&](const Symmetry& symmetry) {
-    return static_cast<int>(symmetry.axis) == axis_of(side) &&
-           std::abs(symmetry.position - side_position(scene.geometry, side)) <=
-               same_place(scene.geometry);
-  });
-}
-
 /// Nothing moves through a mirror, and what presses on it is borne by the other half.
 void check_mirrors(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (!diagnosis.good({"symmetry"})) return;
@@ -98,6 +90,35 @@ void check_mirrors(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
 }
 
+/// A side has images once: of a mirror, of the drive, or of its supports.
+void check_images(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const Drive& drive = scene.drive;
+  const bool driven = drive.kind == DriveKind::displacement && drive.method == DriveMethod::ghosts;
+  if (!diagnosis.good({"symmetry", "drive.side", "drive.method"})) return;
+  if (driven && is_mirror(scene, drive.side)) {
+    diagnosis.error("drive.method", "found ghosts on a mirror",
+                    "it has images of its own: drive another side, or by direct");
+  }
+  for (std::size_t i = 0; i < scene.support.size(); ++i) {
+    const Support& support = scene.support[i];
+    const std::string table = fmt::format("support.{}", i);
+    if (support.method != SupportMethod::ghosts || !support.side ||
+        !diagnosis.good({table + ".side", table + ".method"})) {
+      continue;
+    }
+    if (is_mirror(scene, *support.side)) {
+      diagnosis.error(table + ".method", "found ghosts on a mirror",
+                      "it has images of its own, which hold the side across it: leave the support "
+                      "out, or use direct");
+    } else if (driven && drive.side == *support.side) {
+      diagnosis.error(
+          table + ".method", "found ghosts on the side that the drive moves by ghosts",
+          "a side has images once: let the drive hold it by lateral = \"fixed\", or use "
+          "direct");
+    }
+  }
+}
+
 }  // namespace
 
 void check_places(const Scene& scene, tables::Diagnosis& diagnosis) {
@@ -106,6 +127,7 @@ void check_places(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_regions(scene, diagnosis);
   check_held_and_moved(scene, diagnosis);
   check_mirrors(scene, diagnosis);
+  check_images(scene, diagnosis);
 }
 
 }  // namespace scene

@@ -13,8 +13,8 @@ enum class Axis { x, y, z };
 /// Faces of the box: left and right are x- and x+, bottom and top y- and y+, front and back z- and
 /// z+. Up is y, in 3D as well.
 enum class Side { left, right, bottom, top, front, back };
-enum class SupportMethod { direct, penalty, ghosts, contact };
-enum class DriveMethod { direct, ghosts, contact };
+enum class SupportMethod { automatic, direct, penalty, ghosts, contact };
+enum class DriveMethod { automatic, direct, ghosts, contact };
 /// How rows see across the interface of two materials: as one body, or each its own.
 enum class InterfaceKind { through, tied, contact };
 enum class InitialStressKind { none, geostatic };

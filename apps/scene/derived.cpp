@@ -68,15 +68,61 @@ double resolve_stiffness_ratio(const Scene& scene) {
 
 namespace {
 
+// Particles on a face are prescribed themselves; the paper's viscosity drives by direct only.
+bool may_have_images(const Scene& scene) {
+  return scene.geometry.layout == Layout::cell &&
+         resolve_control(scene) != HourglassControl::viscosity;
+}
+
+bool moves(const Drive& drive, Side side) {
+  return drive.kind == DriveKind::displacement && drive.side == side;
+}
+
 bool holds_by_images(const Scene& scene) {
   return (scene.drive.kind == DriveKind::displacement &&
-          scene.drive.method == DriveMethod::ghosts) ||
-         std::ranges::any_of(scene.support, [](const Support& support) {
-           return support.method == SupportMethod::ghosts;
+          resolve_drive_method(scene) == DriveMethod::ghosts) ||
+         std::ranges::any_of(scene.support, [&](const Support& support) {
+           return resolve_method(scene, support) == SupportMethod::ghosts;
          });
 }
 
 }  // namespace
+
+bool is_mirror(const Scene& scene, Side side) {
+  return std::ranges::any_of(scene.symmetry, [&](const Symmetry& symmetry) {
+    return static_cast<int>(symmetry.axis) == axis_of(side) &&
+           std::abs(symmetry.position - side_position(scene.geometry, side)) <=
+               same_place(scene.geometry);
+  });
+}
+
+SupportMethod resolve_method(const Scene& scene, const Support& support) {
+  if (support.method != SupportMethod::automatic) return support.method;
+  const bool free_side = support.side && may_have_images(scene) &&
+                         !is_mirror(scene, *support.side) && !moves(scene.drive, *support.side);
+  if (!free_side) return SupportMethod::direct;
+  const auto across = static_cast<Axis>(axis_of(*support.side));
+  const auto holds_across = [&](const Support& other) {
+    const bool images =
+        other.method == SupportMethod::automatic || other.method == SupportMethod::ghosts;
+    return images && other.side == support.side && std::ranges::count(other.directions, across) > 0;
+  };
+  return std::ranges::any_of(scene.support, holds_across) ? SupportMethod::ghosts
+                                                          : SupportMethod::direct;
+}
+
+DriveMethod resolve_drive_method(const Scene& scene) {
+  const Drive& drive = scene.drive;
+  if (drive.method != DriveMethod::automatic) return drive.method;
+  const auto across = static_cast<std::size_t>(axis_of(drive.side));
+  const bool held_across = drive.lateral == Lateral::fixed ||
+                           (across < drive.direction.size() && drive.direction[across] != 0.0);
+  const bool alone = std::ranges::none_of(
+      scene.support, [&](const Support& support) { return support.side == drive.side; });
+  return held_across && alone && may_have_images(scene) && !is_mirror(scene, drive.side)
+             ? DriveMethod::ghosts
+             : DriveMethod::direct;
+}
 
 bool resolve_consistency(const Scene& scene) {
   if (scene.approximation.consistency == Switch::automatic) {

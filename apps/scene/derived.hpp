@@ -22,6 +22,7 @@ struct Material;
 struct Measure;
 struct Scene;
 struct Solver;
+struct Support;
 
 /// Places less than this apart are one [m]: decimal input and the round-off of coordinates leave
 /// them that far from where they are meant to be.
@@ -47,6 +48,17 @@ struct Solver;
 /// 0.01 for mixed, 0 for none and viscosity.
 [[nodiscard]] double resolve_stiffness_ratio(const Scene& scene);
 
+/// How a support holds: its method, where `automatic` means ghosts if images can hold its side, and
+/// direct otherwise: the layout is `vertex`, it is no side, a mirror, a side that the drive moves
+/// or one that is not held across, or the paper's viscosity is the control.
+[[nodiscard]] SupportMethod resolve_method(const Scene& scene, const Support& support);
+
+/// How a displacement is imposed: likewise.
+[[nodiscard]] DriveMethod resolve_drive_method(const Scene& scene);
+
+/// Whether there is a plane of symmetry at a side.
+[[nodiscard]] bool is_mirror(const Scene& scene, Side side);
+
 /// Whether the consistency correction is on: `automatic` means on for jittered and graded sets,
 /// where sides are held by images and, what the particles decide, where materials are bodies of
 /// their own.
@@ -64,7 +76,7 @@ struct SolverSettings {
 /// Fills absent keys of `solver` from its preset.
 [[nodiscard]] SolverSettings resolve_solver(const Solver& solver);
 
-/// Particles along x, y, z (1 along z in 2D), without mirror ghosts.
+/// Particles along x, y, z (1 along z in 2D), without ghosts.
 [[nodiscard]] std::array<std::int64_t, 3> lattice_counts(const Geometry& geometry);
 
 /// Product of `lattice_counts`.

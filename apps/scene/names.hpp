@@ -21,10 +21,12 @@ inline constexpr std::array<std::string_view, 6> control{"auto",      "none",   
 inline constexpr std::array<std::string_view, 3> axis{"x", "y", "z"};
 inline constexpr std::array<std::string_view, 6> side{"left", "right", "bottom",
                                                       "top",  "front", "back"};
-inline constexpr std::array<std::string_view, 4> method{"direct", "penalty", "ghosts", "contact"};
+inline constexpr std::array<std::string_view, 5> method{"auto", "direct", "penalty", "ghosts",
+                                                        "contact"};
 inline constexpr std::array<std::string_view, 2> initial_stress{"none", "geostatic"};
 inline constexpr std::array<std::string_view, 3> drive{"none", "displacement", "load"};
-inline constexpr std::array<std::string_view, 3> drive_method{"direct", "ghosts", "contact"};
+inline constexpr std::array<std::string_view, 4> drive_method{"auto", "direct", "ghosts",
+                                                              "contact"};
 inline constexpr std::array<std::string_view, 3> interface { "through", "tied", "contact" };
 inline constexpr std::array<std::string_view, 2> lateral{"fixed", "free"};
 inline constexpr std::array<std::string_view, 2> load{"traction", "gravity"};

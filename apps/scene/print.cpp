@@ -24,13 +24,21 @@ std::string note_of(const tables::Field<Scene>& field) {
 
 /// What an `auto` or absent key comes to in this scene, or "".
 std::string resolution_of(const SceneTable& table, const tables::Field<Scene>& field,
-                          const Scene& scene) {
+                          std::size_t index, const Scene& scene) {
   if (table.name == "hourglass" && field.key == "control" &&
       scene.hourglass.control == HourglassControl::automatic) {
     return fmt::format("here {}; ", name_of(resolve_control(scene)));
   }
   if (table.name == "hourglass" && field.key == "stiffness_ratio") {
     return fmt::format("here {}; ", resolve_stiffness_ratio(scene));
+  }
+  if (table.name == "support" && field.key == "method" &&
+      scene.support[index].method == SupportMethod::automatic) {
+    return fmt::format("here {}; ", name_of(resolve_method(scene, scene.support[index])));
+  }
+  if (table.name == "drive" && field.key == "method" &&
+      scene.drive.kind == DriveKind::displacement && scene.drive.method == DriveMethod::automatic) {
+    return fmt::format("here {}; ", name_of(resolve_drive_method(scene)));
   }
   if (table.name == "programme" && field.key == "steps") {
     return fmt::format("here {}; ", nominal_steps(scene));
@@ -46,7 +54,7 @@ void print_entry(std::string& out, const SceneTable& table, std::size_t index, c
         value ? fmt::format("{} = {}", field.key, tables::value_text(*value))
               : fmt::format("# {} =", field.key);
     fmt::format_to(std::back_inserter(out), "{:<{}}  # {}{}\n", assignment, value_column,
-                   resolution_of(table, field, scene), note_of(field));
+                   resolution_of(table, field, index, scene), note_of(field));
   }
 }
 

@@ -120,7 +120,7 @@ struct Support {
   Point region_max;  // [m]
   Point at;          // [m] the one nearest particle
   std::vector<Axis> directions;
-  SupportMethod method = SupportMethod::direct;
+  SupportMethod method = SupportMethod::automatic;
   double penalty_factor = 1e2;  // times Young's modulus
   Contact contact;              // of the method of that name
   bool operator==(const Support&) const = default;
@@ -160,7 +160,7 @@ struct Drive {
   Point range_max;  // [m]
   Point direction;  // unit vector
   Lateral lateral = Lateral::fixed;
-  DriveMethod method = DriveMethod::direct;
+  DriveMethod method = DriveMethod::automatic;
   Contact contact;                         // of the method of that name
   double target = 0.0;                     // [m] length of the prescribed displacement
   std::vector<LoadKind> scales;            // what grows from 0 to 1 in a load drive

@@ -57,7 +57,9 @@ SceneTable support() {
            {.doc = "direct: the displacements of the particles next to the side are given. ghosts: "
                    "the body goes on in images behind the side, which is held itself. penalty: the "
                    "side is held by stiff springs. contact: the body lies against the side, "
-                   "slides by Coulomb's law and, without tension, opens.",
+                   "slides by Coulomb's law and, without tension, opens. auto: ghosts for a side "
+                   "that is held across, layout cell; else, on a side the drive moves and under "
+                   "viscosity, direct.",
             .source = "penalty: Chen, Huang & Lyamin 2020, Eq. 3-4"})
       .key("penalty_factor", &Support::penalty_factor,
            {.range = tables::positive(),
@@ -158,7 +160,8 @@ SceneTable drive() {
                "displacement: direct: the displacements of the particles next to the side are "
                "given. ghosts: those of the side itself are, by images behind it. contact: a rigid "
                "plate pushes the side, which slides along it by Coulomb's law and, without "
-               "tension, opens."})
+               "tension, opens. auto: ghosts with layout cell; for a side that is moved along "
+               "itself alone, or held as well, and under viscosity, direct."})
       .key("target", &Drive::target,
            {.unit = "m",
             .range = tables::at_least(0.0),

@@ -32,10 +32,12 @@ cohesion = 1e3
 name = "base"
 side = "bottom"
 directions = ["x", "y"]
+method = "direct"
 [[support]]
 name = "a wall, left"
 side = "left"
 directions = ["x"]
+method = "direct"
 [[support]]
 name = "springs"
 side = "right"

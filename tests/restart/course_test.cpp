@@ -287,7 +287,9 @@ TEST(Check, WithResumeListsTheChangesAndWritesNothing) {
   const Outcome outcome =
       fpm_run_in(run, footing, {"--resume", "--check", "--set", "re_search.trigger=0.5"});
   EXPECT_EQ(outcome.code, program::ExitCode::done);
-  EXPECT_THAT(outcome.out, HasSubstr("96 particles, 40 mirror ghosts"));
+  // Within 1.2 m are five rows or columns: of the mirror and the far side 40 each, of the base 60,
+  // of the plate 20, and behind the corners 25, 25 and 20.
+  EXPECT_THAT(outcome.out, HasSubstr("96 particles, 230 ghosts"));
   EXPECT_THAT(outcome.out, HasSubstr("changed: re_search.trigger: 0.02 -> 0.5"));
   EXPECT_EQ(log_of(run), log);
   EXPECT_EQ(fpm_run_in(folder / "new", footing, {"--check"}).code, program::ExitCode::done);

@@ -31,8 +31,14 @@ class Reactions : public ::testing::Test {
 };
 
 TEST_F(Reactions, OfACheckpointSumUpToTheReactionOfItsCurve) {
+  const auto by_particles = folder_ / "direct";
+  ASSERT_EQ(fpm_run_in(by_particles, footing,
+                       {"--set", "support.0.method=direct", "--set", "support.1.method=direct",
+                        "--set", "drive.method=direct"})
+                .code,
+            program::ExitCode::done);
   record::CheckpointNotes notes;
-  const auto path = checkpoint_of(whole_, 10);
+  const auto path = checkpoint_of(by_particles, 10);
   const files::Hdf5File file = record::open_checkpoint(path, notes);
   const auto model = model::build_model<2>(model::scene_of(path, notes));
   const auto state = model::read_state(file, model, notes.schema);

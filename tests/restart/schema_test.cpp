@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <sstream>
 
 #include "files/file_seal.hpp"
 #include "files/hdf5_file.hpp"
@@ -17,6 +18,7 @@ namespace restart {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // A checkpoint of step 6 of 10 of a footing of 24 particles, written when the schema was new, with
 // what its curve then said of the last steps.
@@ -65,6 +67,27 @@ TEST_P(Schema, IsResumedToItsEnd) {
   EXPECT_EQ(rows.back().load_parameter, 1.0);
   const double pressure = pressure_of_step_10(GetParam());
   EXPECT_NEAR(rows.back().mean_pressure, pressure, 0.01 * pressure);
+}
+
+// No method meant direct then; it is what the run goes on with.
+TEST_P(Schema, IsResumedByASceneThatNamesNoMethod) {
+  record::CheckpointNotes notes;
+  (void)record::open_checkpoint(stored(GetParam()), notes);
+  std::string text;
+  std::istringstream lines(notes.scene);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("method = \"direct\"")) text += line + '\n';
+  }
+  ASSERT_NE(text, notes.scene);
+  const support::TemporaryFolder folder;
+  const Outcome outcome =
+      fpm_run_in(folder / "run", text, {"--resume=" + stored(GetParam()).string()});
+  ASSERT_EQ(outcome.code, program::ExitCode::done) << outcome.err;
+  record::CheckpointNotes last;
+  (void)record::open_checkpoint(last_checkpoint(folder / "run"), last);
+  EXPECT_THAT(last.scene, Not(HasSubstr("method = \"auto\"")));
+  const double pressure = pressure_of_step_10(GetParam());
+  EXPECT_NEAR(last.history.back().mean_pressure, pressure, 0.01 * pressure);
 }
 
 INSTANTIATE_TEST_SUITE_P(Versions, Schema,

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "scene/scene.hpp"
 
 namespace scene {
@@ -92,9 +94,91 @@ TEST(Consistency, AutoIsOnForJitteredSetsAndSidesHeldByImages) {
   EXPECT_FALSE(resolve_consistency(scene));
   Scene held;
   held.support.resize(1);
+  held.support[0].method = SupportMethod::direct;
   EXPECT_FALSE(resolve_consistency(held));
   held.support[0].method = SupportMethod::ghosts;
   EXPECT_TRUE(resolve_consistency(held));
+}
+
+// A box whose base, far side and driven top images can hold.
+Scene held_box() {
+  Scene scene = scene_of("drucker_prager");
+  scene.geometry.min = {0.0, -1.0};
+  scene.geometry.max = {2.0, 0.0};
+  scene.geometry.spacing = 0.1;
+  scene.support.resize(2);
+  scene.support[0].side = Side::bottom;
+  scene.support[0].directions = {Axis::x, Axis::y};
+  scene.support[1].side = Side::right;
+  scene.support[1].directions = {Axis::x};
+  scene.drive.kind = DriveKind::displacement;
+  scene.drive.direction = {0.0, -1.0};
+  return scene;
+}
+
+std::vector<SupportMethod> methods_of(const Scene& scene) {
+  std::vector<SupportMethod> all;
+  for (const Support& support : scene.support) all.push_back(resolve_method(scene, support));
+  return all;
+}
+
+TEST(Methods, AutoIsGhostsWhereImagesCanHoldASide) {
+  using S = SupportMethod;
+  const Scene box = held_box();
+  EXPECT_EQ(methods_of(box), (std::vector{S::ghosts, S::ghosts}));
+  EXPECT_EQ(resolve_drive_method(box), DriveMethod::ghosts);
+  EXPECT_TRUE(resolve_consistency(box));
+
+  Scene named = box;
+  named.support[0].method = S::penalty;
+  named.drive.method = DriveMethod::direct;
+  EXPECT_EQ(methods_of(named), (std::vector{S::penalty, S::ghosts}));
+  EXPECT_EQ(resolve_drive_method(named), DriveMethod::direct);
+
+  // A side may be held by several supports, one of them across it.
+  Scene shared = box;
+  shared.support[0].directions = {Axis::x};
+  EXPECT_EQ(methods_of(shared), (std::vector{S::direct, S::ghosts}));
+  shared.support.push_back(shared.support[0]);
+  shared.support[2].directions = {Axis::y};
+  EXPECT_EQ(methods_of(shared), (std::vector{S::ghosts, S::ghosts, S::ghosts}));
+  shared.support[2].method = S::penalty;
+  EXPECT_EQ(methods_of(shared), (std::vector{S::direct, S::ghosts, S::penalty}));
+}
+
+TEST(Methods, AutoIsDirectElsewhere) {
+  using S = SupportMethod;
+  const auto expect_direct = [](const Scene& scene) {
+    EXPECT_EQ(methods_of(scene), (std::vector{S::direct, S::direct}));
+    EXPECT_EQ(resolve_drive_method(scene), DriveMethod::direct);
+    EXPECT_FALSE(resolve_consistency(scene));
+  };
+  Scene vertex = held_box();
+  vertex.geometry.layout = Layout::vertex;
+  expect_direct(vertex);
+  Scene viscous = held_box();
+  viscous.hourglass.control = HourglassControl::viscosity;
+  expect_direct(viscous);
+
+  Scene places = held_box();
+  places.support[0].side.reset();
+  places.support[0].at = {0.0, 0.0};
+  places.symmetry = {{Axis::x, 2.0}};
+  EXPECT_EQ(methods_of(places), (std::vector{S::direct, S::direct}));
+
+  Scene lid = held_box();  // drawn along itself
+  lid.drive.direction = {1.0, 0.0};
+  EXPECT_EQ(resolve_drive_method(lid), DriveMethod::ghosts);
+  lid.drive.lateral = Lateral::free;
+  EXPECT_EQ(resolve_drive_method(lid), DriveMethod::direct);
+  lid.drive.lateral = Lateral::fixed;
+  lid.support[1].side = Side::top;
+  lid.support[1].directions = {Axis::y};
+  EXPECT_EQ(resolve_drive_method(lid), DriveMethod::direct);
+  EXPECT_EQ(methods_of(lid), (std::vector{S::ghosts, S::direct}));
+  Scene mirrored = held_box();
+  mirrored.symmetry = {{Axis::y, 0.0}};
+  EXPECT_EQ(resolve_drive_method(mirrored), DriveMethod::direct);
 }
 
 TEST(Interfaces, AreThoseOfTheirTableOrTheRest) {

@@ -49,6 +49,12 @@ TEST(EffectiveScene, SaysWhatIsMadeOfWhatTheSceneLeavesOpen) {
   EXPECT_THAT(lines_of({}), ContainsRegex("\ncontrol = \"auto\" *# here mixed; "));
   EXPECT_THAT(lines_of({}), ContainsRegex("\n# stiffness_ratio = *# here 0.01; "));
   EXPECT_THAT(lines_of({}), ContainsRegex("\n# steps = *# here 25; "));
+  EXPECT_THAT(lines_of({}), ContainsRegex("\nmethod = \"auto\" *# here ghosts; one of auto, "
+                                          "direct, penalty, ghosts, contact\n"));
+  EXPECT_THAT(lines_of({}), ContainsRegex("\nmethod = \"auto\" *# here ghosts; one of auto, "
+                                          "direct, ghosts, contact\n"));
+  EXPECT_THAT(lines_of({"hourglass.control=viscosity"}),
+              ContainsRegex("\nmethod = \"auto\" *# here direct; "));
   EXPECT_THAT(lines_of({"hourglass.control=incremental"}),
               ContainsRegex("\n# stiffness_ratio = *# here 0.1; "));
   EXPECT_THAT(lines_of({"programme.steps=7"}), ContainsRegex("\nsteps = 7 *# here 7; "));

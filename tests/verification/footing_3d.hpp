@@ -16,7 +16,7 @@ inline std::string in_full(double value) {
 }
 
 /// A plate pressed into clay in three dimensions: small strain, E / c = 1000 as in the strips, a
-/// half width of 1 m, cohesion 1 kPa.
+/// half width of 1 m, cohesion 1 kPa; held and driven by particles, which a test may choose among.
 inline std::string clay_in_3d(const std::string& extent, const std::string& plate,
                               const std::string& sides) {
   return "[geometry]\ndimension = 3\nmin = [0.0, -2.0, 0.0]\nmax = " + extent +
@@ -27,8 +27,11 @@ inline std::string clay_in_3d(const std::string& extent, const std::string& plat
          "[[symmetry]]\naxis = \"z\"\nposition = 0.0\n" +
          sides +
          "[[support]]\nname = \"base\"\nside = \"bottom\"\ndirections = [\"x\", \"y\", \"z\"]\n"
+         "method = \"direct\"\n"
          "[[support]]\nname = \"far side\"\nside = \"right\"\ndirections = [\"x\"]\n"
-         "[drive]\nkind = \"displacement\"\nside = \"top\"\nrange_min = [0.0, 0.0]\n"
+         "method = \"direct\"\n"
+         "[drive]\nkind = \"displacement\"\nmethod = \"direct\"\nside = \"top\"\nrange_min = [0.0, "
+         "0.0]\n"
          "direction = [0.0, -1.0, 0.0]\nlateral = \"fixed\"\nreference_length = 1.0\n" +
          plate + "[programme]\nsteps = 40\n";
 }

@@ -31,7 +31,7 @@ std::string patch_scene(const Patch& patch) {
        << "\nspacing=0.1\njitter=" << patch.jitter
        << "\n[approximation]\nconsistency=\"on\"\n[[material]]\nname=\"rubber\"\n"
           "model=\"elastic\"\nyoungs_modulus=1e6\npoissons_ratio=0.3\n"
-          "[drive]\nkind=\"displacement\"\nside=\"right\"\ndirection="
+          "[drive]\nkind=\"displacement\"\nmethod=\"direct\"\nside=\"right\"\ndirection="
        << (plane ? "[1.0, 0.0]" : "[1.0, 0.0, 0.0]")
        << "\ntarget=1.0\nwidth=1.0\n[programme]\nsteps=90\n[solver]\ntolerance=" << solver_tolerance
        << "\nmax_evaluations_per_step=3000\n";

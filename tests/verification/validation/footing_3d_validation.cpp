@@ -11,7 +11,7 @@ std::string quarter_of_footing(const std::string& model) {
   std::string text =
       clay_in_3d("[3.0, 0.0, 3.0]", "range_max = [1.0, 1.0]\ntarget = 0.1\nwidth = 1.0\n",
                  "[[support]]\nname = \"other far side\"\nside = \"back\"\n"
-                 "directions = [\"z\"]\n");
+                 "directions = [\"z\"]\nmethod = \"direct\"\n");
   if (model == "mohr_coulomb") {
     const std::string cylinder = "von_mises";
     text.replace(text.find(cylinder), cylinder.size(), model);
