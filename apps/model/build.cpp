@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "model/bodies.hpp"
 #include "model/initial_stress.hpp"
@@ -9,6 +11,8 @@
 #include "model/loads.hpp"
 #include "model/planes.hpp"
 #include "model/selection.hpp"
+#include "model/surface.hpp"
+#include "scene/cutouts.hpp"
 #include "scene/derived.hpp"
 #include "scene/grading.hpp"
 #include "scene/scene.hpp"
@@ -41,6 +45,7 @@ void place_particles(const scene::Scene& scene, Model<Dim>& model) {
   model.spacing = geometry.spacing;
   model.cells = cells_of<Dim>(scene);
   model.particles = fpm::make_particles(model.cells);
+  if (!scene.cutout.empty()) cut_body(scene, model);
 
   model.row_options.kernel = to_kernel(scene.approximation.kernel);
   model.row_options.support_radius = scene.approximation.support_over_spacing * geometry.spacing;
@@ -58,9 +63,13 @@ void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
     model.materials.push_back(constitutive::make_material(scene::parameters_of(material)));
     model.youngs_modulus.push_back(material.youngs_modulus);
   }
-  // By where its cell is: jitter moves no particle into another material.
+  // By where its cell is: jitter moves no particle into another material. What is left of a cell
+  // that was cut is where its particle is.
   for (Eigen::Index a = 0; a < n; ++a) {
-    const fpm::Vector<Dim> place = model.cells.site(static_cast<fpm::Index>(a));
+    fpm::Vector<Dim> place = model.cells.site(static_cast<fpm::Index>(a));
+    if (!model.surface.empty() && model.particles.volume[a] != std::pow(model.spacing_at(a), Dim)) {
+      place = model.particles.position.row(a).transpose();
+    }
     model.material[static_cast<std::size_t>(a)] =
         static_cast<MaterialIndex>(scene::material_at(scene, {place.data(), Dim}));
     model.mass[a] = scene.material[model.material[static_cast<std::size_t>(a)]].density *
@@ -156,14 +165,30 @@ fpm::Cells<Dim> cells_of(const scene::Scene& scene) {
                                                           : fpm::LatticeLayout::vertex;
   lattice.jitter = geometry.jitter;
   lattice.seed = static_cast<std::uint64_t>(geometry.seed);
-  if (!scene.grading.enabled) return fpm::Cells<Dim>(lattice);
+  const bool cut = Dim == 2 && !scene.cutout.empty();
+  if (!scene.grading.enabled) {
+    // A tree of equal cells can lose some of them.
+    if (cut) return {lattice, [&](const auto& /*lower*/, const auto& /*upper*/) { return 0.0; }};
+    return fpm::Cells<Dim>(lattice);
+  }
   const auto places = scene::fine_places(scene);
+  std::optional<shape::Body> body;
+  if (cut) body = scene::body_of(scene);
   return {lattice, [&](const fpm::Vector<Dim>& lower, const fpm::Vector<Dim>& upper) {
-            return scene::wanted_spacing(scene, places, {lower.data(), Dim}, {upper.data(), Dim});
+            const double to_cutouts =
+                body ? body->distance_to_cuts(lower.template head<2>(), upper.template head<2>())
+                     : std::numeric_limits<double>::infinity();
+            return scene::wanted_spacing(scene, places, {lower.data(), Dim}, {upper.data(), Dim},
+                                         to_cutouts);
           }};
 }
 
 std::int64_t particle_count(const scene::Scene& scene) {
+  if (!scene.cutout.empty()) {
+    Model<2> model;
+    place_particles(scene, model);
+    return model.size();
+  }
   if (!scene.grading.enabled) return scene::particle_count(scene.geometry);
   return scene.geometry.dimension == 2 ? cells_of<2>(scene).size() : cells_of<3>(scene).size();
 }

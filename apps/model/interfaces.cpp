@@ -9,6 +9,8 @@
 #include "constitutive/tensor.hpp"
 #include "model/initial_stress.hpp"
 #include "model/selection.hpp"
+#include "model/surface.hpp"
+#include "scene/cutouts.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
 
@@ -97,10 +99,40 @@ Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
   return interface;
 }
 
+// Of what cutouts leave of the faces between cells, where two bodies meet.
+template <int Dim>
+fpm::CommonFaces<Dim> common_faces(const scene::Scene& scene, const Model<Dim>& model) {
+  auto faces = fpm::common_faces(model.cells, model.particles.body);
+  if constexpr (Dim == 2) {
+    if (model.surface.empty()) return faces;
+    const shape::Body body = scene::body_of(scene);
+    for (Eigen::Index c = 0; c < faces.points.weight.size(); ++c) {
+      const fpm::Vector<2> middle = faces.points.position.row(c).transpose();
+      const fpm::Vector<2> normal = faces.points.normal.row(c).transpose();
+      const fpm::Vector<2> half =
+          0.5 * faces.points.weight[c] * fpm::Vector<2>(-normal[1], normal[0]);
+      const shape::Stretch left = body.along(middle - half, middle + half);
+      faces.points.weight[c] = left.length;
+      if (left.length > 0.0) faces.points.position.row(c) = left.middle.transpose();
+    }
+    constexpr double sliver = 1e-9;
+    return part_of<2>(
+        faces, [&](Eigen::Index c) { return faces.points.weight[c] > sliver * model.spacing; });
+  }
+  return faces;
+}
+
+// The cells' faces at a side of the box, or what cutouts leave of it.
+template <int Dim>
+fpm::CommonFaces<Dim> outer_faces(const Model<Dim>& model, const fpm::Face& face) {
+  return model.surface.empty() ? fpm::outer_faces(model.cells, face)
+                               : surface_faces(model, {{}, face});
+}
+
 template <int Dim>
 void add_between_materials(const scene::Scene& scene, Model<Dim>& model) {
   if (model.particles.body.empty()) return;
-  const auto faces = fpm::common_faces(model.cells, model.particles.body);
+  const auto faces = common_faces(scene, model);
   const auto pair_of = [&](Eigen::Index c) {
     const auto k = static_cast<std::size_t>(c);
     const fpm::Index one = model.material[static_cast<std::size_t>(faces.first[k])];
@@ -127,7 +159,7 @@ template <int Dim>
 void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
   for (const scene::Support& support : scene.support) {
     if (support.method != scene::SupportMethod::contact) continue;
-    const auto faces = fpm::outer_faces(model.cells, face_of<Dim>(*support.side));
+    const auto faces = outer_faces(model, face_of<Dim>(*support.side));
     model.interfaces.push_back(interface_at(scene, model, faces, support.contact, false));
     model.interfaces.back().support = support.name;
   }
@@ -135,7 +167,7 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
   if (drive.kind != scene::DriveKind::displacement || drive.method != scene::DriveMethod::contact) {
     return;
   }
-  const auto faces = fpm::outer_faces(model.cells, face_of<Dim>(drive.side));
+  const auto faces = outer_faces(model, face_of<Dim>(drive.side));
   const auto under = part_of<Dim>(faces, [&](Eigen::Index c) {
     return in_side_range(scene, model, drive.side, drive.range_min, drive.range_max,
                          faces.first[static_cast<std::size_t>(c)]);
@@ -148,12 +180,27 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
   model.interfaces.push_back(std::move(plate));
 }
 
+template <int Dim>
+void add_cutouts(const scene::Scene& scene, Model<Dim>& model) {
+  scene::Contact smooth;  // a roller: held across, whichever way it is pulled
+  smooth.tension = true;
+  for (std::size_t i = 0; i < scene.cutout.size(); ++i) {
+    const scene::Cutout& cutout = scene.cutout[i];
+    if (cutout.kind == scene::CutoutKind::free) continue;
+    const bool fixed = cutout.kind == scene::CutoutKind::fixed;
+    model.interfaces.push_back(
+        interface_at(scene, model, surface_faces(model, {i}), smooth, fixed));
+    model.interfaces.back().support = cutout.name;
+  }
+}
+
 }  // namespace
 
 template <int Dim>
 void add_interfaces(const scene::Scene& scene, Model<Dim>& model) {
   add_between_materials(scene, model);
   add_rigid(scene, model);
+  add_cutouts(scene, model);
 }
 
 template void add_interfaces<2>(const scene::Scene&, Model<2>&);

@@ -6,6 +6,7 @@
 #include "model/bodies.hpp"
 #include "model/selection.hpp"
 #include "model/side_points.hpp"
+#include "model/surface.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
 
@@ -46,6 +47,26 @@ void add_tractions(const scene::Scene& scene, Model<Dim>& model) {
     } else {
       fpm::add_uniform_traction<Dim>(side.op, side.points, value, load);
     }
+  }
+}
+
+// What presses on the surfaces that cutouts leave.
+template <int Dim>
+void add_cutout_tractions(const scene::Scene& scene, Model<Dim>& model) {
+  const bool scaled = scales_with(scene, scene::LoadKind::traction);
+  Eigen::Map<fpm::Field<Dim>> load((scaled ? model.scaled_load : model.constant_load).data(),
+                                   model.size(), Dim);
+  for (std::size_t i = 0; i < scene.cutout.size(); ++i) {
+    const scene::Cutout& cutout = scene.cutout[i];
+    if (cutout.pressure == 0.0 && cutout.shear == 0.0) continue;
+    const SurfacePoints<Dim> surface = surface_points(model, {i});
+    const fpm::PointOperator<Dim> op(model.particles, model.ghosts, surface.points.position,
+                                     model.row_options, surface.particle);
+    fpm::Field<Dim> traction = -cutout.pressure * surface.points.normal;
+    // Along the surface, the body to the left: the normal turned to the left.
+    traction.col(0) -= cutout.shear * surface.points.normal.col(1);
+    traction.col(1) += cutout.shear * surface.points.normal.col(0);
+    fpm::add_traction<Dim>(op, surface.points, traction, load);
   }
 }
 
@@ -121,17 +142,49 @@ void add_loads(const scene::Scene& scene, Model<Dim>& model) {
   model.scaled_load.setZero(model.unknowns());
   add_gravity(scene, model);
   add_tractions(scene, model);
+  add_cutout_tractions(scene, model);
   add_penalty_supports(scene, model);
 }
 
 namespace {
+
+fpm::Face face_at(int axis, double position, double middle) {
+  return {axis, position > middle};
+}
+
+// Of what is left of given faces of the box, but for the parts under plates, and of the surfaces
+// that cutouts leave.
+template <int Dim>
+fpm::Field<Dim> cut_area_vectors(const scene::Scene& scene, const Model<Dim>& model,
+                                 const std::vector<fpm::Face>& faces,
+                                 const std::vector<fpm::GhostPlane<Dim>>& plates) {
+  fpm::Field<Dim> area = fpm::Field<Dim>::Zero(model.size(), Dim);
+  const auto add = [&](const SurfacePart& part, double sign) {
+    const SurfacePoints<Dim> surface = surface_points(model, part);
+    const fpm::PointOperator<Dim> op(model.particles, model.ghosts, surface.points.position,
+                                     model.row_options, surface.particle);
+    area += sign * fpm::area_vectors(op, surface.points);
+  };
+  for (std::size_t i = 0; i < scene.cutout.size(); ++i) add({i}, 1.0);
+  for (const fpm::Face& face : faces) add({{}, face}, 1.0);
+  for (const auto& plate : plates) {
+    const int along = 1 - plate.axis;
+    const double middle = 0.5 * (model.box_min[plate.axis] + model.box_max[plate.axis]);
+    add({{},
+         face_at(plate.axis, plate.position, middle),
+         plate.range_min[along],
+         plate.range_max[along]},
+        -1.0);
+  }
+  return area;
+}
 
 // Of the faces of the box.
 template <int Dim>
 fpm::Field<Dim> outer_area_vectors(const scene::Scene& scene, const Model<Dim>& model) {
   const fpm::Vector<Dim> middle = 0.5 * (model.box_min + model.box_max);
   const auto face_of = [&](const fpm::GhostPlane<Dim>& plane) {
-    return fpm::Face{plane.axis, plane.position > middle[plane.axis]};
+    return face_at(plane.axis, plane.position, middle[plane.axis]);
   };
   std::vector<fpm::Face> faces = fpm::all_faces<Dim>();
   const auto& planes = model.ghosts.planes();
@@ -159,6 +212,7 @@ fpm::Field<Dim> outer_area_vectors(const scene::Scene& scene, const Model<Dim>& 
     }
     return area;
   }
+  if (!model.surface.empty()) return cut_area_vectors(scene, model, faces, plates);
   fpm::BoundaryPoints<Dim> points;
   for (const fpm::Face& face : faces) points.append(fpm::boundary_quadrature(model.cells, face));
   for (const auto& plate : plates) {

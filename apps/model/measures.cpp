@@ -93,6 +93,7 @@ void Measures<Dim>::find_support(const scene::Scene& scene, const std::string& n
     }
     penalties += penalty ? 1 : 0;
   }
+  add_contacts(name, measure);  // of a cutout's surface
 }
 
 template <int Dim>

@@ -51,6 +51,14 @@ struct Interface {
   bool is_rigid() const { return faces.second.size() == 0; }
 };
 
+/// A straight piece of the surface of a plane body with cutouts, within one cell; the body is to
+/// its left.
+struct SurfacePiece {
+  Eigen::Vector2d from, to;  // [m]
+  fpm::Index particle = 0;   // of that cell
+  int source = 0;            // index of the cutout; of the box's faces -1 left, -2 right, -3, -4
+};
+
 /// A scene turned into particles, materials, constraints and loads: everything that stays the same
 /// during a run. Vectors over unknowns are component-major (all x, then all y, ...), length n Dim.
 template <int Dim>
@@ -92,6 +100,7 @@ struct Model {
   std::vector<FollowingPressure<Dim>> following_pressures;
   std::vector<PenaltySupport<Dim>> penalty_supports;
   std::vector<Interface<Dim>> interfaces;
+  std::vector<SurfacePiece> surface;  // of a body with cutouts only
 
   /// Number of points of all interfaces.
   Eigen::Index interface_points() const;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "model/bodies.hpp"
+#include "model/surface.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
 
@@ -39,6 +40,14 @@ SidePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, 
     result.op = fpm::PointOperator<Dim>::at_particles(model.particles, model.ghosts,
                                                       tributary.particle, model.row_options);
     result.points = std::move(tributary.points);
+    return result;
+  }
+  if (!model.surface.empty()) {
+    const int along = 1 - face.axis;
+    auto left = surface_points(model, {{}, face, from[along], to[along]});
+    result.op = fpm::PointOperator<Dim>(model.particles, model.ghosts, left.points.position,
+                                        model.row_options, left.particle);
+    result.points = std::move(left.points);
     return result;
   }
   result.points = fpm::boundary_quadrature(model.cells, face, from, to);

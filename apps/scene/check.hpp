@@ -13,6 +13,7 @@ void check_scene(const Scene& scene, tables::Diagnosis& diagnosis);
 
 // The parts of check_scene.
 void check_geometry(const Scene& scene, tables::Diagnosis& diagnosis);
+void check_cutouts(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_grading(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_materials(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_interfaces(const Scene& scene, tables::Diagnosis& diagnosis);

@@ -106,7 +106,7 @@ void check_grading(const Scene& scene, tables::Diagnosis& diagnosis) {
       return;
     }
   }
-  if (fine_places(scene).empty()) {
+  if (fine_places(scene).empty() && scene.cutout.empty()) {
     diagnosis.error("grading.enabled", "found true, and no plate or load ends within a side",
                     "say in [[refine]] where particles are to be fine");
   }

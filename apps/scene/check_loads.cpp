@@ -395,6 +395,7 @@ void check_scene(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_drive(scene, diagnosis);
   check_places(scene, diagnosis);
   check_measures(scene, diagnosis);
+  check_cutouts(scene, diagnosis);
   check_grading(scene, diagnosis);
   check_run(scene, diagnosis);
 }

@@ -17,6 +17,8 @@ enum class SupportMethod { automatic, direct, penalty, ghosts, contact };
 enum class DriveMethod { automatic, direct, ghosts, contact };
 /// How rows see across the interface of two materials: as one body, or each its own.
 enum class InterfaceKind { through, tied, contact };
+/// What happens at the surface that something cut out leaves.
+enum class CutoutKind { free, fixed, roller };
 enum class InitialStressKind { none, geostatic };
 enum class DriveKind { none, displacement, load };
 enum class Lateral { fixed, free };

@@ -129,7 +129,7 @@ double resolve_coarsest(const Scene& scene) {
 }
 
 double wanted_spacing(const Scene& scene, const std::vector<FinePlace>& places,
-                      std::span<const double> min, std::span<const double> max) {
+                      std::span<const double> min, std::span<const double> max, double to_cutouts) {
   const double slack = same_place(scene.geometry);
   for (const Material& material : scene.material) {
     if (cuts(material.region_min, material.region_max, slack, min, max)) {
@@ -146,12 +146,15 @@ double wanted_spacing(const Scene& scene, const std::vector<FinePlace>& places,
   for (const Material& material : scene.material) {
     wanted = std::min(wanted, fitting_spacing(material, scene.geometry, slack, min, max));
   }
+  const auto grown = [&](double r) {
+    return scene.grading.growth * length * std::pow(r / length, scene.grading.exponent);
+  };
+  if (std::isfinite(to_cutouts)) {
+    wanted = std::min(wanted, std::max(scene.geometry.spacing, grown(to_cutouts)));
+  }
   for (const FinePlace& place : places) {
     const double r = distance(place, min, max);
-    const double grown = r < place.radius ? 0.0
-                                          : scene.grading.growth * length *
-                                                std::pow(r / length, scene.grading.exponent);
-    wanted = std::min(wanted, std::max(place.spacing, grown));
+    wanted = std::min(wanted, std::max(place.spacing, r < place.radius ? 0.0 : grown(r)));
   }
   return wanted;
 }

@@ -23,6 +23,7 @@ inline constexpr std::array<std::string_view, 6> side{"left", "right", "bottom",
                                                       "top",  "front", "back"};
 inline constexpr std::array<std::string_view, 5> method{"auto", "direct", "penalty", "ghosts",
                                                         "contact"};
+inline constexpr std::array<std::string_view, 3> cutout{"free", "fixed", "roller"};
 inline constexpr std::array<std::string_view, 2> initial_stress{"none", "geostatic"};
 inline constexpr std::array<std::string_view, 3> drive{"none", "displacement", "load"};
 inline constexpr std::array<std::string_view, 4> drive_method{"auto", "direct", "ghosts",
@@ -42,6 +43,9 @@ inline constexpr std::array<std::string_view, 3> preconditioner{"two_level", "bl
 /// The names of an enumeration's values as written in a scene, in the enumerators' order.
 constexpr std::span<const std::string_view> names_of(Layout) {
   return names::layout;
+}
+constexpr std::span<const std::string_view> names_of(CutoutKind) {
+  return names::cutout;
 }
 constexpr std::span<const std::string_view> names_of(KernelKind) {
   return names::kernel;

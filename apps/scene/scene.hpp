@@ -27,6 +27,32 @@ struct Geometry {
   bool operator==(const Geometry&) const = default;
 };
 
+/// A place in the plane [m].
+class PlanePoint {
+ public:
+  PlanePoint(double x, double y) : x_(x), y_(y) {}
+  double x() const { return x_; }
+  double y() const { return y_; }
+  bool operator==(const PlanePoint&) const = default;
+
+ private:
+  double x_, y_;
+};
+
+/// What is cut out of the box, and what acts on the surface that it leaves; either an outline or a
+/// circle.
+struct Cutout {
+  std::string name;
+  std::vector<PlanePoint> outline;
+  Point centre;                  // [m]
+  std::optional<double> radius;  // [m]
+  bool outside = false;          // what lies outside is cut away
+  CutoutKind kind = CutoutKind::free;
+  double pressure = 0.0;  // [Pa] on the body
+  double shear = 0.0;     // [Pa] along the surface, with the body to the left
+  bool operator==(const Cutout&) const = default;
+};
+
 /// How the spacing grows away from where particles are finest.
 struct Grading {
   bool enabled = false;
@@ -239,6 +265,7 @@ struct Limit {
 struct Scene {
   std::string title;
   Geometry geometry;
+  std::vector<Cutout> cutout;
   Grading grading;
   std::vector<Refine> refine;
   Approximation approximation;

@@ -99,6 +99,48 @@ SceneTable geometry() {
       .build();
 }
 
+SceneTable cutout() {
+  return tables::TableBuilder<Scene, Cutout>(
+             "cutout", &Scene::cutout,
+             "What is cut out of the box: a polygon or a circle, or what lies outside one. Plane "
+             "bodies with the layout cell only.")
+      .key("name", &Cutout::name,
+           {.need = tables::Need::required,
+            .doc = "Unique; serves messages and, where it holds the body, reactions."})
+      .key(
+          "outline", &Cutout::outline,
+          {.need = tables::Need::optional,
+           .unit = "m",
+           .doc = "Corners of a polygon, either way around, [[x, y], ...]; it may reach beyond the "
+                  "box.",
+           .absent = "a circle"})
+      .key("centre", &Cutout::centre,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "Centre of a circle.",
+            .absent = "an outline"})
+      .key("radius", &Cutout::radius,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .range = tables::positive(),
+            .doc = "Radius of the circle, followed to a thousandth of geometry.spacing.",
+            .absent = "an outline"})
+      .key("outside", &Cutout::outside,
+           {.doc = "true: what lies outside is cut away, and the body is within."})
+      .key(
+          "kind", &Cutout::kind,
+          {.doc = "Of the surface that is left. free: only pressure and shear act on it. fixed: it "
+                  "is held. roller: it is held across, and free along."})
+      .key("pressure", &Cutout::pressure,
+           {.unit = "Pa",
+            .doc = "free: pressure on the body, a dead load; grows with traction in drive.scales."})
+      .key("shear", &Cutout::shear,
+           {.unit = "Pa",
+            .doc = "free: traction along the surface, in the direction that has the body to its "
+                   "left; likewise."})
+      .build();
+}
+
 SceneTable grading() {
   return tables::TableBuilder<Scene, Grading>(
              "grading", &Scene::grading,
@@ -183,9 +225,10 @@ SceneTable approximation() {
            .doc = "Support radius R over spacing; for the cubic spline R is two smoothing lengths.",
            .source = "1.2 smoothing lengths per spacing, as in the paper"})
       .key("consistency", &Approximation::consistency,
-           {.doc = "Correction that makes nodal integration pass the patch test, of rows whose "
-                   "neighbourhoods are cut or irregular; auto: on for jittered and graded sets, where "
-                   "sides are held by ghosts, and where materials are bodies of their own."})
+           {.doc =
+                "Correction that makes nodal integration pass the patch test, of rows whose "
+                "neighbourhoods are cut or irregular; auto: on for jittered and graded sets, where "
+                "sides are held by ghosts, and where materials are bodies of their own."})
       .key("kinematics", &Approximation::kinematics,
            {.doc = "finite_strain: updated Lagrangian, Hughes-Winget. small_strain: geometrically "
                    "linear, for comparison with limit loads and beam theory.",
@@ -287,7 +330,7 @@ SceneTable hourglass() {
 }  // namespace
 
 std::vector<SceneTable> body_tables() {
-  return {top_level(),     geometry(), grading(),   refine(),
+  return {top_level(),     geometry(), cutout(),    grading(),  refine(),
           approximation(), material(), interface(), hourglass()};
 }
 

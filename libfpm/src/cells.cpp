@@ -77,6 +77,35 @@ Cells<Dim> Cells<Dim>::coarsened(int levels) const {
 }
 
 template <int Dim>
+Cells<Dim> Cells<Dim>::restricted(const std::vector<Index>& owner) const {
+  if (!graded_) throw std::invalid_argument("only the cells of a tree can be restricted");
+  require_size("owners of cells", static_cast<Eigen::Index>(owner.size()), size());
+  std::vector<Index> number(owner.size(), -1);
+  Cells rest;
+  rest.lattice_ = lattice_;
+  rest.count_ = count_;
+  rest.graded_ = true;
+  rest.top_level_ = top_level_;
+  for (Index a = 0; a < size(); ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    if (owner[k] != a) continue;
+    number[k] = rest.size();
+    rest.place_.push_back(place_[k]);
+    rest.level_.push_back(level_[k]);
+  }
+  for (Index a = 0; a < size(); ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    if (owner[k] < 0) continue;
+    if (owner[k] >= size() || number[static_cast<std::size_t>(owner[k])] < 0) {
+      throw ShapeError("cell " + std::to_string(owner[k]) + " owns another but not itself");
+    }
+    rest.index_.emplace(detail::key_of<Dim>(place_[k], level_[k]),
+                        number[static_cast<std::size_t>(owner[k])]);
+  }
+  return rest;
+}
+
+template <int Dim>
 typename Cells<Dim>::Place Cells<Dim>::place(Index cell) const {
   if (graded_) return place_[static_cast<std::size_t>(cell)];
   Place at;

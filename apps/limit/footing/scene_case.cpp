@@ -52,6 +52,7 @@ class Reader {
       require(reaches, "drive.range_min",
               "the footing does not reach from the mirror to a place on the top");
     }
+    require(scene_.cutout.empty(), "cutout", "the body has cutouts");
     take_supports();
     if (!diagnosis_.errors().empty()) return found_;
     take_tractions(drive.range_max[0]);

@@ -46,6 +46,13 @@ class Cells {
   /// @throws std::invalid_argument on a vertex lattice
   Cells coarsened(int levels) const;
 
+  /// The cells of a tree that are left where a part of the box is cut away.
+  /// @param owner  of each cell, the cell that stands for it: itself, one beside it, which takes
+  /// over
+  ///   what is left of it, or -1 for none. An owner owns itself.
+  /// @throws std::invalid_argument unless this is a tree; ShapeError if an owner is none.
+  Cells restricted(const std::vector<Index>& owner) const;
+
   /// The lattice, or that of the finest cells.
   const LatticeOptions<Dim>& lattice() const { return lattice_; }
   /// Whether cells differ in width.
@@ -58,7 +65,8 @@ class Cells {
   Vector<Dim> upper(Index cell) const;  ///< [m] upper corner
   Vector<Dim> site(Index cell) const;   ///< [m] its particle's place, but for the jitter
 
-  /// The cell that a point of the box is in; of one outside, the nearest.
+  /// The cell that a point of the box is in or that took it over; of a point outside the box that
+  /// of the nearest point within, and -1 where the box is cut away.
   Index containing(const Vector<Dim>& point) const;
 
   /// A cell that shares a face with another: the first of them if there are several; -1 at a face
@@ -72,9 +80,10 @@ class Cells {
     for (Index a = 0; a < size(); ++a) {
       for (int i = 0; i < Dim; ++i) {
         const Index below = beside(a, i, false), above = beside(a, i, true);
-        // Of several narrower cells each has this one beside it.
-        if (below >= 0 && width(below) > width(a)) visit(below, a, i);
-        if (above >= 0 && width(above) >= width(a)) visit(a, above, i);
+        // Of several narrower cells each has this one beside it. What took over a cell beside it is
+        // beside itself.
+        if (below >= 0 && below != a && width(below) > width(a)) visit(below, a, i);
+        if (above >= 0 && above != a && width(above) >= width(a)) visit(a, above, i);
       }
     }
   }

@@ -1,0 +1,100 @@
+// Bodies with parts cut out, against closed forms.
+
+#include <fmt/format.h>
+
+#include "limit_load.hpp"
+#include "run.hpp"
+
+namespace verification {
+namespace {
+
+const std::string elastic =
+    "[approximation]\nkinematics = \"small_strain\"\n[[material]]\nname = \"m\"\n"
+    "model = \"elastic\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3\n";
+const std::string quarter =
+    "[[symmetry]]\naxis = \"x\"\nposition = 0.0\n[[symmetry]]\naxis = \"y\"\nposition = 0.0\n";
+const std::string loaded = "[drive]\nkind = \"load\"\nscales = [\"traction\"]\n";
+
+std::string box(double extent, double spacing, double jitter = 0.0) {
+  return fmt::format(
+      "[geometry]\ndimension = 2\nmin = [0.0, 0.0]\nmax = [{0}, {0}]\nspacing = {1}\njitter = "
+      "{2}\n",
+      extent, spacing, jitter);
+}
+
+std::string circle(const std::string& name, double radius, const std::string& more) {
+  return fmt::format("[[cutout]]\nname = \"{}\"\ncentre = [0.0, 0.0]\nradius = {}\n", name,
+                     radius) +
+         more;
+}
+
+// Pressed everywhere by the same pressure a body of any shape is under it: to the residual, times
+// the condition of the small body, below 100.
+struct Shape {
+  std::string name, cutouts;
+};
+
+class CutBody : public testing::TestWithParam<Shape> {};
+
+TEST_P(CutBody, UnderPressureAllAroundHasNoOtherStress) {
+  for (const double jitter : {0.0, 0.3}) {
+    for (const bool graded : {false, true}) {
+      std::string text = box(2.0, 0.1, jitter) + GetParam().cutouts + elastic + quarter + loaded;
+      if (graded) text += "[grading]\nenabled = true\ngrowth = 0.5\n";
+      for (const char* side : {"right", "top"}) {
+        text += fmt::format("[[traction]]\nname = \"{0}\"\nside = \"{0}\"\nvalue = [{1}]\n", side,
+                            side == std::string("top") ? "0.0, -1e3" : "-1e3, 0.0");
+      }
+      Run<2> run(scene_of(text + "[programme]\nsteps = 1\n[solver]\ntolerance = 1e-11\n"
+                                 "method = \"newton_krylov\"\nmax_evaluations_per_step = 20000\n"));
+      run.complete();
+      for (const int component : {0, 1}) {
+        EXPECT_LT((run.state.stress.row(component).array() + 1e3).abs().maxCoeff(), 1e-9 * 1e3);
+      }
+      EXPECT_LT(run.state.stress.row(3).cwiseAbs().maxCoeff(), 1e-9 * 1e3);
+    }
+  }
+}
+
+const Shape shapes[] = {
+    {"Hole", circle("hole", 0.87, "pressure = 1e3\n")},
+    {"Notch",
+     "[[cutout]]\nname = \"notch\"\noutline = [[1.03, 2.5], [1.2, 0.77], [2.5, 1.4]]\n"
+     "pressure = 1e3\n"},
+    {"Inside",
+     "[[cutout]]\nname = \"outline\"\noutline = [[-1, -1], [1.9, -1], [1.7, 0.6], [1.1, 1.3], "
+     "[0.6, 1.97], [-1, 1.8]]\noutside = true\npressure = 1e3\n"},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, CutBody, testing::ValuesIn(shapes),
+                         [](const auto& info) { return info.param.name; });
+
+// Lame's cylinder in plane strain, radii 1 and 2.
+double bore_displacement_error(double spacing, double jitter) {
+  Run<2> run(scene_of(box(2.0, spacing, jitter) + circle("bore", 1.0, "pressure = 1e3\n") +
+                      circle("rim", 2.0, "outside = true\n") + elastic + quarter + loaded +
+                      "[programme]\nsteps = 1\n[solver]\ntolerance = 1e-6\n"
+                      "max_evaluations_per_step = 20000\n"));
+  run.complete();
+  const double angle = M_PI / 5.0;
+  const fpm::Vector<2> at(std::cos(angle), std::sin(angle));
+  const fpm::Field<2> point = at.transpose();
+  const double moved = probe(run, point).value(0, run.state.displacement).dot(at);
+  const double exact = 1.3 / 1e6 * 1e3 / 3.0 * (0.4 + 4.0);
+  return moved / exact - 1.0;
+}
+
+TEST(CutCylinder, BoreMovesAsLameSays) {
+  const double coarse = bore_displacement_error(0.1, 0.0);
+  const double fine = bore_displacement_error(0.05, 0.0);
+  report("error_at_10_cells", coarse);
+  report("error_at_20_cells", fine);
+  report("order", std::log2(std::abs(coarse / fine)));
+  EXPECT_GT(std::abs(coarse / fine), std::pow(2.0, 1.8));
+  const double irregular = bore_displacement_error(0.05, 0.2);
+  report("error_at_20_cells_jitter", irregular);
+  EXPECT_LT(std::abs(irregular), std::abs(coarse));
+}
+
+}  // namespace
+}  // namespace verification
