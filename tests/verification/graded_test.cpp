@@ -45,8 +45,7 @@ TEST(GradedStrip, CarriesPrandtlsLoadWithAThousandParticles) {
     int finest;
     double error;
   };
-  for (const Target& target :
-       {Target{16, 0.015}, Target{64, 0.0045}}) {
+  for (const Target& target : {Target{16, 0.015}, Target{64, 0.0045}}) {
     for (const bool by_ghosts : {false, true}) {
       Settings settings = graded;
       if (by_ghosts) {
