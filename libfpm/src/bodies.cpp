@@ -57,7 +57,7 @@ std::vector<char> thin_cells(const Cells<Dim>& cells, Union& bodies, Index thick
       bool ends = false;  // at another body
       for (const bool upper : {false, true}) {
         Index b = cells.beside(a, i, upper);
-        while (b >= 0 && bodies.find(b) == bodies.find(a)) {
+        while (along < thickness && b >= 0 && bodies.find(b) == bodies.find(a)) {
           ++along;
           b = cells.beside(b, i, upper);
         }

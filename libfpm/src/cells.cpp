@@ -167,7 +167,9 @@ template <int Dim>
 Index Cells<Dim>::beside(Index cell, int axis, bool upper) const {
   Place finest = place(cell);
   finest[axis] += upper ? steps(cell) : -1;
-  return holding(finest);
+  Index found = holding(finest);
+  for (; found == cell; found = holding(finest)) finest[axis] += upper ? 1 : -1;  // taken over
+  return found;
 }
 
 template <int Dim>

@@ -109,6 +109,38 @@ TEST(Cells, Coarsened) {
   EXPECT_EQ(halved.size(), 12);
 }
 
+TEST(Cells, Restricted) {
+  // Of 4 x 3 equal cells the last column is cut away, and cell 6 goes to the one before it.
+  const auto fine = [](const auto&, const auto&) { return 0.0; };
+  const Cells<2> all(lattice<2>({4, 3}), fine);
+  std::vector<Index> owner{0, 1, 2, -1, 4, 5, 5, -1, 8, 9, 10, -1};
+  const Cells<2> rest = all.restricted(owner);
+  ASSERT_EQ(rest.size(), 8);
+  EXPECT_EQ(rest.containing({0.05, 0.05}), 0);
+  EXPECT_EQ(rest.containing({0.35, 0.05}), -1);
+  EXPECT_EQ(rest.containing({0.15, 0.15}), 4);
+  EXPECT_EQ(rest.containing({0.25, 0.15}), 4);  // taken over
+  EXPECT_EQ(rest.beside(2, 0, true), -1);
+  EXPECT_EQ(rest.beside(4, 0, true), -1);  // past what it took over
+  EXPECT_EQ(rest.beside(2, 1, true), 4);
+  EXPECT_EQ(rest.beside(7, 1, false), 4);
+  Index pairs = 0;
+  rest.for_each_pair([&](Index low, Index high, int) {
+    EXPECT_NE(low, high);
+    ++pairs;
+  });
+  EXPECT_EQ(pairs, 5 + 4);  // 2 + 1 + 2 along x, 2 + 2 along y
+  EXPECT_EQ(make_particles(rest).size(), 8);
+
+  owner[5] = 4;  // who owns a cell is there
+  EXPECT_THROW(static_cast<void>(all.restricted(owner)), fpm::ShapeError);
+  owner.pop_back();
+  EXPECT_THROW(static_cast<void>(all.restricted(owner)), fpm::ShapeError);
+  EXPECT_THROW(
+      static_cast<void>(Cells<2>(lattice<2>({4, 3})).restricted(std::vector<Index>(12, 0))),
+      std::invalid_argument);
+}
+
 TEST(Cells, RefuseWhatIsNoTree) {
   const auto any = [](const auto&, const auto&) { return 1.0; };
   const auto vertices = lattice<2>({4, 4}, 0.1, LatticeLayout::vertex);

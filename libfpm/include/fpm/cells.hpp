@@ -80,10 +80,9 @@ class Cells {
     for (Index a = 0; a < size(); ++a) {
       for (int i = 0; i < Dim; ++i) {
         const Index below = beside(a, i, false), above = beside(a, i, true);
-        // Of several narrower cells each has this one beside it. What took over a cell beside it is
-        // beside itself.
-        if (below >= 0 && below != a && width(below) > width(a)) visit(below, a, i);
-        if (above >= 0 && above != a && width(above) >= width(a)) visit(a, above, i);
+        // Of several narrower cells each has this one beside it.
+        if (below >= 0 && width(below) > width(a)) visit(below, a, i);
+        if (above >= 0 && width(above) >= width(a)) visit(a, above, i);
       }
     }
   }
