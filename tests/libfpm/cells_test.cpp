@@ -129,7 +129,7 @@ TEST(Cells, Restricted) {
     EXPECT_NE(low, high);
     ++pairs;
   });
-  EXPECT_EQ(pairs, 5 + 4);  // 2 + 1 + 2 along x, 2 + 2 along y
+  EXPECT_EQ(pairs, 5 + 6);  // 2 + 1 + 2 along x, 2 + 2 + 2 along y
   EXPECT_EQ(make_particles(rest).size(), 8);
 
   owner[5] = 4;  // who owns a cell is there
