@@ -138,7 +138,7 @@ void BackgroundGrid<Dim>::add_grid_supports(const model::Model<Dim>& model,
   for (const model::Interface<Dim>& interface : model.interfaces) {
     if (!interface.is_rigid()) continue;  // two bodies are one on the grid
     const auto& points = interface.faces.points;
-    const bool sticks = interface.law.friction_tangent > 0.0 || interface.law.adhesion > 0.0;
+    const bool sticks = constitutive::sticks(interface.law);
     for (fpm::Index c = 0; c < points.size(); ++c) {
       add_spring(points.position.row(c), interface.stiffness[c] * points.weight[c],
                  [&](int i) { return sticks || points.normal(c, i) != 0.0; });

@@ -6,15 +6,13 @@
 namespace equilibrium {
 namespace {
 
-// The directions in which a point is held: columns.
+// The directions in which a point is held, columns: across the face, then along it if it sticks.
 template <int Dim>
 Eigen::Matrix<double, Dim, Eigen::Dynamic> held_directions(const model::Interface<Dim>& interface,
                                                            fpm::Index point) {
-  const auto& law = interface.law;
-  if (law.tied || law.friction_tangent > 0.0 || law.adhesion > 0.0) {
-    return fpm::Tensor<Dim>::Identity();
-  }
-  return interface.faces.points.normal.row(point).transpose();
+  const fpm::Vector<Dim> normal = interface.faces.points.normal.row(point).transpose();
+  if (!constitutive::sticks(interface.law)) return normal;
+  return normal.householderQr().householderQ();
 }
 
 }  // namespace
@@ -43,7 +41,7 @@ InterfaceSprings<Dim>::InterfaceSprings(const model::Model<Dim>& model,
         };
         interface.faces.first.for_each_value(c, add(-1.0));
         if (!interface.is_rigid()) interface.faces.second.for_each_value(c, add(1.0));
-        compliance.push_back(1.0 / stiffness);
+        compliance.push_back(1.0 / (d > 0 ? interface.law.shear_stiffness * stiffness : stiffness));
       }
     }
   }

@@ -17,12 +17,37 @@ namespace {
 
 using Pair = std::pair<fpm::Index, fpm::Index>;  // of materials, the smaller first
 
+// Of tied soils, over the stiffness across: one Young's modulus per spacing, a third of what a
+// spacing of soil gives way in shear. As stiff as across, faces of soils that flow cost several
+// times the evaluations.
+constexpr double soils_shear_stiffness = 0.1;
+
 constitutive::InterfaceLaw law_of(const scene::Contact& contact) {
   constitutive::InterfaceLaw law;
   law.tied = false;
   law.friction_tangent = std::tan(contact.friction_angle * std::numbers::pi / 180.0);
   law.adhesion = contact.adhesion;
   law.tension = contact.tension;
+  return law;
+}
+
+// Clay that is tied bears no more along its face than its cohesion. Rows that end there would smear
+// the slip over a spacing instead, and a layer that is squeezed would bear more
+// (share/doc/decisions/interfaces.md). Slip along soil with friction dilates, which a face does
+// not; in finite strain slips would outgrow the spacing, and points keep their partners.
+constitutive::InterfaceLaw law_of_tied(const scene::Scene& scene, const Pair& materials) {
+  constitutive::InterfaceLaw law;
+  const bool slips = scene.approximation.kinematics == scene::KinematicsKind::small_strain;
+  for (const fpm::Index m : {materials.first, materials.second}) {
+    const scene::Material& material = scene.material[static_cast<std::size_t>(m)];
+    if (!scene::yields(material)) continue;
+    law.shear_stiffness = soils_shear_stiffness;
+    const auto p = scene::parameters_of(material);
+    if (p.friction_angle > 0.0 || !slips) continue;
+    law.adhesion = law.tied ? p.cohesion : std::min(law.adhesion, p.cohesion);
+    law.tied = false;
+    law.tension = true;
+  }
   return law;
 }
 
@@ -80,14 +105,14 @@ fpm::Vector<Dim> initial_traction(const scene::Scene& scene, const Model<Dim>& m
 template <int Dim>
 Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
                             const fpm::CommonFaces<Dim>& faces, const scene::Contact& contact,
-                            bool tied) {
+                            const constitutive::InterfaceLaw& law) {
   Interface<Dim> interface;
+  interface.law = law;
   interface.faces.points = faces.points;
   interface.faces.first = operator_at<Dim>(model, faces.points.position, faces.first);
   if (!faces.second.empty()) {
     interface.faces.second = operator_at<Dim>(model, faces.points.position, faces.second);
   }
-  if (!tied) interface.law = law_of(contact);
   const Eigen::Index count = faces.points.weight.size();
   interface.stiffness.resize(count);
   interface.initial_traction.resize(count, Dim);
@@ -121,8 +146,9 @@ void add_between_materials(const scene::Scene& scene, Model<Dim>& model) {
     const scene::Interface rule = scene::interface_between(
         scene, static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
     const auto part = part_of<Dim>(faces, [&](Eigen::Index c) { return pair_of(c) == pair; });
-    model.interfaces.push_back(
-        interface_at(scene, model, part, rule.contact, rule.kind != scene::InterfaceKind::contact));
+    const auto law = rule.kind == scene::InterfaceKind::contact ? law_of(rule.contact)
+                                                                : law_of_tied(scene, pair);
+    model.interfaces.push_back(interface_at(scene, model, part, rule.contact, law));
   }
 }
 
@@ -136,7 +162,8 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
   for (const scene::Support& support : scene.support) {
     if (support.method != scene::SupportMethod::contact) continue;
     const auto faces = fpm::outer_faces(model.lattice, face_of<Dim>(*support.side));
-    model.interfaces.push_back(interface_at(scene, model, faces, support.contact, false));
+    model.interfaces.push_back(
+        interface_at(scene, model, faces, support.contact, law_of(support.contact)));
     model.interfaces.back().support = support.name;
   }
   const scene::Drive& drive = scene.drive;
@@ -148,7 +175,7 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
     return in_side_range(scene, model, drive.side, drive.range_min, drive.range_max,
                          faces.first[static_cast<std::size_t>(c)]);
   });
-  Interface<Dim> plate = interface_at(scene, model, under, drive.contact, false);
+  Interface<Dim> plate = interface_at(scene, model, under, drive.contact, law_of(drive.contact));
   // The plate bears nothing at first, whatever lies under it.
   plate.initial_traction.setZero();
   plate.measure = Eigen::Map<const fpm::Vector<Dim>>(drive.direction.data()).normalized();

@@ -9,6 +9,7 @@ using constitutive::interface_response;
 using constitutive::InterfaceLaw;
 using constitutive::InterfaceResponse;
 using constitutive::InterfaceState;
+using constitutive::sticks;
 
 template <int Dim>
 using Vector = Eigen::Matrix<double, Dim, 1>;
@@ -20,6 +21,11 @@ constexpr double adhesion = 2e3;    // [Pa]
 
 InterfaceLaw coulomb(bool tension = false) {
   return {.tied = false, .friction_tangent = friction, .adhesion = adhesion, .tension = tension};
+}
+
+// Clay that is bonded, whose springs are softer along the face.
+InterfaceLaw bond() {
+  return {.tied = false, .shear_stiffness = 0.1, .adhesion = adhesion, .tension = true};
 }
 
 template <int Dim>
@@ -85,6 +91,39 @@ TEST(InterfaceLaw, SticksSlidesAndOpens) {
   expect_law<3>();
 }
 
+// Along the face its springs are softer by a factor; what they bear does not depend on it.
+template <int Dim>
+void expect_bond() {
+  const Point<Dim> p;
+  const double across = p.initial.dot(p.normal), along = p.initial.dot(p.along);
+  for (const double pull : {-1e4, 5e3}) {
+    const auto at = [&](double shear) {
+      const Vector<Dim> springs =
+          (pull - across) * p.normal + (shear - along) / bond().shear_stiffness * p.along;
+      return p.of(bond(), springs / stiffness + p.slip);
+    };
+    auto r = at(0.99 * adhesion);
+    EXPECT_EQ(r.state, InterfaceState::sticking);
+    EXPECT_LE((r.traction - (pull * p.normal + 0.99 * adhesion * p.along)).norm(), round_off);
+    r = at(1.5 * adhesion);
+    EXPECT_EQ(r.state, InterfaceState::sliding);
+    EXPECT_LE((r.traction - (pull * p.normal + adhesion * p.along)).norm(), round_off);
+    EXPECT_LE((r.slip - p.slip - 5.0 * adhesion / stiffness * p.along).norm(), 1e-15);
+  }
+}
+
+TEST(InterfaceLaw, OfABondSlidesInSofterSprings) {
+  expect_bond<2>();
+  expect_bond<3>();
+}
+
+TEST(InterfaceLaw, SticksIfItHasAnyStrengthAlongTheFace) {
+  EXPECT_TRUE(sticks({}));  // tied
+  EXPECT_TRUE(sticks(coulomb()));
+  EXPECT_TRUE(sticks({.tied = false, .adhesion = 1.0}));
+  EXPECT_FALSE(sticks({.tied = false}));
+}
+
 TEST(InterfaceLaw, SlidingAgainstItsSlipLosesWork) {
   const Point<3> p;
   const auto r = p.at(coulomb(), -1e4, 2e4);
@@ -116,6 +155,21 @@ TEST(InterfaceLaw, TangentsAreThoseOfTheReturn) {
     }
   }
   expect_tangent<3>({.tied = false}, -1e4, 3e3);  // smooth
+  for (const double pull : {-1e4, 5e3}) {
+    for (const double shear : {1e2, 4e5}) {
+      expect_tangent<2>(bond(), pull, shear);
+      expect_tangent<3>(bond(), pull, shear);
+    }
+  }
+}
+
+TEST(InterfaceLaw, TiedHasSofterSpringsAlongTheFaceIfAsked) {
+  const Point<2> p;
+  const auto r = p.of({.shear_stiffness = 0.1}, p.gap(5e3, 1e6));
+  const Vector<2> shear = p.initial - p.initial.dot(p.normal) * p.normal;
+  const double along = 0.1 * (1e6 - shear.dot(p.along)) + shear.dot(p.along);
+  EXPECT_LE((r.traction - (5e3 * p.normal + along * p.along)).norm(), round_off);
+  expect_tangent<3>({.shear_stiffness = 0.1}, -1e4, 3e3);
 }
 
 }  // namespace

@@ -88,6 +88,10 @@ std::vector<Case> cases() {
   parted.control = "incremental";
   parted.extra = upper + "kind=\"tied\"\n";
   all.push_back({parted, "tied"});
+  BodyOptions clay = parted;  // which slides at its cohesion
+  clay.kinematics = "small_strain";
+  clay.model = "von_mises";
+  all.push_back({clay, "tied_and_sliding"});
   parted.extra = upper +
                  "kind=\"contact\"\nfriction_angle=20.0\nadhesion=1e3\n[[support]]\nname=\"base\"\n"
                  "side=\"bottom\"\ndirections=[\"y\"]\nmethod=\"contact\"\nfriction_angle=30.0\n";
