@@ -17,9 +17,14 @@ namespace {
 
 using Pair = std::pair<fpm::Index, fpm::Index>;  // of materials, the smaller first
 
-// Of tied soils, over the stiffness across: one Young's modulus per spacing, a third of what a
-// spacing of soil gives way in shear. As stiff as across, faces of soils that flow cost several
-// times the evaluations.
+// Times Young's modulus over the spacing, of soil that yields below a plate that turns or is
+// loaded: ten times as stiff its opening and closing takes more than ten times the evaluations, or
+// fails.
+constexpr double free_plates_stiffness = 1.0;
+
+// Of tied soils, over the stiffness across: one Young's modulus per spacing, a
+// third of what a spacing of soil gives way in shear. As stiff as across, faces of soils that flow
+// cost several times the evaluations.
 constexpr double soils_shear_stiffness = 0.1;
 
 constitutive::InterfaceLaw law_of(const scene::Contact& contact) {
@@ -157,6 +162,36 @@ fpm::Face face_of(scene::Side side) {
   return {scene::axis_of(side), scene::is_upper(side)};
 }
 
+// A plate that is loaded sinks in, one that has a point at which it is pushed or loaded turns about
+// it, and `lateral` lets it move along its side, if its face sticks.
+template <int Dim>
+Plate<Dim> plate_of(const scene::Drive& drive, const Interface<Dim>& interface) {
+  Plate<Dim> plate;
+  const int across = scene::axis_of(drive.side);
+  const fpm::Field<Dim>& places = interface.faces.points.position;
+  plate.at = places.colwise().mean().transpose();
+  plate.arm = 0.5 * (places.colwise().maxCoeff() - places.colwise().minCoeff()).maxCoeff();
+  if (!drive.force.empty()) plate.force = Eigen::Map<const fpm::Vector<Dim>>(drive.force.data());
+  const bool sticks = constitutive::sticks(interface.law);
+  std::size_t k = 0;
+  for (int i = 0; i < Dim; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    if (i == across) {
+      plate.free[axis] = drive.kind == scene::DriveKind::load;
+      continue;
+    }
+    plate.free[axis] = drive.lateral == scene::Lateral::free && sticks &&
+                       (drive.direction.empty() || drive.direction[axis] == 0.0);
+    if (!drive.at.empty()) plate.at[i] = drive.at[k++];
+  }
+  for (int i = 0; i < Plate<Dim>::motions - Dim; ++i) {
+    // About its normal a smooth plate is not held by anything.
+    const bool spins = Dim == 3 && i == across;
+    plate.free[static_cast<std::size_t>(Dim + i)] = !drive.at.empty() && (!spins || sticks);
+  }
+  return plate;
+}
+
 template <int Dim>
 void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
   for (const scene::Support& support : scene.support) {
@@ -167,7 +202,8 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
     model.interfaces.back().support = support.name;
   }
   const scene::Drive& drive = scene.drive;
-  if (drive.kind != scene::DriveKind::displacement || drive.method != scene::DriveMethod::contact) {
+  const bool pushes = drive.kind == scene::DriveKind::displacement;
+  if ((!pushes && !scene::loads_plate(drive)) || drive.method != scene::DriveMethod::contact) {
     return;
   }
   const auto faces = fpm::outer_faces(model.lattice, face_of<Dim>(drive.side));
@@ -175,11 +211,19 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
     return in_side_range(scene, model, drive.side, drive.range_min, drive.range_max,
                          faces.first[static_cast<std::size_t>(c)]);
   });
-  Interface<Dim> plate = interface_at(scene, model, under, drive.contact, law_of(drive.contact));
+  const bool is_free = !pushes || !drive.at.empty();
+  scene::Contact contact = drive.contact;
+  if (is_free && model.layout.plastic && !contact.stiffness_factor) {
+    contact.stiffness_factor = free_plates_stiffness;
+  }
+  Interface<Dim> plate = interface_at(scene, model, under, contact, law_of(contact));
   // The plate bears nothing at first, whatever lies under it.
   plate.initial_traction.setZero();
-  plate.measure = Eigen::Map<const fpm::Vector<Dim>>(drive.direction.data()).normalized();
-  plate.drive = drive.target * plate.measure;
+  if (pushes) {
+    plate.measure = Eigen::Map<const fpm::Vector<Dim>>(drive.direction.data()).normalized();
+    plate.drive = drive.target * plate.measure;
+  }
+  if (is_free) plate.plate = plate_of(drive, plate);
   model.interfaces.push_back(std::move(plate));
 }
 

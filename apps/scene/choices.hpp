@@ -20,7 +20,7 @@ enum class InterfaceKind { through, tied, contact };
 enum class InitialStressKind { none, geostatic };
 enum class DriveKind { none, displacement, load };
 enum class Lateral { fixed, free };
-enum class LoadKind { traction, gravity };
+enum class LoadKind { traction, gravity, plate };
 enum class MeasureKind {
   displacement,
   stress,

@@ -68,13 +68,20 @@ void expect_law() {
   EXPECT_LE((r.traction - (-pressure * p.normal - strength * p.along)).norm(), round_off);
   EXPECT_LE((r.slip - p.slip + 2.0 * strength / stiffness * p.along).norm(), 1e-15);
 
-  r = p.at(coulomb(), 1.0, 100.0);
+  // As it opens its adhesion fades, and its pressure is none.
+  r = p.at(coulomb(), 0.25 * adhesion, 0.7 * adhesion);
+  EXPECT_EQ(r.state, InterfaceState::sticking);
+  EXPECT_LE((r.traction - 0.7 * adhesion * p.along).norm(), round_off);
+  r = p.at(coulomb(), 0.25 * adhesion, 3.0 * adhesion);
+  EXPECT_EQ(r.state, InterfaceState::sliding);
+  EXPECT_LE((r.traction - 0.75 * adhesion * p.along).norm(), round_off);
+
+  r = p.at(coulomb(), 1.01 * adhesion, 100.0);
   EXPECT_EQ(r.state, InterfaceState::open);
   EXPECT_EQ(r.traction.norm(), 0.0);
   // What it bore along the face is forgotten: closed again, it bears pressure alone.
-  const auto closed =
-      interface_response<Dim>(coulomb(), stiffness, p.normal, p.initial,
-                              p.gap(1.0, 100.0) - (pressure + 1.0) / stiffness * p.normal, r.slip);
+  const auto closed = interface_response<Dim>(coulomb(), stiffness, p.normal, p.initial,
+                                              p.gap(-pressure, 100.0), r.slip);
   EXPECT_LE((closed.traction + pressure * p.normal).norm(), round_off);
 
   // With tension it holds, with what adhesion it has.
@@ -147,8 +154,8 @@ void expect_tangent(const InterfaceLaw& law, double pull, double shear) {
 
 TEST(InterfaceLaw, TangentsAreThoseOfTheReturn) {
   for (const bool tension : {false, true}) {
-    for (const double pull : {-1e4, 5e3}) {
-      for (const double shear : {1e3, 4e4, -4e4}) {
+    for (const double pull : {-1e4, 0.5 * adhesion, 5e3}) {
+      for (const double shear : {500.0, 4e4, -4e4}) {
         expect_tangent<2>(coulomb(tension), pull, shear);
         expect_tangent<3>(coulomb(tension), pull, shear);
       }

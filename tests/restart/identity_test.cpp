@@ -64,6 +64,7 @@ const std::vector<Case> cases{
      {"interface.0.kind=contact", "interface.0.friction_angle=15", "drive.method=contact",
       "drive.friction_angle=10"},
      20},
+    {"loaded_plate", &loaded_plate, {"re_search.enabled=false"}, 20},
     {"mixed_mohr_coulomb",
      &footing,
      {"material.0.model=mohr_coulomb", "hourglass.control=mixed"},

@@ -34,7 +34,9 @@ struct InterfaceResponse {
 
 /// Traction on the first body after the second has moved by `gap` relative to it: elastic springs,
 /// and Coulomb's law |t_t| <= adhesion - tan(delta) t_n by an elastic predictor and a radial
-/// return. Sliding does not dilate. An open point bears nothing and forgets its stick.
+/// return. Sliding does not dilate. What opens loses its adhesion over the gap in which the springs
+/// would bear it as a pull, so that the law is continuous; beyond, a point bears nothing and
+/// forgets its stick.
 /// @param stiffness  [Pa/m] > 0
 /// @param normal  unit vector out of the first body
 /// @param initial  [Pa] traction on the first body at gap and slip 0
@@ -58,27 +60,34 @@ InterfaceResponse<Dim> interface_response(const InterfaceLaw& law, double stiffn
 
   const double pull = normal.dot(response.traction);
   const Vector shear = response.traction - pull * normal;
-  if (pull > 0.0 && !law.tension) {
+  const bool opens = pull > 0.0 && !law.tension;
+  const double slope = opens ? 1.0 : pull < 0.0 ? law.friction_tangent : 0.0;
+  const double strength = law.adhesion - slope * pull;
+  if (opens && strength <= 0.0) {
     response.state = InterfaceState::open;
     response.slip = slip + shear / along_face;
     response.traction.setZero();
     response.tangent.setZero();
     return response;
   }
-  const double pressure = pull < 0.0 ? -pull : 0.0;
-  const double strength = law.adhesion + law.friction_tangent * pressure;
+  if (opens) {
+    response.traction = shear;
+    response.tangent = along_face * (Matrix::Identity() - across);
+  }
   const double size = shear.norm();
   if (size <= strength) return response;
 
   response.state = InterfaceState::sliding;
   const Vector direction = shear / size;
   response.slip = slip + (size - strength) / along_face * direction;
-  response.traction = pull * normal + strength * direction;
+  response.traction = strength * direction;
   const Matrix along = Matrix::Identity() - across - direction * direction.transpose();
-  response.tangent = stiffness * across + along_face * strength / size * along;
-  if (pressure > 0.0) {
-    response.tangent -= stiffness * law.friction_tangent * direction * normal.transpose();
+  response.tangent = along_face * strength / size * along;
+  if (!opens) {
+    response.traction += pull * normal;
+    response.tangent += stiffness * across;
   }
+  if (slope > 0.0) response.tangent -= stiffness * slope * direction * normal.transpose();
   return response;
 }
 
