@@ -103,10 +103,12 @@ void BackgroundGrid<Dim>::add_grid_supports(const model::Model<Dim>& model, cons
   for (const model::Interface<Dim>& interface : model.interfaces) {
     if (!interface.is_rigid()) continue;  // two bodies are one on the grid
     const auto& points = interface.faces.points;
-    const bool sticks = interface.law.friction_tangent > 0.0 || interface.law.adhesion > 0.0;
+    const bool sticks = constitutive::sticks(interface.law);
     for (fpm::Index c = 0; c < points.size(); ++c) {
-      add_spring(points.position.row(c), interface.stiffness[c] * points.weight[c],
-                 [&](int i) { return sticks || points.normal(c, i) != 0.0; });
+      add_spring(points.position.row(c), interface.stiffness[c] * points.weight[c], [&](int i) {
+        const bool gives = interface.plate && interface.plate->free[static_cast<std::size_t>(i)];
+        return !gives && (sticks || points.normal(c, i) != 0.0);
+      });
     }
   }
   for (const model::PenaltySupport<Dim>& support : model.penalty_supports) {

@@ -274,7 +274,10 @@ bool Equilibrium<Dim>::linearise(const Eigen::VectorXd& increment) {
   if (!interfaces_.empty()) {
     evaluation_.displacement = state_.displacement + Eigen::Map<const fpm::Field<Dim>>(
                                                          increment.data(), model_.size(), Dim);
-    interfaces_.linearise(state_, evaluation_.displacement, rigid_load_);
+    if (!interfaces_.linearise(state_, evaluation_.displacement, rigid_load_)) {
+      failure_.particle = particle_under_plate();
+      return false;
+    }
   }
   const LoopOutcome outcome = loops_.linearise(loop_data());
   failure_.particle = outcome.failed;
@@ -305,6 +308,13 @@ void Equilibrium<Dim>::act(const Eigen::VectorXd& v, double load_change, Eigen::
 }
 
 template <int Dim>
+fpm::Index Equilibrium<Dim>::particle_under_plate() const {
+  const auto plate = std::ranges::find_if(
+      model_.interfaces, [](const auto& interface) { return interface.plate.has_value(); });
+  return nearest_particle(plate->faces.points.position.row(0));
+}
+
+template <int Dim>
 fpm::Index Equilibrium<Dim>::nearest_particle(
     const Eigen::Matrix<double, 1, Dim>& reference_place) const {
   Eigen::Index nearest = 0;
@@ -331,7 +341,9 @@ void Equilibrium<Dim>::add_boundary_terms(const Eigen::VectorXd& increment) {
     return;
   }
   evaluation_.displacement = state_.displacement + step;
-  interfaces_.add_force(state_, evaluation_.displacement, rigid_load_, force);
+  if (!interfaces_.add_force(state_, evaluation_.displacement, rigid_load_, force)) {
+    failure_.particle = particle_under_plate();
+  }
   for (const auto& support : model_.penalty_supports) {
     fpm::add_penalty_force<Dim>(support.op, support.points, support.options, support.target,
                                 evaluation_.displacement, force);
@@ -388,6 +400,7 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
     forces.reaction += interface.measure.dot(held);
     forces.external_work += (step_.load - state_.programme.load) * interface.drive.dot(held);
   }
+  forces.external_work += interfaces_.work_of_plates(step_.load);
   extend_increment(increment);
   forces.hourglass_work = hourglass_work(loop_data());
   forces.external_work += step_.external.dot(increment);

@@ -84,6 +84,7 @@ class Equilibrium {
   void remember_pairs(Eigen::Index a, const Eigen::VectorXd& position_moments);
   void assemble(const double* field, double* force);
   void add_boundary_terms(const Eigen::VectorXd& increment);
+  [[nodiscard]] fpm::Index particle_under_plate() const;
   [[nodiscard]] fpm::Index nearest_particle(
       const Eigen::Matrix<double, 1, Dim>& reference_place) const;
   void add_boundary_actions(const Eigen::VectorXd& v, double load_change, Eigen::VectorXd& jv);

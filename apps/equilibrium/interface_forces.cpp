@@ -19,9 +19,9 @@ template <int Dim>
 constitutive::InterfaceResponse<Dim> response_at(const model::Interface<Dim>& interface,
                                                  fpm::Index point, const fpm::Vector<Dim>& normal,
                                                  const fpm::Vector<Dim>& slip,
-                                                 const fpm::Field<Dim>& displacement, double load) {
-  const fpm::Vector<Dim> gap =
-      interface.faces.gap(point, displacement, fpm::Vector<Dim>(load * interface.drive));
+                                                 const fpm::Field<Dim>& displacement,
+                                                 const fpm::Vector<Dim>& motion) {
+  const fpm::Vector<Dim> gap = interface.faces.gap(point, displacement, motion);
   return constitutive::interface_response<Dim>(
       interface.law, interface.stiffness[point], normal,
       fpm::Vector<Dim>(interface.initial_traction.row(point).transpose()), gap, slip);
@@ -37,6 +37,37 @@ InterfaceForces<Dim>::InterfaceForces(const model::Model<Dim>& model)
   traction_.setZero(Dim, points_);
   tangent_.setZero(Dim * Dim, points_);
   rigid_force_.assign(model.interfaces.size(), fpm::Vector<Dim>::Zero());
+  motion_.assign(model.interfaces.size(), Motion::Zero());
+  start_motion_ = motion_;
+  plate_tangent_.resize(model.interfaces.size());
+}
+
+template <int Dim>
+bool InterfaceForces<Dim>::move_plates(const model::State<Dim>& state,
+                                       const fpm::Field<Dim>& displacement, double load) {
+  Eigen::Index first = 0;
+  for (std::size_t i = 0; i < model_.interfaces.size(); ++i) {
+    const model::Interface<Dim>& interface = model_.interfaces[i];
+    const Eigen::Index count = interface.faces.points.size();
+    if (interface.plate) {
+      const auto motion =
+          plate_motion<Dim>({interface, normal_.middleCols(first, count),
+                             state.interface_slip.middleCols(first, count), displacement, load});
+      if (!motion) return false;
+      motion_[i] = *motion;
+    }
+    first += count;
+  }
+  return true;
+}
+
+template <int Dim>
+fpm::Vector<Dim> InterfaceForces<Dim>::motion_of(std::size_t interface, fpm::Index point,
+                                                 double load) const {
+  const model::Interface<Dim>& of = model_.interfaces[interface];
+  if (!of.plate) return load * of.drive;
+  const fpm::Vector<Dim> place = of.faces.points.position.row(point).transpose();
+  return of.plate->modes(place) * motion_[interface];
 }
 
 template <int Dim>
@@ -49,17 +80,20 @@ void InterfaceForces<Dim>::begin_step(const model::State<Dim>& state) {
         fpm::Tensor<Dim>::Identity() + interface.faces.first.gradient(c, state.displacement);
     normal_.col(k) = (gradient.inverse().transpose() * normal).normalized();
   });
+  // A plate that has no motion now has none in the step, whose evaluations say so.
+  if (move_plates(state, state.displacement, state.programme.load)) start_motion_ = motion_;
 }
 
 template <int Dim>
-void InterfaceForces<Dim>::add_force(const model::State<Dim>& state,
+bool InterfaceForces<Dim>::add_force(const model::State<Dim>& state,
                                      const fpm::Field<Dim>& displacement, double load,
                                      fpm::FieldTarget<Dim> force) {
+  if (!move_plates(state, displacement, load)) return false;
   rigid_force_.assign(model_.interfaces.size(), fpm::Vector<Dim>::Zero());
   for_each_point(model_, [&](const auto& interface, std::size_t i, fpm::Index c, Eigen::Index k) {
-    const auto response =
-        response_at<Dim>(interface, c, fpm::Vector<Dim>(normal_.col(k)),
-                         fpm::Vector<Dim>(state.interface_slip.col(k)), displacement, load);
+    const auto response = response_at<Dim>(interface, c, fpm::Vector<Dim>(normal_.col(k)),
+                                           fpm::Vector<Dim>(state.interface_slip.col(k)),
+                                           displacement, motion_of(i, c, load));
     slip_.col(k) = response.slip;
     traction_.col(k) = response.traction;
     interface.faces.add_force(c, response.traction, force);
@@ -67,28 +101,57 @@ void InterfaceForces<Dim>::add_force(const model::State<Dim>& state,
       rigid_force_[i] += interface.faces.points.weight[c] * response.traction;
     }
   });
+  return true;
 }
 
 template <int Dim>
-void InterfaceForces<Dim>::linearise(const model::State<Dim>& state,
+bool InterfaceForces<Dim>::linearise(const model::State<Dim>& state,
                                      const fpm::Field<Dim>& displacement, double load) {
-  for_each_point(model_, [&](const auto& interface, std::size_t, fpm::Index c, Eigen::Index k) {
-    const auto response =
-        response_at<Dim>(interface, c, fpm::Vector<Dim>(normal_.col(k)),
-                         fpm::Vector<Dim>(state.interface_slip.col(k)), displacement, load);
+  if (!move_plates(state, displacement, load)) return false;
+  for_each_point(model_, [&](const auto& interface, std::size_t i, fpm::Index c, Eigen::Index k) {
+    const auto response = response_at<Dim>(interface, c, fpm::Vector<Dim>(normal_.col(k)),
+                                           fpm::Vector<Dim>(state.interface_slip.col(k)),
+                                           displacement, motion_of(i, c, load));
     Eigen::Map<fpm::Tensor<Dim>>(tangent_.col(k).data()) = response.tangent;
   });
+  Eigen::Index first = 0;
+  for (std::size_t i = 0; i < model_.interfaces.size(); ++i) {
+    const model::Interface<Dim>& interface = model_.interfaces[i];
+    const Eigen::Index count = interface.faces.points.size();
+    if (interface.plate) plate_tangent_[i].emplace(interface, tangent_.middleCols(first, count));
+    first += count;
+  }
+  return true;
 }
 
 template <int Dim>
 void InterfaceForces<Dim>::add_action(const fpm::FieldView<Dim>& direction, double load_change,
                                       fpm::FieldTarget<Dim> force) const {
-  for_each_point(model_, [&](const auto& interface, std::size_t, fpm::Index c, Eigen::Index k) {
-    const fpm::Vector<Dim> gap =
-        interface.faces.gap(c, direction, fpm::Vector<Dim>(load_change * interface.drive));
+  std::vector<Motion> change(model_.interfaces.size());
+  for (std::size_t i = 0; i < change.size(); ++i) {
+    if (plate_tangent_[i]) change[i] = plate_tangent_[i]->motion(direction, load_change);
+  }
+  for_each_point(model_, [&](const auto& interface, std::size_t i, fpm::Index c, Eigen::Index k) {
+    fpm::Vector<Dim> motion = load_change * interface.drive;
+    if (interface.plate) {
+      const fpm::Vector<Dim> place = interface.faces.points.position.row(c).transpose();
+      motion = interface.plate->modes(place) * change[i];
+    }
+    const fpm::Vector<Dim> gap = interface.faces.gap(c, direction, motion);
     const Eigen::Map<const fpm::Tensor<Dim>> tangent(tangent_.col(k).data());
     interface.faces.add_force(c, fpm::Vector<Dim>(tangent * gap), force);
   });
+}
+
+template <int Dim>
+double InterfaceForces<Dim>::work_of_plates(double load) const {
+  double work = 0.0;
+  for (std::size_t i = 0; i < model_.interfaces.size(); ++i) {
+    if (!model_.interfaces[i].plate) continue;
+    const Motion moved = motion_[i] - start_motion_[i];
+    work += load * model_.interfaces[i].plate->force.dot(moved.template head<Dim>());
+  }
+  return work;
 }
 
 template <int Dim>

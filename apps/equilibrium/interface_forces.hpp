@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "equilibrium/plate_balance.hpp"
 #include "model/model.hpp"
 #include "model/state.hpp"
 
@@ -10,7 +12,8 @@ namespace equilibrium {
 /// Forces of the interfaces in one step: bodies that are tied or in contact, and those that touch a
 /// rigid support or plate. Points keep their partners: slips are small beside the spacing until a
 /// new scene is made of the deformed body. The normal is that of the first body at the start of the
-/// step, or the rigid body's.
+/// step, or the rigid body's. A plate that is free in some ways moves as the body lets it
+/// (plate_balance.hpp).
 template <int Dim>
 class InterfaceForces {
  public:
@@ -23,11 +26,13 @@ class InterfaceForces {
 
   /// Adds the forces that go with a total displacement to those of the bodies; remembers tractions.
   /// @param load  load parameter to which rigid bodies have moved
-  void add_force(const model::State<Dim>& state, const fpm::Field<Dim>& displacement, double load,
-                 fpm::FieldTarget<Dim> force);
+  /// @returns whether plates that are free find a motion in balance with their loads
+  [[nodiscard]] bool add_force(const model::State<Dim>& state, const fpm::Field<Dim>& displacement,
+                               double load, fpm::FieldTarget<Dim> force);
 
-  /// Keeps the tangents at a displacement, for `add_action`.
-  void linearise(const model::State<Dim>& state, const fpm::Field<Dim>& displacement, double load);
+  /// Keeps the tangents at a displacement, for `add_action`; returns as `add_force`.
+  [[nodiscard]] bool linearise(const model::State<Dim>& state, const fpm::Field<Dim>& displacement,
+                               double load);
 
   /// Adds the action of the tangents on a direction.
   /// @param load_change  of rigid bodies
@@ -41,11 +46,19 @@ class InterfaceForces {
   /// Takes the latest slips and tractions into the state.
   void commit(model::State<Dim>& state) const;
 
+  /// Work [J/m or J] of the loads of plates since the step's start, at a load parameter.
+  double work_of_plates(double load) const;
+
   std::size_t bytes() const;
 
  private:
   template <int Rows>
   using Columns = Eigen::Matrix<double, Rows, Eigen::Dynamic>;
+  using Motion = typename model::Plate<Dim>::Motion;
+
+  bool move_plates(const model::State<Dim>& state, const fpm::Field<Dim>& displacement,
+                   double load);
+  fpm::Vector<Dim> motion_of(std::size_t interface, fpm::Index point, double load) const;
 
   const model::Model<Dim>& model_;
   Eigen::Index points_ = 0;
@@ -54,6 +67,10 @@ class InterfaceForces {
   Columns<Dim> traction_;       // [Pa] of the latest forces
   Columns<Dim * Dim> tangent_;  // [Pa/m] of the latest linearisation
   std::vector<fpm::Vector<Dim>> rigid_force_;
+  // Of each interface that is a plate free in some ways.
+  std::vector<Motion> motion_;        // of the latest forces
+  std::vector<Motion> start_motion_;  // at the start of the step
+  std::vector<std::optional<PlateTangent<Dim>>> plate_tangent_;
 };
 
 }  // namespace equilibrium

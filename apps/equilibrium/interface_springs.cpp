@@ -6,15 +6,40 @@
 namespace equilibrium {
 namespace {
 
-// The directions in which a point is held: columns.
+// The directions in which a point is held, columns: across the face, then along it if it sticks.
 template <int Dim>
 Eigen::Matrix<double, Dim, Eigen::Dynamic> held_directions(const model::Interface<Dim>& interface,
                                                            fpm::Index point) {
-  const auto& law = interface.law;
-  if (law.tied || law.friction_tangent > 0.0 || law.adhesion > 0.0) {
-    return fpm::Tensor<Dim>::Identity();
+  const fpm::Vector<Dim> normal = interface.faces.points.normal.row(point).transpose();
+  if (!constitutive::sticks(interface.law)) return normal;
+  return normal.householderQr().householderQ();
+}
+
+// A column for each motion in which some plate is free: the gaps it makes in the springs, which are
+// those of all points one after the other.
+template <int Dim>
+Eigen::MatrixXd motions_of_plates(const model::Model<Dim>& model, Eigen::Index springs) {
+  Eigen::MatrixXd motions(springs, 0);
+  Eigen::Index spring = 0;
+  for (const model::Interface<Dim>& interface : model.interfaces) {
+    constexpr int all = model::Plate<Dim>::motions;
+    Eigen::MatrixXd of_plate = Eigen::MatrixXd::Zero(springs, all);
+    for (fpm::Index c = 0; c < interface.faces.points.size(); ++c) {
+      const auto directions = held_directions(interface, c);
+      if (interface.plate) {
+        const fpm::Vector<Dim> place = interface.faces.points.position.row(c).transpose();
+        of_plate.middleRows(spring, directions.cols()) =
+            directions.transpose() * interface.plate->modes(place);
+      }
+      spring += directions.cols();
+    }
+    for (int i = 0; interface.plate && i < all; ++i) {
+      if (!interface.plate->free[static_cast<std::size_t>(i)]) continue;
+      motions.conservativeResize(Eigen::NoChange, motions.cols() + 1);
+      motions.rightCols(1) = of_plate.col(i);
+    }
   }
-  return interface.faces.points.normal.row(point).transpose();
+  return motions;
 }
 
 }  // namespace
@@ -43,7 +68,7 @@ InterfaceSprings<Dim>::InterfaceSprings(const model::Model<Dim>& model,
         };
         interface.faces.first.for_each_value(c, add(-1.0));
         if (!interface.is_rigid()) interface.faces.second.for_each_value(c, add(1.0));
-        compliance.push_back(1.0 / stiffness);
+        compliance.push_back(1.0 / (d > 0 ? interface.law.shear_stiffness * stiffness : stiffness));
       }
     }
   }
@@ -72,12 +97,17 @@ InterfaceSprings<Dim>::InterfaceSprings(const model::Model<Dim>& model,
   }
   factor_ = std::move(factor);
   gaps_.resize(rows);
+  motions_ = motions_of_plates<Dim>(model, rows);
+  if (motions_.cols() == 0) return;
+  response_ = factor_->solve(motions_);
+  release_ = (motions_.transpose() * response_).completeOrthogonalDecomposition().pseudoInverse();
 }
 
 template <int Dim>
 void InterfaceSprings<Dim>::correct(Eigen::VectorXd& z) {
   gaps_.noalias() = gap_ * z;
   gaps_ = factor_->solve(gaps_);
+  if (motions_.cols() > 0) gaps_ -= response_ * (release_ * (motions_.transpose() * gaps_));
   z.noalias() -= spread_ * gaps_;
 }
 

@@ -36,6 +36,11 @@ class InterfaceSprings {
   Sparse spread_;  // D^-1 B^T
   std::shared_ptr<const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>> factor_;
   Eigen::VectorXd gaps_;
+  // Of the springs below plates that are free: their gaps by the plates' motions M, then
+  // S^-1 M and (M^T S^-1 M)^-1, where S is the springs' flexibility. A plate bears no load.
+  Eigen::MatrixXd motions_;
+  Eigen::MatrixXd response_;
+  Eigen::MatrixXd release_;
 };
 
 }  // namespace equilibrium

@@ -19,12 +19,42 @@ namespace {
 
 using Pair = std::pair<fpm::Index, fpm::Index>;  // of materials, the smaller first
 
+// Times Young's modulus over the spacing, of soil that yields below a plate that turns or is
+// loaded: ten times as stiff its opening and closing takes more than ten times the evaluations, or
+// fails.
+constexpr double free_plates_stiffness = 1.0;
+
+// Of tied soils, over the stiffness across: one Young's modulus per spacing, a
+// third of what a spacing of soil gives way in shear. As stiff as across, faces of soils that flow
+// cost several times the evaluations.
+constexpr double soils_shear_stiffness = 0.1;
+
 constitutive::InterfaceLaw law_of(const scene::Contact& contact) {
   constitutive::InterfaceLaw law;
   law.tied = false;
   law.friction_tangent = std::tan(contact.friction_angle * std::numbers::pi / 180.0);
   law.adhesion = contact.adhesion;
   law.tension = contact.tension;
+  return law;
+}
+
+// Clay that is tied bears no more along its face than its cohesion. Rows that end there would smear
+// the slip over a spacing instead, and a layer that is squeezed would bear more
+// (share/doc/decisions/interfaces.md). Slip along soil with friction dilates, which a face does
+// not; in finite strain slips would outgrow the spacing, and points keep their partners.
+constitutive::InterfaceLaw law_of_tied(const scene::Scene& scene, const Pair& materials) {
+  constitutive::InterfaceLaw law;
+  const bool slips = scene.approximation.kinematics == scene::KinematicsKind::small_strain;
+  for (const fpm::Index m : {materials.first, materials.second}) {
+    const scene::Material& material = scene.material[static_cast<std::size_t>(m)];
+    if (!scene::yields(material)) continue;
+    law.shear_stiffness = soils_shear_stiffness;
+    const auto p = scene::parameters_of(material);
+    if (p.friction_angle > 0.0 || !slips) continue;
+    law.adhesion = law.tied ? p.cohesion : std::min(law.adhesion, p.cohesion);
+    law.tied = false;
+    law.tension = true;
+  }
   return law;
 }
 
@@ -70,8 +100,9 @@ fpm::Vector<Dim> initial_traction(const scene::Scene& scene, const Model<Dim>& m
 template <int Dim>
 Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
                             const fpm::CommonFaces<Dim>& faces, const scene::Contact& contact,
-                            bool tied) {
+                            const constitutive::InterfaceLaw& law) {
   Interface<Dim> interface;
+  interface.law = law;
   interface.faces.points = faces.points;
   const auto operator_of = [&](const std::vector<fpm::Index>& particles) {
     return fpm::PointOperator<Dim>(model.particles, model.ghosts, faces.points.position,
@@ -79,7 +110,6 @@ Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
   };
   interface.faces.first = operator_of(faces.first);
   if (!faces.second.empty()) interface.faces.second = operator_of(faces.second);
-  if (!tied) interface.law = law_of(contact);
   const Eigen::Index count = faces.points.weight.size();
   interface.stiffness.resize(count);
   interface.initial_traction.resize(count, Dim);
@@ -145,8 +175,9 @@ void add_between_materials(const scene::Scene& scene, Model<Dim>& model) {
     const scene::Interface rule = scene::interface_between(
         scene, static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
     const auto part = part_of<Dim>(faces, [&](Eigen::Index c) { return pair_of(c) == pair; });
-    model.interfaces.push_back(
-        interface_at(scene, model, part, rule.contact, rule.kind != scene::InterfaceKind::contact));
+    const auto law = rule.kind == scene::InterfaceKind::contact ? law_of(rule.contact)
+                                                                : law_of_tied(scene, pair);
+    model.interfaces.push_back(interface_at(scene, model, part, rule.contact, law));
   }
 }
 
@@ -155,16 +186,48 @@ fpm::Face face_of(scene::Side side) {
   return {scene::axis_of(side), scene::is_upper(side)};
 }
 
+// A plate that is loaded sinks in, one that has a point at which it is pushed or loaded turns about
+// it, and `lateral` lets it move along its side, if its face sticks.
+template <int Dim>
+Plate<Dim> plate_of(const scene::Drive& drive, const Interface<Dim>& interface) {
+  Plate<Dim> plate;
+  const int across = scene::axis_of(drive.side);
+  const fpm::Field<Dim>& places = interface.faces.points.position;
+  plate.at = places.colwise().mean().transpose();
+  plate.arm = 0.5 * (places.colwise().maxCoeff() - places.colwise().minCoeff()).maxCoeff();
+  if (!drive.force.empty()) plate.force = Eigen::Map<const fpm::Vector<Dim>>(drive.force.data());
+  const bool sticks = constitutive::sticks(interface.law);
+  std::size_t k = 0;
+  for (int i = 0; i < Dim; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    if (i == across) {
+      plate.free[axis] = drive.kind == scene::DriveKind::load;
+      continue;
+    }
+    plate.free[axis] = drive.lateral == scene::Lateral::free && sticks &&
+                       (drive.direction.empty() || drive.direction[axis] == 0.0);
+    if (!drive.at.empty()) plate.at[i] = drive.at[k++];
+  }
+  for (int i = 0; i < Plate<Dim>::motions - Dim; ++i) {
+    // About its normal a smooth plate is not held by anything.
+    const bool spins = Dim == 3 && i == across;
+    plate.free[static_cast<std::size_t>(Dim + i)] = !drive.at.empty() && (!spins || sticks);
+  }
+  return plate;
+}
+
 template <int Dim>
 void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
   for (const scene::Support& support : scene.support) {
     if (support.method != scene::SupportMethod::contact) continue;
     const auto faces = outer_faces(model, face_of<Dim>(*support.side));
-    model.interfaces.push_back(interface_at(scene, model, faces, support.contact, false));
+    model.interfaces.push_back(
+        interface_at(scene, model, faces, support.contact, law_of(support.contact)));
     model.interfaces.back().support = support.name;
   }
   const scene::Drive& drive = scene.drive;
-  if (drive.kind != scene::DriveKind::displacement || drive.method != scene::DriveMethod::contact) {
+  const bool pushes = drive.kind == scene::DriveKind::displacement;
+  if ((!pushes && !scene::loads_plate(drive)) || drive.method != scene::DriveMethod::contact) {
     return;
   }
   const auto faces = outer_faces(model, face_of<Dim>(drive.side));
@@ -172,11 +235,19 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
     return in_side_range(scene, model, drive.side, drive.range_min, drive.range_max,
                          faces.first[static_cast<std::size_t>(c)]);
   });
-  Interface<Dim> plate = interface_at(scene, model, under, drive.contact, false);
+  const bool is_free = !pushes || !drive.at.empty();
+  scene::Contact contact = drive.contact;
+  if (is_free && model.layout.plastic && !contact.stiffness_factor) {
+    contact.stiffness_factor = free_plates_stiffness;
+  }
+  Interface<Dim> plate = interface_at(scene, model, under, contact, law_of(contact));
   // The plate bears nothing at first, whatever lies under it.
   plate.initial_traction.setZero();
-  plate.measure = Eigen::Map<const fpm::Vector<Dim>>(drive.direction.data()).normalized();
-  plate.drive = drive.target * plate.measure;
+  if (pushes) {
+    plate.measure = Eigen::Map<const fpm::Vector<Dim>>(drive.direction.data()).normalized();
+    plate.drive = drive.target * plate.measure;
+  }
+  if (is_free) plate.plate = plate_of(drive, plate);
   model.interfaces.push_back(std::move(plate));
 }
 
@@ -187,9 +258,9 @@ void add_cutouts(const scene::Scene& scene, Model<Dim>& model) {
   for (std::size_t i = 0; i < scene.cutout.size(); ++i) {
     const scene::Cutout& cutout = scene.cutout[i];
     if (cutout.kind == scene::CutoutKind::free) continue;
-    const bool fixed = cutout.kind == scene::CutoutKind::fixed;
-    model.interfaces.push_back(
-        interface_at(scene, model, surface_faces(model, {i}), smooth, fixed));
+    const auto law =
+        cutout.kind == scene::CutoutKind::fixed ? constitutive::InterfaceLaw{} : law_of(smooth);
+    model.interfaces.push_back(interface_at(scene, model, surface_faces(model, {i}), smooth, law));
     model.interfaces.back().support = cutout.name;
   }
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,32 @@ struct PenaltySupport {
   fpm::Field<Dim> target;  // [m] prescribed displacement of the points
 };
 
+/// A rigid plate that moves as the body lets it, in some ways at least. Its motions are the
+/// translations of the point at which it is pushed or loaded, then its rotations about it, small.
+template <int Dim>
+struct Plate {
+  static constexpr int motions = Dim == 2 ? 3 : 6;
+  using Motion = Eigen::Matrix<double, motions, 1>;
+
+  fpm::Vector<Dim> at = fpm::Vector<Dim>::Zero();     // [m]
+  fpm::Vector<Dim> force = fpm::Vector<Dim>::Zero();  // [N/m or N] at load parameter 1
+  double arm = 1.0;                                   // [m] rotations count as displacements there
+  std::array<bool, motions> free{};
+
+  /// Displacement of a place of the plate by each of its motions, a rotation by 1 m at its arm.
+  Eigen::Matrix<double, Dim, motions> modes(const fpm::Vector<Dim>& place) const {
+    Eigen::Matrix<double, Dim, motions> m;
+    m.template leftCols<Dim>().setIdentity();
+    const fpm::Vector<Dim> r = (place - at) / arm;
+    if constexpr (Dim == 2) {
+      m.col(2) << -r[1], r[0];
+    } else {
+      m.template rightCols<3>() << 0.0, r[2], -r[1], -r[2], 0.0, r[0], r[1], -r[0], 0.0;
+    }
+    return m;
+  }
+};
+
 /// Faces at which bodies, or a body and a rigid one, meet under one law.
 template <int Dim>
 struct Interface {
@@ -46,7 +74,8 @@ struct Interface {
   fpm::Field<Dim> initial_traction;                     // [Pa] on the first body, of each point
   fpm::Vector<Dim> drive = fpm::Vector<Dim>::Zero();    // [m] of a rigid body, at load parameter 1
   fpm::Vector<Dim> measure = fpm::Vector<Dim>::Zero();  // weight of its force in the reported load
-  std::string support;  // whose the rigid body is; empty: the drive's, or none
+  std::string support;              // whose the rigid body is; empty: the drive's, or none
+  std::optional<Plate<Dim>> plate;  // a rigid body that is not driven in every way
 
   bool is_rigid() const { return faces.second.size() == 0; }
 };

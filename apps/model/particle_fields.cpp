@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "constitutive/tensor.hpp"
+#include "fpm/boundary_loads.hpp"
 #include "fpm/recovery.hpp"
 
 namespace model {
@@ -78,6 +79,27 @@ Eigen::VectorXd recovered_mean_stress(const Model<Dim>& model, const State<Dim>&
   return fpm::recover<Dim>(now, mean, model.ghosts.planes(), options);
 }
 
+// The force by which supports and the drive hold each particle: of what is prescribed, and what
+// springs and contacts bear, which count among the forces by the body.
+template <int Dim>
+fpm::Field<Dim> holding_force(const Model<Dim>& model, const State<Dim>& state) {
+  fpm::Field<Dim> by_body = fpm::Field<Dim>::Zero(model.size(), Dim);
+  for (const PenaltySupport<Dim>& support : model.penalty_supports) {
+    (void)fpm::add_penalty_force<Dim>(support.op, support.points, support.options, support.target,
+                                      state.displacement, by_body);
+  }
+  Eigen::Index first = 0;
+  for (const Interface<Dim>& interface : model.interfaces) {
+    const Eigen::Index count = interface.faces.points.size();
+    for (Eigen::Index c = 0; interface.is_rigid() && c < count; ++c) {
+      interface.faces.add_force(static_cast<fpm::Index>(c),
+                                fpm::Vector<Dim>(state.interface_traction.col(first + c)), by_body);
+    }
+    first += count;
+  }
+  return state.reaction - by_body;
+}
+
 template <int Dim>
 void add_strain_fields(const State<Dim>& state, Collector<Dim>& fields) {
   if (state.layout.plastic) {
@@ -123,8 +145,11 @@ std::vector<files::PointField> particle_fields(const Model<Dim>& model, const St
   }
   add_strain_fields(state, fields);
   fields.scalar("material", "-", [&](std::size_t a) { return model.material[a]; });
-  fields.vector("reaction", Dim == 2 ? "N/m" : "N",
-                [&](std::size_t a, int i) { return state.reaction(at(a), i); });
+  if (fields.wanted("reaction")) {
+    const fpm::Field<Dim> force = holding_force(model, state);
+    fields.vector("reaction", Dim == 2 ? "N/m" : "N",
+                  [&](std::size_t a, int i) { return force(at(a), i); });
+  }
   fields.scalar("searched", "-", [&](std::size_t a) {
     return state.rows.searched(static_cast<fpm::Index>(a)) ? 1.0 : 0.0;
   });

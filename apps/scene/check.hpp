@@ -21,6 +21,7 @@ void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_boundaries(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_loads(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_drive(const Scene& scene, tables::Diagnosis& diagnosis);
+void check_plate(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_places(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_measures(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_run(const Scene& scene, tables::Diagnosis& diagnosis);

@@ -277,7 +277,7 @@ void check_load(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (!diagnosis.good({"drive.scales"})) return;
   if (scales.empty()) {
     diagnosis.error("drive.scales", "is missing",
-                    "a load needs what grows: \"traction\", \"gravity\" or both");
+                    "a load needs what grows: \"traction\", \"gravity\" or \"plate\"");
   }
   const auto scaled = [&](LoadKind kind) {
     return std::find(scales.begin(), scales.end(), kind) != scales.end();
@@ -319,6 +319,7 @@ void check_drive(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (!diagnosis.good({"drive.kind"})) return;
   if (scene.drive.kind == DriveKind::displacement) check_displacement(scene, diagnosis);
   if (scene.drive.kind == DriveKind::load) check_load(scene, diagnosis);
+  check_plate(scene, diagnosis);
 }
 
 /// Unbalanced forces of the tolerance are borne by friction Kp times over.

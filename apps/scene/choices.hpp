@@ -22,7 +22,7 @@ enum class CutoutKind { free, fixed, roller };
 enum class InitialStressKind { none, geostatic };
 enum class DriveKind { none, displacement, load };
 enum class Lateral { fixed, free };
-enum class LoadKind { traction, gravity };
+enum class LoadKind { traction, gravity, plate };
 enum class MeasureKind {
   displacement,
   stress,

@@ -75,7 +75,7 @@ bool may_have_images(const Scene& scene) {
 }
 
 bool moves(const Drive& drive, Side side) {
-  return drive.kind == DriveKind::displacement && drive.side == side;
+  return (drive.kind == DriveKind::displacement || loads_plate(drive)) && drive.side == side;
 }
 
 bool holds_by_images(const Scene& scene) {
@@ -87,6 +87,10 @@ bool holds_by_images(const Scene& scene) {
 }
 
 }  // namespace
+
+bool loads_plate(const Drive& drive) {
+  return drive.kind == DriveKind::load && std::ranges::count(drive.scales, LoadKind::plate) > 0;
+}
 
 bool is_mirror(const Scene& scene, Side side) {
   return std::ranges::any_of(scene.symmetry, [&](const Symmetry& symmetry) {

@@ -16,6 +16,7 @@ struct ModelInfo;
 namespace scene {
 
 struct Contact;
+struct Drive;
 struct Geometry;
 struct Interface;
 struct Material;
@@ -55,6 +56,9 @@ struct Support;
 
 /// How a displacement is imposed: likewise.
 [[nodiscard]] DriveMethod resolve_drive_method(const Scene& scene);
+
+/// Whether a drive is a plate whose load grows.
+[[nodiscard]] bool loads_plate(const Drive& drive);
 
 /// Whether there is a plane of symmetry at a side.
 [[nodiscard]] bool is_mirror(const Scene& scene, Side side);

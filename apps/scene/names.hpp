@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, 4> drive_method{"auto", "direct", 
                                                               "contact"};
 inline constexpr std::array<std::string_view, 3> interface { "through", "tied", "contact" };
 inline constexpr std::array<std::string_view, 2> lateral{"fixed", "free"};
-inline constexpr std::array<std::string_view, 2> load{"traction", "gravity"};
+inline constexpr std::array<std::string_view, 3> load{"traction", "gravity", "plate"};
 inline constexpr std::array<std::string_view, 6> measure{
     "displacement", "stress", "plastic_strain", "reaction", "resultant", "max_displacement"};
 inline constexpr std::array<std::string_view, 2> preset{"default", "appendix_a"};

@@ -187,7 +187,9 @@ struct Drive {
   Point direction;  // unit vector
   Lateral lateral = Lateral::fixed;
   DriveMethod method = DriveMethod::automatic;
-  Contact contact;                         // of the method of that name
+  Contact contact;  // of the method of that name
+  Point at;  // [m] along the side, where a plate that turns is pushed or loaded; empty: it does not
+  Point force;                             // [N/m or N] on a loaded plate
   double target = 0.0;                     // [m] length of the prescribed displacement
   std::vector<LoadKind> scales;            // what grows from 0 to 1 in a load drive
   std::optional<double> reference_length;  // B [m]

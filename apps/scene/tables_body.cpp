@@ -290,7 +290,9 @@ SceneTable interface() {
       .key("between", &Interface::between,
            {.need = tables::Need::required, .doc = "Names of the two materials."})
       .key("kind", &Interface::kind,
-           {.doc = "through: one body. tied: two bodies held together. contact: two bodies that "
+           {.doc = "through: one body. tied: two bodies held together; in small strain, clay "
+                   "(von_mises, or phi = 0) slides where its cohesion is used up. contact: two "
+                   "bodies that "
                    "slide by Coulomb's law and, without tension, open."});
   return with_contact(table).build();
 }

@@ -25,7 +25,9 @@ tables::TableBuilder<Scene, Struct>& with_contact(tables::TableBuilder<Scene, St
             .doc = "tied and contact: stiffness of the face over the softer Young's modulus per "
                    "spacing; the gap falls as its inverse, the number of evaluations grows with "
                    "it.",
-            .absent = "100 between elastic materials, 10 where one yields"});
+            .absent =
+                "100 between elastic materials, 10 where one yields, 1 below a plate that turns "
+                "or is loaded there"});
 }
 
 }  // namespace scene

@@ -130,6 +130,25 @@ SceneTable initial_stress() {
       .build();
 }
 
+// Of a plate that turns or is loaded.
+tables::TableBuilder<Scene, Drive>& with_plate(tables::TableBuilder<Scene, Drive>& table) {
+  return table
+      .key(
+          "at", &Drive::at,
+          {.need = tables::Need::optional,
+           .unit = "m",
+           .doc = "contact: where along the side the plate is pushed or loaded, and about which it "
+                  "turns freely; in 3D two entries. Its rotation is meant to be small.",
+           .absent = "the plate does not turn"})
+      .key("force", &Drive::force,
+           {.need = tables::Need::optional,
+            .unit = "N/m, in 3D N",
+            .doc =
+                "load: components in space of the plate's force when it has grown; along the side "
+                "only with lateral = \"free\" and a face that sticks.",
+            .absent = "only without a loaded plate"});
+}
+
 SceneTable drive() {
   tables::TableBuilder<Scene, Drive> table("drive", &Scene::drive,
                                            "What is moved or loaded, and how far.");
@@ -137,7 +156,8 @@ SceneTable drive() {
       .key("kind", &Drive::kind,
            {.doc = "displacement: particles of a side are moved. load: tractions or gravity grow "
                    "from 0 to their value. none: constant loads, one step."})
-      .key("side", &Drive::side, {.doc = "displacement: the side that is moved."})
+      .key("side", &Drive::side,
+           {.doc = "displacement: the side that is moved; plate: the one it lies on."})
       .key("range_min", &Drive::range_min,
            {.need = tables::Need::optional,
             .unit = "m",
@@ -153,7 +173,9 @@ SceneTable drive() {
             .doc = "displacement: unit vector of the motion, [0, -1] is down.",
             .absent = "only without a displacement"})
       .key("lateral", &Drive::lateral,
-           {.doc = "displacement: fixed (rough) or free (smooth) across the direction."})
+           {.doc = "displacement: fixed (rough) or free (smooth) across the direction. "
+                   "contact: fixed: the plate keeps its place along the side; free: it moves there "
+                   "as the body lets it."})
       .key(
           "method", &Drive::method,
           {.doc =
@@ -168,7 +190,9 @@ SceneTable drive() {
             .doc = "displacement: how far; the direction has the sign."})
       .key("scales", &Drive::scales,
            {.need = tables::Need::optional,
-            .doc = "load: what grows.",
+            .doc =
+                "load: what grows; plate: the force on a rigid plate, method contact, that lies on "
+                "a part of the side and sinks in.",
             .absent = "only without a load"})
       .key("reference_length", &Drive::reference_length,
            {.need = tables::Need::optional,
@@ -185,7 +209,7 @@ SceneTable drive() {
            .doc = "Mean pressure = reaction / width; of the modelled half if a symmetry halves the "
                   "plate. In 3D the loaded area [m2].",
            .absent = "only without a displacement"});
-  return with_contact(table).build();
+  return with_contact(with_plate(table)).build();
 }
 
 }  // namespace

@@ -9,6 +9,7 @@ using constitutive::interface_response;
 using constitutive::InterfaceLaw;
 using constitutive::InterfaceResponse;
 using constitutive::InterfaceState;
+using constitutive::sticks;
 
 template <int Dim>
 using Vector = Eigen::Matrix<double, Dim, 1>;
@@ -20,6 +21,11 @@ constexpr double adhesion = 2e3;    // [Pa]
 
 InterfaceLaw coulomb(bool tension = false) {
   return {.tied = false, .friction_tangent = friction, .adhesion = adhesion, .tension = tension};
+}
+
+// Clay that is bonded, whose springs are softer along the face.
+InterfaceLaw bond() {
+  return {.tied = false, .shear_stiffness = 0.1, .adhesion = adhesion, .tension = true};
 }
 
 template <int Dim>
@@ -62,13 +68,20 @@ void expect_law() {
   EXPECT_LE((r.traction - (-pressure * p.normal - strength * p.along)).norm(), round_off);
   EXPECT_LE((r.slip - p.slip + 2.0 * strength / stiffness * p.along).norm(), 1e-15);
 
-  r = p.at(coulomb(), 1.0, 100.0);
+  // As it opens its adhesion fades, and its pressure is none.
+  r = p.at(coulomb(), 0.25 * adhesion, 0.7 * adhesion);
+  EXPECT_EQ(r.state, InterfaceState::sticking);
+  EXPECT_LE((r.traction - 0.7 * adhesion * p.along).norm(), round_off);
+  r = p.at(coulomb(), 0.25 * adhesion, 3.0 * adhesion);
+  EXPECT_EQ(r.state, InterfaceState::sliding);
+  EXPECT_LE((r.traction - 0.75 * adhesion * p.along).norm(), round_off);
+
+  r = p.at(coulomb(), 1.01 * adhesion, 100.0);
   EXPECT_EQ(r.state, InterfaceState::open);
   EXPECT_EQ(r.traction.norm(), 0.0);
   // What it bore along the face is forgotten: closed again, it bears pressure alone.
-  const auto closed =
-      interface_response<Dim>(coulomb(), stiffness, p.normal, p.initial,
-                              p.gap(1.0, 100.0) - (pressure + 1.0) / stiffness * p.normal, r.slip);
+  const auto closed = interface_response<Dim>(coulomb(), stiffness, p.normal, p.initial,
+                                              p.gap(-pressure, 100.0), r.slip);
   EXPECT_LE((closed.traction + pressure * p.normal).norm(), round_off);
 
   // With tension it holds, with what adhesion it has.
@@ -83,6 +96,39 @@ void expect_law() {
 TEST(InterfaceLaw, SticksSlidesAndOpens) {
   expect_law<2>();
   expect_law<3>();
+}
+
+// Along the face its springs are softer by a factor; what they bear does not depend on it.
+template <int Dim>
+void expect_bond() {
+  const Point<Dim> p;
+  const double across = p.initial.dot(p.normal), along = p.initial.dot(p.along);
+  for (const double pull : {-1e4, 5e3}) {
+    const auto at = [&](double shear) {
+      const Vector<Dim> springs =
+          (pull - across) * p.normal + (shear - along) / bond().shear_stiffness * p.along;
+      return p.of(bond(), springs / stiffness + p.slip);
+    };
+    auto r = at(0.99 * adhesion);
+    EXPECT_EQ(r.state, InterfaceState::sticking);
+    EXPECT_LE((r.traction - (pull * p.normal + 0.99 * adhesion * p.along)).norm(), round_off);
+    r = at(1.5 * adhesion);
+    EXPECT_EQ(r.state, InterfaceState::sliding);
+    EXPECT_LE((r.traction - (pull * p.normal + adhesion * p.along)).norm(), round_off);
+    EXPECT_LE((r.slip - p.slip - 5.0 * adhesion / stiffness * p.along).norm(), 1e-15);
+  }
+}
+
+TEST(InterfaceLaw, OfABondSlidesInSofterSprings) {
+  expect_bond<2>();
+  expect_bond<3>();
+}
+
+TEST(InterfaceLaw, SticksIfItHasAnyStrengthAlongTheFace) {
+  EXPECT_TRUE(sticks({}));  // tied
+  EXPECT_TRUE(sticks(coulomb()));
+  EXPECT_TRUE(sticks({.tied = false, .adhesion = 1.0}));
+  EXPECT_FALSE(sticks({.tied = false}));
 }
 
 TEST(InterfaceLaw, SlidingAgainstItsSlipLosesWork) {
@@ -108,14 +154,29 @@ void expect_tangent(const InterfaceLaw& law, double pull, double shear) {
 
 TEST(InterfaceLaw, TangentsAreThoseOfTheReturn) {
   for (const bool tension : {false, true}) {
-    for (const double pull : {-1e4, 5e3}) {
-      for (const double shear : {1e3, 4e4, -4e4}) {
+    for (const double pull : {-1e4, 0.5 * adhesion, 5e3}) {
+      for (const double shear : {500.0, 4e4, -4e4}) {
         expect_tangent<2>(coulomb(tension), pull, shear);
         expect_tangent<3>(coulomb(tension), pull, shear);
       }
     }
   }
   expect_tangent<3>({.tied = false}, -1e4, 3e3);  // smooth
+  for (const double pull : {-1e4, 5e3}) {
+    for (const double shear : {1e2, 4e5}) {
+      expect_tangent<2>(bond(), pull, shear);
+      expect_tangent<3>(bond(), pull, shear);
+    }
+  }
+}
+
+TEST(InterfaceLaw, TiedHasSofterSpringsAlongTheFaceIfAsked) {
+  const Point<2> p;
+  const auto r = p.of({.shear_stiffness = 0.1}, p.gap(5e3, 1e6));
+  const Vector<2> shear = p.initial - p.initial.dot(p.normal) * p.normal;
+  const double along = 0.1 * (1e6 - shear.dot(p.along)) + shear.dot(p.along);
+  EXPECT_LE((r.traction - (5e3 * p.normal + along * p.along)).norm(), round_off);
+  expect_tangent<3>({.shear_stiffness = 0.1}, -1e4, 3e3);
 }
 
 }  // namespace

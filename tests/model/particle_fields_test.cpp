@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "model/build.hpp"
+#include "model/measures.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
 
@@ -86,6 +87,51 @@ TEST(ParticleFields, RecoveredMeanStressIsThatOfEachMaterialWhereItIsNow) {
   // Round-off of sums of some hundred products of up to 1e4 Pa.
   for (Eigen::Index a = 0; a < body.model.size(); ++a) {
     EXPECT_NEAR(fields[0].values[static_cast<std::size_t>(a)], expected[a], 1e-7);
+  }
+}
+
+// Whatever holds a side, prescribed particles, springs or a contact: the forces on its particles
+// sum up to the support's measured reaction.
+TEST(ParticleFields, ReactionsAreThoseOfEverySupport) {
+  const std::string measured = [] {
+    std::string text;
+    for (const std::string support : {"base", "wall", "springs"}) {
+      text += "[[measure]]\nname = \"" + support + "\"\nkind = \"reaction\"\nsupport = \"" +
+              support + "\"\n";
+    }
+    return text;
+  }();
+  const std::vector<std::string> by_particles = {"support.0.method=direct"};
+  const auto scene = *scene::parse_scene(two_soils +
+                                             "[[support]]\nname = \"wall\"\nside = \"left\"\n"
+                                             "directions = [\"x\"]\nmethod = \"contact\"\n"
+                                             "friction_angle = 20.0\n"
+                                             "[[support]]\nname = \"springs\"\nside = \"right\"\n"
+                                             "directions = [\"x\"]\nmethod = \"penalty\"\n" +
+                                             measured,
+                                         "held", by_particles)
+                          .scene;
+  const Model<2> model = build_model<2>(scene);
+  State<2> state = initial_state(model);
+  const auto& x = model.particles.position;
+  state.displacement = 1e-3 * x;
+  state.interface_traction.row(0).setConstant(3e3);
+  state.interface_traction.row(1).setConstant(-500.0);
+  for (Eigen::Index k = 0; k < model.unknowns(); ++k) {
+    if (model.prescribed[static_cast<std::size_t>(k)] != 0) state.reaction.data()[k] = 7.0;
+  }
+  const auto measures = Measures<2>(scene, model).of(state);
+  const std::vector<std::string> wanted = {"reaction"};
+  const auto field = particle_fields<2>(model, state, wanted).front();
+  const auto components = static_cast<std::size_t>(field.components);
+  for (std::size_t i = 0; i < 2; ++i) {
+    double sum = 0.0;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(model.size()); ++a) {
+      sum += field.values[components * a + i];
+    }
+    ASSERT_NE(measures[2 + i], 0.0);  // of the wall
+    const double expected = measures[i] + measures[2 + i] + measures[4 + i];
+    EXPECT_NEAR(sum, expected, 1e-12 * 1e7);  // sums of springs of 1e9 Pa moved by 1e-3 m
   }
 }
 

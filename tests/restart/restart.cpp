@@ -39,6 +39,22 @@ region_max = [4.0, -1.0]
 between = ["soil", "firm"]
 )";
 
+const std::string loaded_plate = [] {
+  std::string text = footing;
+  const auto swap = [&](const std::string& what, const std::string& instead) {
+    text.replace(text.find(what), what.size(), instead);
+  };
+  swap("[[symmetry]]\naxis = \"x\"\nposition = 0.0\n",
+       "[[support]]\nname = \"near side\"\nside = \"left\"\ndirections = [\"x\"]\n");
+  swap("kind = \"displacement\"\n",
+       "kind = \"load\"\nscales = [\"plate\"]\nmethod = \"contact\"\nlateral = \"free\"\n"
+       "friction_angle = 15.0\nat = 1.7\nforce = [500.0, -5e3]\n");
+  swap("range_min = 0.0\nrange_max = 1.0\ndirection = [0.0, -1.0]\ntarget = 0.15\n",
+       "range_min = 1.0\nrange_max = 2.0\n");
+  swap("width = 1.0\n", "");
+  return text;
+}();
+
 const std::string block = R"(
 title = "small block"
 [geometry]

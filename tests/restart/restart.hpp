@@ -21,6 +21,8 @@ struct Outcome {
 extern const std::string footing;
 /// The same on two soils.
 extern const std::string layered;
+/// The footing whole, under a load that does not act at its middle.
+extern const std::string loaded_plate;
 /// A 3D elastic block whose weight grows.
 extern const std::string block;
 

@@ -154,16 +154,16 @@ INSTANTIATE_TEST_SUITE_P(All, Tied, testing::ValuesIn(samples()), [](const auto&
                      s.kinematics.substr(0, 5));
 });
 
-// Two clays, the upper five times softer and half a half-width thick. fpm-limit certifies 6.06 c
-// and 6.35 c for it; 2 % is what steps and tolerance leave open.
+// Two clays, the upper five times softer and half a half-width thick. fpm-limit certifies 6.19 c
+// and 6.26 c for it; 2 % is what steps and tolerance leave open. The face between them slides at
+// the softer one's strength: without that it is 6.60 c with 8 particles.
 TEST(LayeredClay, CarriesWhatItsBoundsSay) {
-  const double coarse = 1.0 + limit_load("layered_clay.toml", 1e3, 8).raw;
-  const double fine = 1.0 + limit_load("layered_clay.toml", 1e3, 16).raw;
-  report("load_over_c_at_8", coarse);
-  report("load_over_c_at_16", fine);
-  EXPECT_GT(fine, 6.06 * 0.98);
-  EXPECT_LT(fine, 6.35 * 1.02);
-  EXPECT_LT(fine, coarse);
+  for (const int particles : {8, 16}) {
+    const double load = 1.0 + limit_load("layered_clay.toml", 1e3, particles).raw;
+    report("load_over_c_at_" + std::to_string(particles), load);
+    EXPECT_GT(load, 6.19 * 0.98);
+    EXPECT_LT(load, 6.26 * 1.02);
+  }
 }
 
 // A block of this weight on a rigid base.

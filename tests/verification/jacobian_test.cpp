@@ -88,10 +88,26 @@ std::vector<Case> cases() {
   parted.control = "incremental";
   parted.extra = upper + "kind=\"tied\"\n";
   all.push_back({parted, "tied"});
+  BodyOptions clay = parted;  // which slides at its cohesion
+  clay.kinematics = "small_strain";
+  clay.model = "von_mises";
+  all.push_back({clay, "tied_and_sliding"});
   parted.extra = upper +
                  "kind=\"contact\"\nfriction_angle=20.0\nadhesion=1e3\n[[support]]\nname=\"base\"\n"
                  "side=\"bottom\"\ndirections=[\"y\"]\nmethod=\"contact\"\nfriction_angle=30.0\n";
   all.push_back({parted, "in_contact"});
+  BodyOptions plate = parted;
+  plate.extra =
+      "[drive]\nkind=\"load\"\nscales=[\"plate\"]\nmethod=\"contact\"\nfriction_angle=30.0\n"
+      "adhesion=1e3\nlateral=\"free\"\nside=\"top\"\nrange_min=0.2\nrange_max=0.9\nat=0.7\n"
+      "force=[100.0, -2e3]\n[programme]\nsteps=1\n";
+  all.push_back({plate, "below_a_plate"});
+  plate.dimension = 3;
+  plate.extra =
+      "[drive]\nkind=\"load\"\nscales=[\"plate\"]\nmethod=\"contact\"\nfriction_angle=30.0\n"
+      "lateral=\"free\"\nside=\"top\"\nrange_min=[0.1, 0.1]\nrange_max=[0.6, 0.4]\nat=[0.4, 0.3]\n"
+      "force=[50.0, -500.0, 20.0]\n[programme]\nsteps=1\n";
+  all.push_back({plate, "solid_below_a_plate"});
   return all;
 }
 
