@@ -304,7 +304,8 @@ ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ost
     out << "fpm-limit " << program::version << '\n';
     return ExitCode::done;
   }
-  const bracket::BracketOptions chosen = bracket_options(values);
+  bracket::BracketOptions chosen = bracket_options(values);
+  chosen.wants_mechanism = values.count("fields") != 0;
   const std::optional<Input> input = input_of(values, err);
   if (!input) return ExitCode::input_refused;
   const problem::Case& problem = input->cases.associated;

@@ -57,6 +57,33 @@ ordered_json as_json(const problem::Case& problem, const bracket::Attempt& attem
   return json;
 }
 
+// Where a turning block is, in the case's length.
+struct BlockOutline {
+  mesh::Point pole{0.0, 0.0}, low{0.0, 0.0}, high{0.0, 0.0};
+};
+
+BlockOutline outline_of(const problem::Case& problem, const problem::TurningBlock& block) {
+  const auto at = [&](double angle, double radius) {
+    mesh::Point place = block.pole + radius * mesh::Point(std::cos(angle), std::sin(angle));
+    if (block.clockwise) place.x() = -place.x();
+    return mesh::Point(problem.units.length * place);
+  };
+  const problem::SpiralArc &first = block.arcs.front(), &last = block.arcs.back();
+  return {at(0.0, 0.0), at(first.upper, first.radius),
+          at(last.lower, last.radius * std::exp(last.growth * (last.lower - last.upper)))};
+}
+
+ordered_json as_json(const problem::Case& problem, const bracket::BlockFactor& found) {
+  const auto place = [](const mesh::Point& at) { return ordered_json{at.x(), at.y()}; };
+  const BlockOutline outline = outline_of(problem, found.block);
+  return {{"pole", place(outline.pole)},
+          {"from", place(outline.high)},
+          {"to", place(outline.low)},
+          {"turns", found.block.clockwise ? "clockwise" : "counterclockwise"},
+          {"factor", found.factor},
+          {"multiplier_of_loads", found.certificate.multiplier * problem.units.multiplier()}};
+}
+
 // Of a solution alone; both the answer and the Davis-reduced one have it.
 ordered_json as_json(const problem::Case& problem, const bracket::Solution& solution) {
   const bracket::Bracket& bracket = solution.bracket;
@@ -82,6 +109,7 @@ ordered_json as_json(const problem::Case& problem, const bracket::Solution& solu
         {with_unit("before_shrinking", problem), found.proposed * multiplier}};
     json["lower_solver"] = as_json(problem, bracket.lower->attempt);
   }
+  if (solution.block) json["turning_block"] = as_json(problem, *solution.block);
   if (bracket.upper) {
     const certificate::UpperCertificate& found = bracket.upper->certificate;
     json["upper_certificate"] = {
@@ -134,7 +162,8 @@ void say_bounds(std::string& text, const bracket::Solution& solution, const std:
 }
 
 void say_certificates(std::string& text, const problem::Case& problem,
-                      const bracket::Bracket& bracket) {
+                      const bracket::Solution& solution) {
+  const bracket::Bracket& bracket = solution.bracket;
   const double stress = problem.units.stress;
   const auto out = std::back_inserter(text);
   text += "Certificates, found without the optimiser:\n";
@@ -146,6 +175,17 @@ void say_certificates(std::string& text, const problem::Case& problem,
                    bracket.lower->mesh.triangles.size(), found.residual * stress,
                    problem.names.stress, found.yield_excess * stress, problem.names.stress,
                    1.0 - found.kept);
+  }
+  if (solution.block) {
+    const BlockOutline outline = outline_of(problem, solution.block->block);
+    fmt::format_to(out,
+                   "  upper bound    a block that turns {} about ({:.5g}, {:.5g}), along a "
+                   "logarithmic spiral from ({:.5g}, {:.5g}) to ({:.5g}, {:.5g}): at a factor of "
+                   "{:.7g} it fails under {:.6f} of the loads\n",
+                   solution.block->block.clockwise ? "clockwise" : "counterclockwise",
+                   outline.pole.x(), outline.pole.y(), outline.high.x(), outline.high.y(),
+                   outline.low.x(), outline.low.y(), solution.block->factor,
+                   solution.block->certificate.multiplier * problem.units.multiplier());
   }
   if (bracket.upper) {
     const certificate::UpperCertificate& found = bracket.upper->certificate;
@@ -209,8 +249,10 @@ std::string text_report(const problem::Case& problem, const Answer& answer,
   }
   if (answer.run) text += bounds::text_of(*answer.run);
   text += '\n';
+  if (!bracket.attempts.empty() || answer.found.block) {
+    say_certificates(text, problem, answer.found);
+  }
   if (!bracket.attempts.empty()) {
-    say_certificates(text, problem, bracket);
     say_solver(text, bracket);
   }
   text += "Assumptions:\n";

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "files/hdf5_file.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace {
@@ -134,6 +135,20 @@ TEST(FpmLimit, EndsWellOnceTheGapIsReached) {
   const Outcome lifting = run({"--strip", "--c", "1", "--gap", "10%", "--no-tension"});
   EXPECT_EQ(lifting.code, ExitCode::done);
   EXPECT_THAT(lifting.out, HasSubstr("no tension, the footing may lift off"));
+}
+
+TEST(FpmLimit, WritesFieldsInTheUnitsOfItsNumbers) {
+  const support::TemporaryFolder folder;
+  const std::string prefix = (folder.path() / "strip").string();
+  const Outcome done = run({"--strip", "--c", "250", "--units", "psf,ft", "--gap", "50%",
+                            "--max-triangles", "1", "--fields", prefix});
+  ASSERT_EQ(done.code, ExitCode::done) << done.err;
+  const files::Hdf5File lower = files::Hdf5File::open(prefix + "-lower.hdf");
+  EXPECT_EQ(lower.info("/VTKHDF/PointData/stress").unit, "psf");
+  EXPECT_EQ(lower.info("/VTKHDF/PointData/principal_stresses").unit, "psf");
+  EXPECT_EQ(lower.info("/VTKHDF/PointData/yield_ratio").unit, "");
+  const files::Hdf5File upper = files::Hdf5File::open(prefix + "-upper.hdf");
+  EXPECT_EQ(upper.info("/VTKHDF/CellData/dissipation").unit, "psf/ft");
 }
 
 }  // namespace

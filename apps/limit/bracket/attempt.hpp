@@ -20,7 +20,8 @@ struct BracketOptions {
   double max_seconds = 120.0;  // of processor time, for all attempts together
   int max_iterations = 300;    // of the solver, per attempt
   Engine engine = Engine::interior_point;
-  bool fall_back = true;  // ask the other engine, and other forms, where the first one fails
+  bool wants_mechanism = false;  // a velocity field even where a turning block is a bound
+  bool fall_back = true;         // ask the other engine, and other forms, where the first one fails
 };
 
 /// One attempt at one bound.

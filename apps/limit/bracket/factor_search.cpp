@@ -31,8 +31,8 @@ void FactorSearch::saw(double factor, double multiplier, bool has_no_end) {
   stalled_ = width() > hardly * before ? stalled_ + 1 : 0;
 }
 
-void FactorSearch::begin_anew() {
-  first_ = root();
+void FactorSearch::begin_anew(double shift) {
+  first_ = root() * shift;
   carried_.reset();
   failed_.reset();
   stalled_ = 0;
@@ -59,7 +59,11 @@ double FactorSearch::width() const {
 
 double FactorSearch::enclosed_root() const {
   double share = carried_->y / (carried_->y - failed_->y);
-  if (carried_->has_no_end) share = std::clamp(share, 0.2, 0.8);
+  // Between a multiplier of about one and one of next to nothing a secant says nothing.
+  const double far = std::log(2.0);
+  const bool is_far = carried_->has_no_end || carried_->y > far || failed_->y < -far;
+  constexpr double least = 0.2;
+  if (is_far) share = std::clamp(share, least, 1.0 - least);
   if (stalled_ > 1) share = 0.5;
   return std::exp(carried_->x + share * (failed_->x - carried_->x));
 }

@@ -13,8 +13,8 @@ class FactorSearch {
   /// @param has_no_end  the multiplier is at least this, and was not followed any further
   void saw(double factor, double multiplier, bool has_no_end);
 
-  /// The multiplier has become another one, whose root is not far from the last one's.
-  void begin_anew();
+  /// The multiplier has become another one, whose root is about the last one's times `shift`.
+  void begin_anew(double shift = 1.0);
 
   /// The factor at which the multiplier should be one; the first one if nothing is known.
   [[nodiscard]] double root() const;

@@ -51,8 +51,8 @@ void Side::set_soils(const std::vector<problem::Soil>& soils) {
 }
 
 void Side::refine() {
-  constexpr double share = 0.7;
-  problem_.mesh = mesh::bisected(problem_.mesh, mesh::largest(indicators_, share));
+  constexpr double share = 0.7, growth = 1.25;
+  problem_.mesh = mesh::refined(std::move(problem_.mesh), indicators_, share, growth);
 }
 
 void Side::attempt(Bracket& bracket, const BracketOptions& options,

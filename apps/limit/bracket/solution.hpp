@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "limit/bracket/block_factor.hpp"
 #include "limit/bracket/bracket.hpp"
 
 namespace limit::bracket {
@@ -11,6 +12,7 @@ namespace limit::bracket {
 struct Solution {
   Bracket bracket;
   std::optional<double> lower, upper;
+  std::optional<BlockFactor> block;  // if that is the upper bound
 
   /// (upper - lower) / their mean; infinite unless both are there and the mean is positive.
   [[nodiscard]] double gap() const;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "limit/bracket/block_factor.hpp"
 #include "limit/bracket/factor_search.hpp"
 #include "limit/bracket/side.hpp"
 #include "limit/problem/at_rest.hpp"
@@ -89,12 +90,18 @@ class Flank {
       if (!solve(*this, target)) break;
     }
     const double seconds = std::max(1e-3, means_.seconds() - began);
-    if (before && factor_) promise_ = std::abs(std::log(*factor_ / *before)) / seconds;
+    if (!before || !factor_) return;
+    gain_ = std::log(*factor_ / *before);
+    promise_ = std::abs(gain_) / seconds;
   }
 
   void refine() {
     side_.refine();
-    search_.begin_anew();
+    // As steep as the solver goes along with: the more strength there is, the more is carried.
+    constexpr double steeper = 1.5;
+    if (failures_ == 0) steepest_ *= steeper;
+    // A finer mesh gains less than the last one did, by about half.
+    search_.begin_anew(std::exp(gain_ / 2.0));
   }
 
   /// Bounds the multiplier of the loads with the strength divided by the factor.
@@ -129,7 +136,7 @@ class Flank {
   // A stress field of soils that are weaker than they must be is one of theirs.
   [[nodiscard]] double weakening(const problem::Soil& soil, double factor) const {
     if (!is_lower_ || !rests_) return factor;
-    return std::max(factor, std::tan(soil.friction_angle) / std::tan(steep));
+    return std::max(factor, std::tan(soil.friction_angle) / steepest_);
   }
 
   // Steep soils that the solver has failed with stay at rest from here on, if anything else moves.
@@ -145,6 +152,7 @@ class Flank {
       return;
     }
     rests_ = true;
+    steepest_ = std::tan(steep);
     failures_ = 0;
     if (is_lower_) return;  // weakened instead
     side_ = Side(problem::with_soils_at_rest(problem_, rests), false, means_);
@@ -177,6 +185,7 @@ class Flank {
                            last.status == solver::SolverStatus::acceptable;
     if (!(is_solved || is_of_use(last)) || !std::isfinite(last.proposed)) {
       ++failures_;
+      if (rests_) steepest_ = std::tan(steep);
       return;
     }
     failures_ = 0;
@@ -206,7 +215,9 @@ class Flank {
   std::optional<double> factor_;
   Bracket best_;
   int failures_ = 0;
-  bool rests_ = false;  // whether soils have been put to rest
+  bool rests_ = false;                 // whether soils have been put to rest
+  double steepest_ = std::tan(steep);  // tangent of the friction that is left to them
+  double gain_ = 0.0;                  // of the last mesh, as a logarithm
   double promise_ = std::numeric_limits<double>::infinity();
 };
 
@@ -222,12 +233,16 @@ class Reduction {
                1.0 / problem.units.multiplier(), means),
         above_(problem::in_units(problem.upper, problem.units), false,
                1.0 / problem.units.multiplier(), means),
+        scaled_(problem::in_units(problem.upper, problem.units)),
         case_(problem) {}
 
   Solution solution() {
     if (!(case_.known_lower && case_.known_upper)) search();
     result_.lower = larger(below_.factor(), case_.known_lower);
-    result_.upper = smaller(above_.factor(), case_.known_upper);
+    result_.upper = smaller(upper(), case_.known_upper);
+    if (result_.block && result_.upper && result_.block->factor > *result_.upper) {
+      result_.block.reset();
+    }
     below_.give(result_.bracket);
     above_.give(result_.bracket);
     result_.bracket.reached = result_.gap() <= options_.gap;
@@ -247,28 +262,57 @@ class Reduction {
   void search() {
     // A first mesh is far off: not to more than is of use.
     constexpr double first = 0.5, later = 0.2;
-    settle(above_, first);
-    if (above_.factor()) below_.start_from(*above_.factor());
+    look_for_block();
+    if (!result_.block) settle(above_, first);
+    if (upper()) below_.start_from(*upper());
     if (case_.has_lower) settle(below_, first);
+    // A block that is not the right mechanism at all. It mostly is, closer than a mesh can be.
+    constexpr double far = 0.1;
+    if (result_.block && (gap() > far || !case_.has_lower)) begin_above(first);
     while (case_.has_lower && gap() > options_.gap && remaining() > 0.0) {
+      if (result_.block && !has_begun_above_ && below_.triangles() > most_without_above) {
+        begin_above(first);
+        continue;
+      }
       Flank* next = next_to_refine();
       if (next == nullptr) break;
       next->refine();
       settle(*next, later);
     }
+    if (options_.wants_mechanism && !above_.factor()) begin_above(first);
+  }
+
+  void look_for_block() {
+    constexpr double share = 0.15;  // of the time
+    const double one = 1.0 / case_.units.multiplier();
+    result_.block =
+        block_factor(scaled_, one, estimate(scaled_, one), share * options_.max_seconds, means_);
+  }
+
+  void begin_above(double share_of_gap) {
+    has_begun_above_ = true;
+    if (upper()) above_.start_from(*upper());
+    settle(above_, share_of_gap);
   }
 
   [[nodiscard]] double remaining() const {
     return options_.max_seconds - (means_.seconds() - began_);
   }
+  [[nodiscard]] std::optional<double> upper() const {
+    std::optional<double> least = above_.factor();
+    if (result_.block)
+      least = std::min(least.value_or(result_.block->factor), result_.block->factor);
+    return least;
+  }
   [[nodiscard]] double gap() const {
-    if (!below_.factor() || !above_.factor()) return std::numeric_limits<double>::infinity();
-    return 2.0 * (*above_.factor() - *below_.factor()) / (*above_.factor() + *below_.factor());
+    if (!below_.factor() || !upper()) return std::numeric_limits<double>::infinity();
+    return 2.0 * (*upper() - *below_.factor()) / (*upper() + *below_.factor());
   }
 
   Flank* next_to_refine() {
     Flank* next = nullptr;
     for (Flank* flank : {&below_, &above_}) {
+      if (result_.block && !has_begun_above_ && flank == &above_) continue;
       if (!flank->can_refine() || flank->triangles() >= options_.max_triangles) continue;
       if (next == nullptr || flank->promise() > next->promise()) next = flank;
     }
@@ -290,18 +334,15 @@ class Reduction {
   const Means& means_;
   double began_;
   Flank below_, above_;
+  problem::Problem scaled_;
   const problem::Case& case_;
   Solution result_;
+  // With a block for a bound, mechanisms of a mesh are sought only where stresses do not come near.
+  static constexpr int most_without_above = 5000;
+  bool has_begun_above_ = false;
 };
 
 }  // namespace
-
-problem::Soil weakened(const problem::Soil& soil, double factor) {
-  problem::Soil weak = soil;
-  weak.cohesion /= factor;
-  weak.friction_angle = std::atan(std::tan(soil.friction_angle) / factor);
-  return weak;
-}
 
 Solution reduce_strength(const problem::Case& problem, const BracketOptions& options,
                          const std::function<void(const Attempt&)>& watch, const Means& means) {

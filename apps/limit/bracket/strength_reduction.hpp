@@ -1,6 +1,7 @@
 #pragma once
 
 #include "limit/bracket/solution.hpp"
+#include "limit/bracket/weakened.hpp"
 
 namespace limit::bracket {
 
@@ -14,8 +15,5 @@ namespace limit::bracket {
 [[nodiscard]] Solution reduce_strength(const problem::Case& problem, const BracketOptions& options,
                                        const std::function<void(const Attempt&)>& watch,
                                        const Means& means = {});
-
-/// Cohesion and tan(phi) divided by a factor.
-[[nodiscard]] problem::Soil weakened(const problem::Soil& soil, double factor);
 
 }  // namespace limit::bracket

@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace limit::mesh {
@@ -14,7 +15,9 @@ using Side = std::pair<int, int>;  // as it runs counterclockwise in its triangl
 
 class Bisector {
  public:
-  explicit Bisector(const Mesh& mesh) : mesh_(mesh), alive_(mesh.triangles.size(), true) {
+  /// @param indicators  of the triangles; divided as these are
+  Bisector(const Mesh& mesh, std::vector<double> indicators)
+      : mesh_(mesh), indicators_(std::move(indicators)), alive_(mesh.triangles.size(), true) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) enter(static_cast<int>(t));
     for (const BoundaryEdge& edge : mesh.boundary) {
       outline_[{edge.first, edge.second}] = edge.boundary;
@@ -36,6 +39,15 @@ class Bisector {
         last = next;
       }
     }
+  }
+
+  /// Of the triangles of the result.
+  std::vector<double> indicators() const {
+    std::vector<double> left;
+    for (std::size_t t = 0; t < indicators_.size(); ++t) {
+      if (alive_[t]) left.push_back(indicators_[t]);
+    }
+    return left;
   }
 
   Mesh result() const {
@@ -117,28 +129,46 @@ class Bisector {
     for (const Triangle& half : {Triangle{{side.first, middle, opposite}, old.region},
                                  Triangle{{middle, side.second, opposite}, old.region}}) {
       mesh_.triangles.push_back(half);
+      indicators_.push_back(indicators_[static_cast<std::size_t>(triangle)] / 2.0);
       alive_.push_back(true);
       enter(static_cast<int>(mesh_.triangles.size()) - 1);
     }
   }
 
   Mesh mesh_;
+  std::vector<double> indicators_;
   std::vector<bool> alive_;
   std::map<Side, int> owner_;
   std::map<Side, int> outline_;
 };
 
-}  // namespace
-
-Mesh bisected(const Mesh& mesh, const std::vector<bool>& marked) {
+std::pair<Mesh, std::vector<double>> bisected_with(const Mesh& mesh, std::vector<double> indicators,
+                                                   const std::vector<bool>& marked) {
   if (marked.size() != mesh.triangles.size()) {
     throw std::invalid_argument("bisection: one mark per triangle is wanted");
   }
-  Bisector bisector(mesh);
+  Bisector bisector(mesh, std::move(indicators));
   for (std::size_t t = 0; t < marked.size(); ++t) {
     if (marked[t]) bisector.bisect(static_cast<int>(t));
   }
-  return bisector.result();
+  return {bisector.result(), bisector.indicators()};
+}
+
+}  // namespace
+
+Mesh bisected(const Mesh& mesh, const std::vector<bool>& marked) {
+  return bisected_with(mesh, std::vector<double>(marked.size(), 0.0), marked).first;
+}
+
+Mesh refined(Mesh mesh, std::vector<double> indicators, double share, double growth) {
+  const double wanted = growth * static_cast<double>(mesh.triangles.size());
+  const auto is_positive = [](double indicator) { return indicator > 0.0; };
+  if (std::none_of(indicators.begin(), indicators.end(), is_positive)) return mesh;
+  do {
+    const std::vector<bool> marked = largest(indicators, share);
+    std::tie(mesh, indicators) = bisected_with(mesh, std::move(indicators), marked);
+  } while (static_cast<double>(mesh.triangles.size()) < wanted);
+  return mesh;
 }
 
 std::vector<bool> largest(const std::vector<double>& indicators, double share) {

@@ -63,6 +63,22 @@ TEST(FactorSearch, GoesOnFromTheRootOfTheMeshBefore) {
   EXPECT_EQ(search.root(), root);
 }
 
+// Sand with a trace of cohesion: somewhere between these two the multiplier falls off, and where is
+// for neither of them to say.
+TEST(FactorSearch, DoesNotTrustASecantToNextToNothing) {
+  FactorSearch search(1.0);
+  search.saw(2.17, 1.15, false);
+  search.saw(2.26, 0.08, false);
+  EXPECT_GT(std::log(search.root() / 2.17), 0.19 * std::log(2.26 / 2.17));
+  EXPECT_LT(search.root(), 2.26);
+}
+
+TEST(FactorSearch, ExpectsOfAFinerMeshWhatTheLastOneMakesLikely) {
+  FactorSearch search(3.0);
+  search.begin_anew(0.9);
+  EXPECT_DOUBLE_EQ(search.root(), 2.7);
+}
+
 // A solver's digits may contradict each other near the root: the last word counts.
 TEST(FactorSearch, IsNotLostWhereValuesContradictEachOther) {
   FactorSearch search(1.0);

@@ -95,6 +95,24 @@ TEST(Bisection, KeepsAreaOutlineAndConformity) {
   }
 }
 
+// Where all of the flow is at one point, a mesh would grow by a handful of triangles at a time.
+TEST(Bisection, GoesOnNearOnePointUntilTheMeshHasGrown) {
+  mesh::Mesh mesh = mesh::fan_mesh(mesh::even_fan(4.0, 2.0, 24, 8, 1.5));
+  std::vector<double> indicators(mesh.triangles.size(), 0.0);
+  indicators[7] = 1.0;
+  const std::size_t before = mesh.triangles.size();
+  EXPECT_LT(mesh::bisected(mesh, mesh::largest(indicators, 0.7)).triangles.size(),
+            before + before / 10);
+  const mesh::Mesh grown = mesh::refined(mesh, indicators, 0.7, 1.25);
+  EXPECT_GE(grown.triangles.size(), before + before / 4);
+  EXPECT_NO_THROW((void)mesh::edges_of(grown));
+  constexpr double rounding = 1e-12;
+  EXPECT_NEAR(area(grown), area(mesh), rounding * area(mesh));
+  // Nothing flows: nothing is to be refined.
+  EXPECT_EQ(mesh::refined(mesh, std::vector<double>(before, 0.0), 0.7, 1.25).triangles.size(),
+            before);
+}
+
 TEST(Bisection, MarksTheFewestThatMakeUpTheShare) {
   using ::testing::ElementsAre;
   EXPECT_THAT(mesh::largest({1.0, 5.0, 0.0, 4.0}, 0.5), ElementsAre(false, true, false, false));

@@ -1,12 +1,16 @@
-// A hundred slopes as one meets them, at random, with the default gap and budget; prints the table
-// of what each comes to. What is asserted is that no bracket is upside down: soil with next to no
-// cohesion is not always certified within the budget, and the table says how often.
+// A hundred slopes as one meets them, at random, with the default gap; prints what each comes to,
+// and, after more than one, how many came how far. What theory says of any of them is asserted:
+// both bounds are certified, the right way up, and the soil's strength divided by one of them
+// carries the loads, divided by the other one fails. How close they are within the budget is a
+// matter of the machine, and printed. One slope: --gtest_filter='*ASlopeAtRandom/49'. Another
+// budget of processor seconds than the default of 120: FPM_SLOPE_SECONDS=40.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <iterator>
 #include <numbers>
@@ -85,41 +89,65 @@ Slope random_slope(std::mt19937& random) {
   return slope;
 }
 
-TEST(Slopes, AHundredSlopesAtRandom) {
-  std::mt19937 random(20);
+// All of them, of a seed.
+std::vector<Slope> random_slopes() {
   constexpr int many = 100;
-  int solved = 0, certified = 0;
-  double widest = 0.0, longest = 0.0, sum = 0.0;
-  std::printf("  beta   phi          c   gamma layers |    lower    upper     gap    time\n");
-  for (int i = 0; i < many; ++i) {
-    const Slope slope = random_slope(random);
-    tables::Diagnosis diagnosis("slope.toml");
-    std::optional<tables::Complaint> unreadable;
-    const auto scene = ground::read_ground_scene(scene_of(slope), {}, diagnosis, unreadable);
-    ASSERT_TRUE(scene) << scene_of(slope);
-    const auto cases = ground::ground_case(*scene, diagnosis);
-    ASSERT_TRUE(cases) << diagnosis.errors().front().text() << scene_of(slope);
-    const std::clock_t began = std::clock();
-    const bracket::Solution found = bracket::solution_of(cases->associated, {}, {});
-    const double seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
-    const Soil& soil = slope.layers.front();
-    std::printf("%6.1f %5.1f %10.1f %7.0f %6zu | %8.4f %8.4f %5.2f %% %5.1f s%s\n",
-                slope.inclination, soil.friction, soil.cohesion, soil.weight, slope.layers.size(),
-                found.lower.value_or(NAN), found.upper.value_or(NAN), 100.0 * found.gap(), seconds,
-                found.bracket.reached ? "" : "  not reached");
-    std::fflush(stdout);
-    if (found.lower && found.upper) {
-      ++certified;
-      EXPECT_LT(*found.lower, *found.upper);
-      widest = std::max(widest, found.gap());
-    }
-    solved += found.bracket.reached ? 1 : 0;
-    longest = std::max(longest, seconds);
-    sum += seconds;
-  }
-  std::printf(
-      "%d of %d certified, %d as close as 2 %%; widest %.2f %%; %.1f s each, at most %.1f s\n",
-      certified, many, solved, 100.0 * widest, sum / many, longest);
+  std::mt19937 random(20);
+  std::vector<Slope> slopes;
+  for (int i = 0; i < many; ++i) slopes.push_back(random_slope(random));
+  return slopes;
 }
+
+bracket::BracketOptions budget() {
+  bracket::BracketOptions options;
+  if (const char* seconds = std::getenv("FPM_SLOPE_SECONDS")) {
+    options.max_seconds = std::strtod(seconds, nullptr);
+  }
+  return options;
+}
+
+class Slopes : public ::testing::TestWithParam<int> {
+ protected:
+  static void TearDownTestSuite() {
+    if (many < 2) return;
+    std::printf(
+        "%d of %d certified, %d as close as 2 %%, %d as 5 %%; widest %.2f %%; %.1f s each, at most "
+        "%.1f s\n",
+        certified, many, solved, close, 100.0 * widest, sum / many, longest);
+  }
+
+  static inline int many = 0, solved = 0, close = 0, certified = 0;
+  static inline double widest = 0.0, longest = 0.0, sum = 0.0;
+};
+
+TEST_P(Slopes, ASlopeAtRandom) {
+  const Slope slope = random_slopes()[static_cast<std::size_t>(GetParam())];
+  const auto cases = case_of(scene_of(slope));
+  ASSERT_TRUE(cases) << scene_of(slope);
+  const std::clock_t began = std::clock();
+  const bracket::Solution found = bracket::solution_of(cases->associated, budget(), {});
+  const double seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+  const Soil& soil = slope.layers.front();
+  std::printf("%2d: beta %4.1f, phi %4.1f, c %7.1f, %zu layers | %8.5f %8.5f %5.2f %% %5.1f s%s\n",
+              GetParam(), slope.inclination, soil.friction, soil.cohesion, slope.layers.size(),
+              found.lower.value_or(NAN), found.upper.value_or(NAN), 100.0 * found.gap(), seconds,
+              found.bracket.reached ? "" : "  not reached");
+  std::fflush(stdout);
+  ++many;
+  solved += found.bracket.reached ? 1 : 0;
+  longest = std::max(longest, seconds);
+  sum += seconds;
+  ASSERT_TRUE(found.lower && found.upper);
+  ++certified;
+  close += found.gap() <= 0.05 ? 1 : 0;
+  widest = std::max(widest, found.gap());
+  EXPECT_LT(*found.lower, *found.upper);
+  const double one = 1.0 / cases->associated.units.multiplier();
+  EXPECT_GE(found.bracket.lower_bound(), one);
+  ASSERT_TRUE(found.block || found.bracket.upper);
+  EXPECT_LE(found.block ? found.block->certificate.multiplier : found.bracket.upper_bound(), one);
+}
+
+INSTANTIATE_TEST_SUITE_P(AHundred, Slopes, ::testing::Range(0, 100));
 
 }  // namespace
