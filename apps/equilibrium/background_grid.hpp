@@ -10,17 +10,19 @@
 namespace equilibrium {
 
 /// The elastic body on a background grid of bilinear (trilinear) elements integrated at the
-/// particles, factorised: the coarse level of the preconditioner.
+/// particles, factorised: the coarse level of the preconditioner. The grid of graded particles is
+/// graded as they are.
 template <int Dim>
 class BackgroundGrid {
  public:
   /// No grid: `add_solution` must not be called.
   BackgroundGrid() = default;
-  /// @param grid_spacing  [m], rounded so that whole elements fill the box
+  /// @param grid_over_spacing  width of an element over the spacing of the particles in it, rounded
+  ///   so that whole elements fill the box, or down to a power of two, but 2, where they are graded
   /// @throws std::runtime_error if the factorisation fails (a body without support)
-  BackgroundGrid(const model::Model<Dim>& model, double grid_spacing);
+  BackgroundGrid(const model::Model<Dim>& model, double grid_over_spacing);
 
-  bool empty() const { return nodes_ == 0; }
+  bool empty() const { return free_nodes_ == 0; }
 
   /// z += P A_c^-1 P^T r, with r taken as 0 at prescribed unknowns; in single precision.
   void add_solution(const Eigen::VectorXd& r, Eigen::VectorXd& z);
@@ -28,21 +30,25 @@ class BackgroundGrid {
   std::size_t bytes() const;
 
  private:
-  bool is_on(const fpm::GhostPlane<Dim>& plane, fpm::Index node) const;
+  // A hanging node moves by shares of others' displacements.
+  struct Dependence {
+    fpm::Index node, parent;
+    double share;
+  };
   using FloatMatrix = Eigen::SparseMatrix<float>;
-  std::vector<Eigen::Triplet<double>> grid_stiffness(const model::Model<Dim>& model);
-  Eigen::VectorXd node_moduli(const model::Model<Dim>& model) const;
-  void add_grid_supports(const model::Model<Dim>& model,
+  template <class Mesh>
+  void build(const model::Model<Dim>& model, const Mesh& mesh);
+  template <class Mesh>
+  std::vector<Eigen::Triplet<double>> grid_stiffness(const model::Model<Dim>& model,
+                                                     const Mesh& mesh);
+  Eigen::VectorXd node_moduli(const model::Model<Dim>& model, fpm::Index nodes) const;
+  template <class Mesh>
+  void add_grid_supports(const model::Model<Dim>& model, const Mesh& mesh,
                          std::vector<Eigen::Triplet<double>>& entries) const;
-  void interpolation_of(const Eigen::Matrix<double, 1, Dim>& position,
-                        Eigen::Matrix<fpm::Index, 1 << Dim, 1>& nodes,
-                        Eigen::Matrix<double, 1 << Dim, 1>& values,
-                        Eigen::Matrix<double, Dim, 1 << Dim>& gradients) const;
 
   std::vector<char> prescribed_;
-  fpm::Vector<Dim> origin_, cell_;
-  Eigen::Matrix<fpm::Index, Dim, 1> cells_;
-  fpm::Index nodes_ = 0;
+  fpm::Index free_nodes_ = 0;
+  std::vector<Dependence> dependences_;
   Eigen::Matrix<fpm::Index, 1 << Dim, Eigen::Dynamic> corner_;  // of each particle's cell
   Eigen::Matrix<float, 1 << Dim, Eigen::Dynamic> weight_;       // interpolation
   FloatMatrix factor_;                                          // lower, single precision

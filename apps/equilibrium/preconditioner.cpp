@@ -15,7 +15,7 @@ TwoLevelPreconditioner<Dim>::TwoLevelPreconditioner(const model::Model<Dim>& mod
   build_blocks(model, op);
   if (!model.interfaces.empty()) springs_ = InterfaceSprings<Dim>(model, block_inverse_);
   if (coarse_over_spacing > 0.0) {
-    grid_ = BackgroundGrid<Dim>(model, coarse_over_spacing * model.spacing);
+    grid_ = BackgroundGrid<Dim>(model, coarse_over_spacing);
   }
 }
 

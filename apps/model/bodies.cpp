@@ -12,8 +12,8 @@ void part_into_bodies(const scene::Scene& scene, Model<Dim>& model) {
   const std::vector<fpm::Index> label(model.material.begin(), model.material.end());
   // Fewer particles across a body leave its rows singular, with second gradients or at a corner.
   constexpr fpm::Index thickness = 3;
-  auto body = fpm::lattice_bodies<Dim>(
-      model.lattice, label,
+  auto body = fpm::bodies_of<Dim>(
+      model.cells, label,
       [&](fpm::Index low, fpm::Index high) {
         return scene::interface_between(scene, static_cast<std::size_t>(low),
                                         static_cast<std::size_t>(high))
@@ -24,18 +24,19 @@ void part_into_bodies(const scene::Scene& scene, Model<Dim>& model) {
 }
 
 template <int Dim>
-std::vector<fpm::Index> bodies_at(const Model<Dim>& model, const fpm::BoundaryPoints<Dim>& points) {
-  std::vector<fpm::Index> bodies;
-  for (Eigen::Index c = 0; c < points.weight.size() && !model.particles.body.empty(); ++c) {
-    const fpm::Index cell = fpm::cell_at<Dim>(model.lattice, points.position.row(c).transpose());
-    bodies.push_back(model.particles.body[static_cast<std::size_t>(cell)]);
+std::vector<fpm::Index> particles_at(const Model<Dim>& model,
+                                     const fpm::BoundaryPoints<Dim>& points) {
+  std::vector<fpm::Index> particles;
+  if (model.particles.body.empty() && !model.cells.graded()) return particles;
+  for (Eigen::Index c = 0; c < points.weight.size(); ++c) {
+    particles.push_back(model.cells.containing(points.position.row(c).transpose()));
   }
-  return bodies;
+  return particles;
 }
 
 template void part_into_bodies<2>(const scene::Scene&, Model<2>&);
 template void part_into_bodies<3>(const scene::Scene&, Model<3>&);
-template std::vector<fpm::Index> bodies_at<2>(const Model<2>&, const fpm::BoundaryPoints<2>&);
-template std::vector<fpm::Index> bodies_at<3>(const Model<3>&, const fpm::BoundaryPoints<3>&);
+template std::vector<fpm::Index> particles_at<2>(const Model<2>&, const fpm::BoundaryPoints<2>&);
+template std::vector<fpm::Index> particles_at<3>(const Model<3>&, const fpm::BoundaryPoints<3>&);
 
 }  // namespace model

@@ -15,8 +15,10 @@ namespace model {
 template <int Dim>
 void part_into_bodies(const scene::Scene& scene, Model<Dim>& model);
 
-/// Bodies of points on the faces of the box: those of the cells they lie on; empty for one body.
+/// Particles whose cells points on the faces of the box lie on; empty where it does not matter, as
+/// all are of one body and of one spacing.
 template <int Dim>
-std::vector<fpm::Index> bodies_at(const Model<Dim>& model, const fpm::BoundaryPoints<Dim>& points);
+std::vector<fpm::Index> particles_at(const Model<Dim>& model,
+                                     const fpm::BoundaryPoints<Dim>& points);
 
 }  // namespace model

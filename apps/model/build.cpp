@@ -10,6 +10,7 @@
 #include "model/planes.hpp"
 #include "model/selection.hpp"
 #include "scene/derived.hpp"
+#include "scene/grading.hpp"
 #include "scene/scene.hpp"
 
 namespace model {
@@ -35,23 +36,17 @@ fpm::Kernel to_kernel(scene::KernelKind kind) {
 template <int Dim>
 void place_particles(const scene::Scene& scene, Model<Dim>& model) {
   const scene::Geometry& geometry = scene.geometry;
-  fpm::LatticeOptions<Dim>& lattice = model.lattice;
-  lattice.min = model.box_min = to_vector<Dim>(geometry.min);
-  lattice.max = model.box_max = to_vector<Dim>(geometry.max);
-  lattice.spacing = model.spacing = geometry.spacing;
-  lattice.layout = geometry.layout == scene::Layout::cell ? fpm::LatticeLayout::cell
-                                                          : fpm::LatticeLayout::vertex;
-  lattice.jitter = geometry.jitter;
-  lattice.seed = static_cast<std::uint64_t>(geometry.seed);
-  model.particles = fpm::make_lattice(lattice);
+  model.box_min = to_vector<Dim>(geometry.min);
+  model.box_max = to_vector<Dim>(geometry.max);
+  model.spacing = geometry.spacing;
+  model.cells = cells_of<Dim>(scene);
+  model.particles = fpm::make_particles(model.cells);
 
-  const double radius = scene.approximation.support_over_spacing * geometry.spacing;
   model.row_options.kernel = to_kernel(scene.approximation.kernel);
-  model.row_options.support_radius = radius;
+  model.row_options.support_radius = scene.approximation.support_over_spacing * geometry.spacing;
   model.row_options.spacing = geometry.spacing;
   // Rows may widen their support, and re-searched rows reach for particles that have moved.
-  const double reach = model.row_options.max_enlargement * radius;
-  model.ghosts = fpm::Ghosts<Dim>(model.particles.position, ghost_planes<Dim>(scene), reach);
+  model.ghosts = fpm::make_ghosts(model.particles, ghost_planes<Dim>(scene), model.row_options);
 }
 
 template <int Dim>
@@ -64,11 +59,8 @@ void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
     model.youngs_modulus.push_back(material.youngs_modulus);
   }
   // By where its cell is: jitter moves no particle into another material.
-  fpm::LatticeOptions<Dim> regular = model.lattice;
-  regular.jitter = 0.0;
-  const fpm::Field<Dim> places = fpm::make_lattice(regular).position;
   for (Eigen::Index a = 0; a < n; ++a) {
-    const fpm::Vector<Dim> place = places.row(a).transpose();
+    const fpm::Vector<Dim> place = model.cells.site(static_cast<fpm::Index>(a));
     model.material[static_cast<std::size_t>(a)] =
         static_cast<MaterialIndex>(scene::material_at(scene, {place.data(), Dim}));
     model.mass[a] = scene.material[model.material[static_cast<std::size_t>(a)]].density *
@@ -154,6 +146,29 @@ void constrain(const scene::Scene& scene, Model<Dim>& model) {
 }  // namespace
 
 template <int Dim>
+fpm::Cells<Dim> cells_of(const scene::Scene& scene) {
+  const scene::Geometry& geometry = scene.geometry;
+  fpm::LatticeOptions<Dim> lattice;
+  lattice.min = to_vector<Dim>(geometry.min);
+  lattice.max = to_vector<Dim>(geometry.max);
+  lattice.spacing = geometry.spacing;
+  lattice.layout = geometry.layout == scene::Layout::cell ? fpm::LatticeLayout::cell
+                                                          : fpm::LatticeLayout::vertex;
+  lattice.jitter = geometry.jitter;
+  lattice.seed = static_cast<std::uint64_t>(geometry.seed);
+  if (!scene.grading.enabled) return fpm::Cells<Dim>(lattice);
+  const auto places = scene::fine_places(scene);
+  return {lattice, [&](const fpm::Vector<Dim>& lower, const fpm::Vector<Dim>& upper) {
+            return scene::wanted_spacing(scene, places, {lower.data(), Dim}, {upper.data(), Dim});
+          }};
+}
+
+std::int64_t particle_count(const scene::Scene& scene) {
+  if (!scene.grading.enabled) return scene::particle_count(scene.geometry);
+  return scene.geometry.dimension == 2 ? cells_of<2>(scene).size() : cells_of<3>(scene).size();
+}
+
+template <int Dim>
 Model<Dim> build_model(const scene::Scene& scene) {
   Model<Dim> model;
   place_particles(scene, model);
@@ -191,6 +206,8 @@ State<Dim> initial_state(const Model<Dim>& model) {
   return state;
 }
 
+template fpm::Cells<2> cells_of<2>(const scene::Scene&);
+template fpm::Cells<3> cells_of<3>(const scene::Scene&);
 template Model<2> build_model<2>(const scene::Scene&);
 template Model<3> build_model<3>(const scene::Scene&);
 template State<2> initial_state<2>(const Model<2>&);

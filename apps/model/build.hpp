@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "model/model.hpp"
 
 namespace scene {
@@ -7,6 +9,13 @@ struct Scene;
 }
 
 namespace model {
+
+/// The cells of a checked scene's particles: those of a lattice, or of a tree.
+template <int Dim>
+fpm::Cells<Dim> cells_of(const scene::Scene& scene);
+
+/// Number of particles of a checked scene.
+std::int64_t particle_count(const scene::Scene& scene);
 
 /// Builds the model of a checked scene.
 /// @throws std::runtime_error if the particle set admits no valid neighbourhoods.

@@ -74,18 +74,6 @@ fpm::CommonFaces<Dim> part_of(const fpm::CommonFaces<Dim>& faces, Chosen&& chose
 }
 
 template <int Dim>
-fpm::PointOperator<Dim> operator_at(const Model<Dim>& model, const fpm::Field<Dim>& points,
-                                    const std::vector<fpm::Index>& particles) {
-  std::vector<fpm::Index> body;
-  for (const fpm::Index a : particles) {
-    if (!model.particles.body.empty()) {
-      body.push_back(model.particles.body[static_cast<std::size_t>(a)]);
-    }
-  }
-  return {model.particles, model.ghosts, points, model.row_options, body};
-}
-
-template <int Dim>
 const scene::Material& material_of(const scene::Scene& scene, const Model<Dim>& model,
                                    fpm::Index particle) {
   return scene.material[model.material[static_cast<std::size_t>(particle)]];
@@ -114,10 +102,12 @@ Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
   Interface<Dim> interface;
   interface.law = law;
   interface.faces.points = faces.points;
-  interface.faces.first = operator_at<Dim>(model, faces.points.position, faces.first);
-  if (!faces.second.empty()) {
-    interface.faces.second = operator_at<Dim>(model, faces.points.position, faces.second);
-  }
+  const auto operator_of = [&](const std::vector<fpm::Index>& particles) {
+    return fpm::PointOperator<Dim>(model.particles, model.ghosts, faces.points.position,
+                                   model.row_options, particles);
+  };
+  interface.faces.first = operator_of(faces.first);
+  if (!faces.second.empty()) interface.faces.second = operator_of(faces.second);
   const Eigen::Index count = faces.points.weight.size();
   interface.stiffness.resize(count);
   interface.initial_traction.resize(count, Dim);
@@ -128,8 +118,10 @@ Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
         faces.second.empty() ? one : material_of(scene, model, faces.second[k]);
     const double softer = std::min(one.youngs_modulus, other.youngs_modulus);
     const bool yields = scene::yields(one) || scene::yields(other);
-    interface.stiffness[c] =
-        scene::resolve_stiffness_factor(contact, yields) * softer / model.spacing;
+    const double spacing =
+        std::min(model.spacing_at(faces.first[k]),
+                 model.spacing_at(faces.second.empty() ? faces.first[k] : faces.second[k]));
+    interface.stiffness[c] = scene::resolve_stiffness_factor(contact, yields) * softer / spacing;
     interface.initial_traction.row(c) = initial_traction(scene, model, faces, k).transpose();
   }
   return interface;
@@ -138,7 +130,7 @@ Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
 template <int Dim>
 void add_between_materials(const scene::Scene& scene, Model<Dim>& model) {
   if (model.particles.body.empty()) return;
-  const auto faces = fpm::common_faces(model.lattice, model.particles.body);
+  const auto faces = fpm::common_faces(model.cells, model.particles.body);
   const auto pair_of = [&](Eigen::Index c) {
     const auto k = static_cast<std::size_t>(c);
     const fpm::Index one = model.material[static_cast<std::size_t>(faces.first[k])];
@@ -196,7 +188,7 @@ template <int Dim>
 void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
   for (const scene::Support& support : scene.support) {
     if (support.method != scene::SupportMethod::contact) continue;
-    const auto faces = fpm::outer_faces(model.lattice, face_of<Dim>(*support.side));
+    const auto faces = fpm::outer_faces(model.cells, face_of<Dim>(*support.side));
     model.interfaces.push_back(
         interface_at(scene, model, faces, support.contact, law_of(support.contact)));
     model.interfaces.back().support = support.name;
@@ -206,7 +198,7 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
   if ((!pushes && !scene::loads_plate(drive)) || drive.method != scene::DriveMethod::contact) {
     return;
   }
-  const auto faces = fpm::outer_faces(model.lattice, face_of<Dim>(drive.side));
+  const auto faces = fpm::outer_faces(model.cells, face_of<Dim>(drive.side));
   const auto under = part_of<Dim>(faces, [&](Eigen::Index c) {
     return in_side_range(scene, model, drive.side, drive.range_min, drive.range_max,
                          faces.first[static_cast<std::size_t>(c)]);

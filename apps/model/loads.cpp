@@ -147,7 +147,7 @@ fpm::Field<Dim> outer_area_vectors(const scene::Scene& scene, const Model<Dim>& 
     if (plane.has_range()) plates.push_back(plane);
   }
   if (is_plain_vertex_lattice(scene)) {
-    const auto& lattice = model.lattice;
+    const auto& lattice = model.cells.lattice();
     fpm::Field<Dim> area = fpm::tributary_area_vectors(lattice, faces);
     for (const auto& plate : plates) {
       const auto under =
@@ -159,22 +159,16 @@ fpm::Field<Dim> outer_area_vectors(const scene::Scene& scene, const Model<Dim>& 
     }
     return area;
   }
-  fpm::BoundaryQuadratureOptions<Dim> options;
-  options.min = model.box_min;
-  options.max = model.box_max;
-  options.spacing = scene.geometry.spacing;
-  auto points = fpm::boundary_quadrature(options, faces);
+  fpm::BoundaryPoints<Dim> points;
+  for (const fpm::Face& face : faces) points.append(fpm::boundary_quadrature(model.cells, face));
   for (const auto& plate : plates) {
-    fpm::BoundaryQuadratureOptions<Dim> part = options;
-    part.face = face_of(plate);
-    part.range_min = plate.range_min;
-    part.range_max = plate.range_max;
-    auto under = fpm::boundary_quadrature(part);
+    auto under =
+        fpm::boundary_quadrature(model.cells, face_of(plate), plate.range_min, plate.range_max);
     under.weight *= -1.0;
     points.append(under);
   }
   const fpm::PointOperator<Dim> op(model.particles, model.ghosts, points.position,
-                                   model.row_options, bodies_at(model, points));
+                                   model.row_options, particles_at(model, points));
   return fpm::area_vectors(op, points);
 }
 

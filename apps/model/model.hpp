@@ -10,6 +10,7 @@
 #include "constitutive/material.hpp"
 #include "fpm/bodies.hpp"
 #include "fpm/boundary_loads.hpp"
+#include "fpm/cells.hpp"
 #include "fpm/ghosts.hpp"
 #include "fpm/hourglass.hpp"
 #include "fpm/particles.hpp"
@@ -83,7 +84,7 @@ struct Interface {
 /// during a run. Vectors over unknowns are component-major (all x, then all y, ...), length n Dim.
 template <int Dim>
 struct Model {
-  fpm::LatticeOptions<Dim> lattice;
+  fpm::Cells<Dim> cells;  // one around each particle
   fpm::ParticleSet<Dim> particles;
   fpm::Ghosts<Dim> ghosts;
   fpm::RowOptions row_options;
@@ -113,7 +114,7 @@ struct Model {
   Eigen::VectorXd initial_load;
   fpm::Vector<Dim> box_min;  // [m]
   fpm::Vector<Dim> box_max;  // [m]
-  double spacing = 0.0;      // [m]
+  double spacing = 0.0;      // [m] the finest
   // Of each plane of the ghosts; empty if none moves.
   std::vector<fpm::Vector<Dim>> plane_drive;    // [m] displacement at load parameter 1
   std::vector<fpm::Vector<Dim>> plane_measure;  // weight of its reaction in the reported load
@@ -127,6 +128,11 @@ struct Model {
   /// A point next to the body [m], by whose distance its coordinates lose no digits: the origin of
   /// the scene unless that is further away than the body is wide.
   fpm::Vector<Dim> nearby_origin() const;
+
+  /// [m] Spacing of the particles around one.
+  double spacing_at(Eigen::Index particle) const {
+    return particles.spacing.size() > 0 ? particles.spacing[particle] : spacing;
+  }
 
   Eigen::Index size() const { return particles.position.rows(); }
   Eigen::Index unknowns() const { return size() * Dim; }

@@ -26,7 +26,7 @@ bool on_side(const scene::Scene& scene, const Model<Dim>& model, scene::Side sid
   const double reach = scene.geometry.layout == scene::Layout::cell ? 1.0 : 0.25;
   const int axis = scene::axis_of(side);
   return std::abs(model.particles.position(a, axis) - scene::side_position(scene.geometry, side)) <
-         reach * model.spacing;
+         reach * model.spacing_at(a);
 }
 
 template <int Dim>

@@ -35,22 +35,15 @@ SidePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, 
   const auto to = range_corner<Dim>(range_max, side, infinity);
   SidePoints<Dim> result;
   if (is_plain_vertex_lattice(scene)) {
-    auto tributary = fpm::tributary_points(model.lattice, face, from, to);
+    auto tributary = fpm::tributary_points(model.cells.lattice(), face, from, to);
     result.op = fpm::PointOperator<Dim>::at_particles(model.particles, model.ghosts,
                                                       tributary.particle, model.row_options);
     result.points = std::move(tributary.points);
     return result;
   }
-  fpm::BoundaryQuadratureOptions<Dim> options;
-  options.min = model.box_min;
-  options.max = model.box_max;
-  options.spacing = scene.geometry.spacing;
-  options.face = face;
-  options.range_min = from;
-  options.range_max = to;
-  result.points = fpm::boundary_quadrature(options);
+  result.points = fpm::boundary_quadrature(model.cells, face, from, to);
   result.op = fpm::PointOperator<Dim>(model.particles, model.ghosts, result.points.position,
-                                      model.row_options, bodies_at(model, result.points));
+                                      model.row_options, particles_at(model, result.points));
   return result;
 }
 

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/program_options.hpp>
 #include <charconv>
 #include <iterator>
 #include <new>
 
+#include "model/build.hpp"
 #include "program/command_line.hpp"
 #include "program/version.hpp"
 #include "scene/derived.hpp"
@@ -182,17 +184,37 @@ std::optional<double> parse_duration(std::string_view text) {
   return seconds > 0.0 ? std::optional<double>(seconds) : std::nullopt;
 }
 
+namespace {
+
+template <int Dim>
+std::string graded_text(const scene::Scene& scene) {
+  const fpm::Cells<Dim> cells = model::cells_of<Dim>(scene);
+  double widest = 0.0;
+  for (fpm::Index a = 0; a < cells.size(); ++a) widest = std::max(widest, cells.width(a));
+  return fmt::format("{} (graded, spacing {} to {} m)", cells.size(), scene.geometry.spacing,
+                     widest);
+}
+
+std::string particles_text(const scene::Scene& scene) {
+  if (scene.grading.enabled) {
+    return scene.geometry.dimension == 2 ? graded_text<2>(scene) : graded_text<3>(scene);
+  }
+  const auto counts = scene::lattice_counts(scene.geometry);
+  std::string lattice = fmt::format("{} x {}", counts[0], counts[1]);
+  if (scene.geometry.dimension == 3) lattice += fmt::format(" x {}", counts[2]);
+  return fmt::format("{} ({}, spacing {} m)", scene::particle_count(scene.geometry), lattice,
+                     scene.geometry.spacing);
+}
+
+}  // namespace
+
 std::string scene_summary(const scene::Scene& scene) {
   std::string out;
   const auto line = [&out](std::string_view name, const std::string& value) {
     fmt::format_to(std::back_inserter(out), "  {:<12} {}\n", name, value);
   };
   if (!scene.title.empty()) line("title", scene.title);
-  const auto counts = scene::lattice_counts(scene.geometry);
-  std::string lattice = fmt::format("{} x {}", counts[0], counts[1]);
-  if (scene.geometry.dimension == 3) lattice += fmt::format(" x {}", counts[2]);
-  line("particles", fmt::format("{} ({}, spacing {} m)", scene::particle_count(scene.geometry),
-                                lattice, scene.geometry.spacing));
+  line("particles", particles_text(scene));
   for (const scene::Material& material : scene.material) {
     line("material", fmt::format("{}: {}", material.name, material.model));
   }

@@ -278,7 +278,7 @@ program::ExitCode run_programme(const RunRequest& request, std::ostream& out, st
                                 const files::SystemCalls& system) {
   RunRequest begun = request;
   begun.scene = scene_in_force(request);
-  omp_set_num_threads(thread_count(begun.threads, scene::particle_count(begun.scene->geometry)));
+  omp_set_num_threads(thread_count(begun.threads, model::particle_count(*begun.scene)));
   if (begun.scene->geometry.dimension == 2) return Run<2>(begun, out, err, system)();
   return Run<3>(begun, out, err, system)();
 }

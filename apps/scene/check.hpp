@@ -13,6 +13,7 @@ void check_scene(const Scene& scene, tables::Diagnosis& diagnosis);
 
 // The parts of check_scene.
 void check_geometry(const Scene& scene, tables::Diagnosis& diagnosis);
+void check_grading(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_materials(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_interfaces(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis);
@@ -32,6 +33,10 @@ bool check_length(const Point& point, std::size_t wanted, const std::string& key
 /// otherwise. Both absent passes.
 bool check_region(const Point& region_min, const Point& region_max, const std::string& table,
                   const Scene& scene, tables::Diagnosis& diagnosis);
+
+/// Whether a place is whole and in the body; reports otherwise. An empty (absent) one passes.
+bool check_at(const Point& at, const std::string& key, const Scene& scene,
+              tables::Diagnosis& diagnosis);
 
 /// Whether a part of a side, `table`.range_min/range_max, is whole, not empty and within the side;
 /// reports otherwise. Both absent (the whole side) passes.

@@ -92,7 +92,7 @@ void check_spacing(const Scene& scene, tables::Diagnosis& diagnosis) {
     }
     particles *= extent / geometry.spacing + 1.0;
   }
-  if (particles > most_particles) {
+  if (particles > most_particles && !scene.grading.enabled) {
     diagnosis.error(
         "geometry.spacing",
         fmt::format("found {}, which makes {:.3g} particles", geometry.spacing, particles),
@@ -222,6 +222,22 @@ bool check_region(const Point& region_min, const Point& region_max, const std::s
           fmt::format("the body is from {} to {}", scene.geometry.min[i], scene.geometry.max[i]));
       return false;
     }
+  }
+  return true;
+}
+
+bool check_at(const Point& at, const std::string& key, const Scene& scene,
+              tables::Diagnosis& diagnosis) {
+  const auto n = static_cast<std::size_t>(scene.geometry.dimension);
+  if (at.empty()) return true;
+  if (!check_length(at, n, key, scene, diagnosis) || !box_is_good(scene, diagnosis)) return false;
+  const double slack = same_place(scene.geometry);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (at[i] >= scene.geometry.min[i] - slack && at[i] <= scene.geometry.max[i] + slack) continue;
+    diagnosis.error(
+        key, fmt::format("found {} along {}", at[i], name_of(static_cast<Axis>(i))),
+        fmt::format("the body is from {} to {}", scene.geometry.min[i], scene.geometry.max[i]));
+    return false;
   }
   return true;
 }

@@ -61,22 +61,7 @@ void check_support_choice(const Scene& scene, const Support& support, const std:
   }
   if (support.side) check_side(*support.side, table + ".side", scene, diagnosis);
   check_region(support.region_min, support.region_max, table, scene, diagnosis);
-  const auto n = static_cast<std::size_t>(scene.geometry.dimension);
-  const std::string at = table + ".at";
-  if (support.at.empty() || !check_length(support.at, n, at, scene, diagnosis) ||
-      !box_is_good(scene, diagnosis)) {
-    return;
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const double slack = same_place(scene.geometry);
-    if (support.at[i] >= scene.geometry.min[i] - slack &&
-        support.at[i] <= scene.geometry.max[i] + slack) {
-      continue;
-    }
-    diagnosis.error(
-        at, fmt::format("found {} along {}", support.at[i], name_of(static_cast<Axis>(i))),
-        fmt::format("the body is from {} to {}", scene.geometry.min[i], scene.geometry.max[i]));
-  }
+  check_at(support.at, table + ".at", scene, diagnosis);
 }
 
 /// What is held by images is a whole side, and across it.

@@ -396,6 +396,7 @@ void check_scene(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_drive(scene, diagnosis);
   check_places(scene, diagnosis);
   check_measures(scene, diagnosis);
+  check_grading(scene, diagnosis);
   check_run(scene, diagnosis);
 }
 

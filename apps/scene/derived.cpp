@@ -130,7 +130,7 @@ DriveMethod resolve_drive_method(const Scene& scene) {
 
 bool resolve_consistency(const Scene& scene) {
   if (scene.approximation.consistency == Switch::automatic) {
-    return scene.geometry.jitter > 0.0 || holds_by_images(scene);
+    return scene.geometry.jitter > 0.0 || scene.grading.enabled || holds_by_images(scene);
   }
   return scene.approximation.consistency == Switch::on;
 }

@@ -63,8 +63,9 @@ struct Support;
 /// Whether there is a plane of symmetry at a side.
 [[nodiscard]] bool is_mirror(const Scene& scene, Side side);
 
-/// Whether the consistency correction is on: `automatic` means on for jittered sets, where sides
-/// are held by images and, what the particles decide, where materials are bodies of their own.
+/// Whether the consistency correction is on: `automatic` means on for jittered and graded sets,
+/// where sides are held by images and, what the particles decide, where materials are bodies of
+/// their own.
 [[nodiscard]] bool resolve_consistency(const Scene& scene);
 
 /// The solver's settings with the preset's values filled in.

@@ -27,6 +27,29 @@ struct Geometry {
   bool operator==(const Geometry&) const = default;
 };
 
+/// How the spacing grows away from where particles are finest.
+struct Grading {
+  bool enabled = false;
+  double growth = 0.125;
+  double exponent = 0.5;
+  std::optional<double> length;    // [m] absent: resolve_grading_length
+  std::optional<double> coarsest;  // [m] absent: resolve_coarsest
+  bool operator==(const Grading&) const = default;
+};
+
+/// A place where particles are fine; exactly one of side, region and at.
+struct Refine {
+  std::optional<Side> side;
+  Point range_min;                // [m] dimension - 1 entries, or empty: the whole side
+  Point range_max;                // [m]
+  Point region_min;               // [m]
+  Point region_max;               // [m]
+  Point at;                       // [m]
+  std::optional<double> spacing;  // [m] absent: the finest
+  double radius = 0.0;            // [m] of what is as fine around it
+  bool operator==(const Refine&) const = default;
+};
+
 /// How the fields are approximated between the particles.
 struct Approximation {
   KernelKind kernel = KernelKind::cubic_spline;
@@ -218,6 +241,8 @@ struct Limit {
 struct Scene {
   std::string title;
   Geometry geometry;
+  Grading grading;
+  std::vector<Refine> refine;
   Approximation approximation;
   std::vector<Material> material;
   std::vector<Interface> interface;

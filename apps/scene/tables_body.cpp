@@ -83,7 +83,8 @@ SceneTable geometry() {
            {.need = tables::Need::required,
             .unit = "m",
             .range = tables::positive(),
-            .doc = "Distance between particles; divides every extent a whole number of times."})
+            .doc = "Distance between particles, where they are graded the finest; divides every "
+                   "extent a whole number of times."})
       .key(
           "layout", &Geometry::layout,
           {.doc = "cell: particles at cell centres, half a spacing inside the boundary, all of one "
@@ -95,6 +96,77 @@ SceneTable geometry() {
       .key("seed", &Geometry::seed,
            {.range = tables::at_least(0),
             .doc = "Seed of the jitter: the same seed gives the same set."})
+      .build();
+}
+
+SceneTable grading() {
+  return tables::TableBuilder<Scene, Grading>(
+             "grading", &Scene::grading,
+             "Particles that are fine where it matters and coarse elsewhere: those of a balanced "
+             "tree of cells 1, 2, 4, ... spacings wide.")
+      .key("enabled", &Grading::enabled,
+           {.doc = "true: finest at the ends of plates and loads and at the places of [[refine]]."})
+      .key("growth", &Grading::growth,
+           {.range = {0.0, 1.0, true, false},
+            .doc = "A: at a distance r from the nearest such place the spacing is at most "
+                   "A L (r / L)^exponent."})
+      .key("exponent", &Grading::exponent,
+           {.range = tables::between(0.0, 1.0),
+            .doc =
+                "1/2 to 2/3 are best for the singular stress at a plate's end; 1 grows linearly."})
+      .key("length", &Grading::length,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .range = tables::positive(),
+            .doc = "L of that rule.",
+            .absent = "drive.reference_length, or the shortest extent"})
+      .key("coarsest", &Grading::coarsest,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .range = tables::positive(),
+            .doc = "Largest spacing anywhere.",
+            .absent = "an eighth of the shortest extent"})
+      .build();
+}
+
+SceneTable refine() {
+  return tables::TableBuilder<Scene, Refine>("refine", &Scene::refine,
+                                             "A place where graded particles are fine.")
+      .key("side", &Refine::side,
+           {.need = tables::Need::optional, .doc = "A side of the box.", .absent = "no side"})
+      .key("range_min", &Refine::range_min,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "Lower end along the side; in 3D two entries.",
+            .absent = "the whole side"})
+      .key("range_max", &Refine::range_max,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "Upper end along the side.",
+            .absent = "the whole side"})
+      .key("region_min", &Refine::region_min,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "Lower corner of a box.",
+            .absent = "no region"})
+      .key("region_max", &Refine::region_max,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "Upper corner of the box.",
+            .absent = "no region"})
+      .key("at", &Refine::at,
+           {.need = tables::Need::optional, .unit = "m", .doc = "A point.", .absent = "no point"})
+      .key("spacing", &Refine::spacing,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .range = tables::positive(),
+            .doc = "Spacing there, rounded down to geometry.spacing times a power of two.",
+            .absent = "geometry.spacing"})
+      .key("radius", &Refine::radius,
+           {.unit = "m",
+            .range = tables::at_least(0.0),
+            .doc = "Distance from the place up to which particles are as fine; in finite strain at "
+                   "least as far as what is driven there will move."})
       .build();
 }
 
@@ -111,9 +183,10 @@ SceneTable approximation() {
            .doc = "Support radius R over spacing; for the cubic spline R is two smoothing lengths.",
            .source = "1.2 smoothing lengths per spacing, as in the paper"})
       .key("consistency", &Approximation::consistency,
-           {.doc = "Correction that makes nodal integration pass the patch test, of rows whose "
-                   "neighbourhoods are cut or irregular; auto: on for jittered sets, where sides "
-                   "are held by ghosts, and where materials are bodies of their own."})
+           {.doc =
+                "Correction that makes nodal integration pass the patch test, of rows whose "
+                "neighbourhoods are cut or irregular; auto: on for jittered and graded sets, where "
+                "sides are held by ghosts, and where materials are bodies of their own."})
       .key("kinematics", &Approximation::kinematics,
            {.doc = "finite_strain: updated Lagrangian, Hughes-Winget. small_strain: geometrically "
                    "linear, for comparison with limit loads and beam theory.",
@@ -217,7 +290,8 @@ SceneTable hourglass() {
 }  // namespace
 
 std::vector<SceneTable> body_tables() {
-  return {top_level(), geometry(), approximation(), material(), interface(), hourglass()};
+  return {top_level(),     geometry(), grading(),   refine(),
+          approximation(), material(), interface(), hourglass()};
 }
 
 }  // namespace scene

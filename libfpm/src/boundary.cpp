@@ -186,6 +186,44 @@ BoundaryPoints<Dim> boundary_quadrature(BoundaryQuadratureOptions<Dim> options,
 }
 
 template <int Dim>
+BoundaryPoints<Dim> boundary_quadrature(const Cells<Dim>& cells, const Face& face,
+                                        const Vector<Dim>& range_min,
+                                        const Vector<Dim>& range_max) {
+  BoundaryQuadratureOptions<Dim> options;
+  options.min = cells.lattice().min;
+  options.max = cells.lattice().max;
+  options.spacing = cells.lattice().spacing;
+  options.face = face;
+  options.range_min = range_min;
+  options.range_max = range_max;
+  if (!cells.graded()) return boundary_quadrature(options);
+  refuse(validate(options));
+  std::vector<BoundaryPoints<Dim>> pieces;
+  Eigen::Index count = 0;
+  for (Index a = 0; a < cells.size(); ++a) {
+    if (cells.beside(a, face.axis, face.upper) >= 0) continue;
+    options.min = cells.lower(a);
+    options.max = cells.upper(a);
+    options.spacing = cells.width(a);
+    if (!validate(options).empty()) continue;  // beside the range
+    pieces.push_back(boundary_quadrature(options));
+    count += pieces.back().size();
+  }
+  BoundaryPoints<Dim> points;
+  points.position.resize(count, Dim);
+  points.normal.resize(count, Dim);
+  points.weight.resize(count);
+  Eigen::Index at = 0;
+  for (const BoundaryPoints<Dim>& piece : pieces) {
+    points.position.middleRows(at, piece.size()) = piece.position;
+    points.normal.middleRows(at, piece.size()) = piece.normal;
+    points.weight.segment(at, piece.size()) = piece.weight;
+    at += piece.size();
+  }
+  return points;
+}
+
+template <int Dim>
 TributaryPoints<Dim> tributary_points(const LatticeOptions<Dim>& lattice, Face face,
                                       const Vector<Dim>& range_min, const Vector<Dim>& range_max) {
   check_axis(face.axis, Dim);
@@ -252,17 +290,19 @@ Field<Dim> area_vectors(const PointOperator<Dim>& points, const BoundaryPoints<D
   return area;
 }
 
-#define FPM_INSTANTIATE(Dim)                                                                    \
-  template std::vector<Face> all_faces<Dim>();                                                  \
-  template struct BoundaryPoints<Dim>;                                                          \
-  template std::vector<std::string> validate<Dim>(const BoundaryQuadratureOptions<Dim>&);       \
-  template BoundaryPoints<Dim> boundary_quadrature<Dim>(const BoundaryQuadratureOptions<Dim>&); \
-  template BoundaryPoints<Dim> boundary_quadrature<Dim>(BoundaryQuadratureOptions<Dim>,         \
-                                                        const std::vector<Face>&);              \
-  template TributaryPoints<Dim> tributary_points<Dim>(const LatticeOptions<Dim>&, Face,         \
-                                                      const Vector<Dim>&, const Vector<Dim>&);  \
-  template Field<Dim> tributary_area_vectors<Dim>(const LatticeOptions<Dim>&,                   \
-                                                  const std::vector<Face>&);                    \
+#define FPM_INSTANTIATE(Dim)                                                                     \
+  template std::vector<Face> all_faces<Dim>();                                                   \
+  template struct BoundaryPoints<Dim>;                                                           \
+  template std::vector<std::string> validate<Dim>(const BoundaryQuadratureOptions<Dim>&);        \
+  template BoundaryPoints<Dim> boundary_quadrature<Dim>(const BoundaryQuadratureOptions<Dim>&);  \
+  template BoundaryPoints<Dim> boundary_quadrature<Dim>(BoundaryQuadratureOptions<Dim>,          \
+                                                        const std::vector<Face>&);               \
+  template BoundaryPoints<Dim> boundary_quadrature<Dim>(const Cells<Dim>&, const Face&,          \
+                                                        const Vector<Dim>&, const Vector<Dim>&); \
+  template TributaryPoints<Dim> tributary_points<Dim>(const LatticeOptions<Dim>&, Face,          \
+                                                      const Vector<Dim>&, const Vector<Dim>&);   \
+  template Field<Dim> tributary_area_vectors<Dim>(const LatticeOptions<Dim>&,                    \
+                                                  const std::vector<Face>&);                     \
   template Field<Dim> area_vectors<Dim>(const PointOperator<Dim>&, const BoundaryPoints<Dim>&);
 FPM_INSTANTIATE(2)
 FPM_INSTANTIATE(3)

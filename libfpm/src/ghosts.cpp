@@ -18,10 +18,11 @@ GhostPlane<Dim> symmetry_plane(int axis, double position) {
 
 template <int Dim>
 Ghosts<Dim>::Ghosts(const Field<Dim>& position, const std::vector<GhostPlane<Dim>>& planes,
-                    double reach)
+                    const Eigen::VectorXd& reach)
     : planes_(planes) {
+  require_size("reaches", reach.size(), position.rows());
   constexpr double round_off = 1e-9;
-  slack_ = round_off * reach;
+  slack_ = reach.size() > 0 ? round_off * reach.minCoeff() : 0.0;
   // Where a ghost is, by reflection alone: reflected * position of its source + shift.
   std::vector<Vector<Dim>> reflected, shift;
   for (std::size_t p = 0; p < planes.size(); ++p) {
@@ -42,7 +43,8 @@ Ghosts<Dim>::Ghosts(const Field<Dim>& position, const std::vector<GhostPlane<Dim
                            const Vector<Dim>& moved, Index parent) {
       const Vector<Dim> x = flip.cwiseProduct(position.row(source).transpose()) + moved;
       const double distance = std::abs(x[axis] - plane.position);
-      if (distance >= reach || distance <= slack_ || !within(plane, x, Vector<Dim>::Zero())) {
+      if (distance >= reach[source] || distance <= slack_ ||
+          !within(plane, x, Vector<Dim>::Zero())) {
         return;
       }
       source_.push_back(source);

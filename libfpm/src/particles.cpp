@@ -3,21 +3,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "jitter.hpp"
+
 namespace fpm {
-namespace {
-
-// splitmix64 (Steele, Lea & Flood 2014): the standard distributions differ between libraries, and
-// a scene must give the same particles everywhere.
-double uniform_minus_one_to_one(std::uint64_t& state) {
-  state += 0x9e3779b97f4a7c15ULL;
-  std::uint64_t z = state;
-  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebULL;
-  z ^= z >> 31U;
-  return static_cast<double>(z >> 11U) * 0x1.0p-52 - 1.0;
-}
-
-}  // namespace
 
 template <int Dim>
 Eigen::Matrix<Index, Dim, 1> lattice_cells(const LatticeOptions<Dim>& options) {
@@ -38,9 +26,7 @@ Eigen::Matrix<Index, Dim, 1> lattice_cells(const LatticeOptions<Dim>& options) {
 
 template <int Dim>
 ParticleSet<Dim> make_lattice(const LatticeOptions<Dim>& options) {
-  if (!(options.jitter >= 0.0 && options.jitter <= 0.45)) {
-    throw std::invalid_argument("lattice jitter must be between 0 and 0.45");
-  }
+  detail::check_jitter(options.jitter);
   const auto cells = lattice_cells(options);
   const bool vertex = options.layout == LatticeLayout::vertex;
   const Eigen::Matrix<Index, Dim, 1> count =
@@ -58,7 +44,7 @@ ParticleSet<Dim> make_lattice(const LatticeOptions<Dim>& options) {
     for (int i = 0; i < Dim; ++i) {
       const bool on_face = vertex && (at[i] == 0 || at[i] == cells[i]);
       if (on_face) volume *= 0.5;
-      const double move = uniform_minus_one_to_one(state) * options.jitter;
+      const double move = detail::uniform_minus_one_to_one(state) * options.jitter;
       const double step = at[i] + (vertex ? 0.0 : 0.5) + (on_face ? 0.0 : move);
       set.position(a, i) = options.min[i] + step * options.spacing;
     }

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -17,6 +19,14 @@ void check(const RowOptions& options) {
   }
   if (!(options.max_enlargement >= 1.0)) {
     throw std::invalid_argument("the largest enlargement of a support must be at least 1");
+  }
+}
+
+void check(const std::vector<Index>& particle, Index count) {
+  for (const Index a : particle) {
+    if (a < 0 || a >= count) {
+      throw ShapeError("particle " + std::to_string(a) + " of " + std::to_string(count));
+    }
   }
 }
 
@@ -69,39 +79,79 @@ bool PointOperator<Dim>::append_point(const ParticleSet<Dim>& particles, const G
   return true;
 }
 
+namespace {
+
+// Particles and mirror images around points.
+template <int Dim>
+class Surroundings {
+ public:
+  Surroundings(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts)
+      : particles_(particles), ghosts_(ghosts), extended_(particles.size() + ghosts.size(), Dim) {
+    extended_.topRows(particles.size()) = particles.position;
+    ghosts.extend_positions(extended_.data(), particles.size(), extended_.rows());
+    search_.emplace(extended_);
+  }
+
+  const Field<Dim>& positions() const { return extended_; }
+
+  // Images of a support move as it does, not as particles alone: points are served without them.
+  void within(const Vector<Dim>& centre, double radius, std::vector<Index>& found) const {
+    search_->within(centre, radius, found);
+    std::erase_if(found, [&](Index b) {
+      return b >= particles_.size() && !ghosts_.by_symmetry(b - particles_.size());
+    });
+  }
+
+  // Those of a particle's body among them.
+  void within(const Vector<Dim>& centre, double radius, Index own,
+              std::vector<Index>& found) const {
+    within(centre, radius, found);
+    if (particles_.body.empty()) return;
+    std::erase_if(found, [&](Index b) { return body_of(b) != body_of(own); });
+  }
+
+  // The nearest particle, searched for in balls that grow from a radius.
+  Index nearest(const Vector<Dim>& centre, double radius) const {
+    const auto distance = [&](Index b) {
+      return (extended_.row(b).transpose() - centre).squaredNorm();
+    };
+    std::vector<Index> found;
+    constexpr int most_doublings = 60;
+    for (int k = 0; found.empty(); ++k) {
+      if (k > most_doublings) throw std::runtime_error("a point is near no particle");
+      within(centre, std::ldexp(radius, k), found);
+    }
+    return source(*std::ranges::min_element(found, {}, distance));
+  }
+
+ private:
+  Index source(Index b) const {
+    return b < particles_.size() ? b : ghosts_.source(b - particles_.size());
+  }
+  Index body_of(Index b) const { return particles_.body[static_cast<std::size_t>(source(b))]; }
+
+  const ParticleSet<Dim>& particles_;
+  const Ghosts<Dim>& ghosts_;
+  Field<Dim> extended_;
+  std::optional<NeighbourSearch<Dim>> search_;
+};
+
+}  // namespace
+
 template <int Dim>
 PointOperator<Dim>::PointOperator(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
                                   const Field<Dim>& points, const RowOptions& options,
-                                  const std::vector<Index>& body)
+                                  const std::vector<Index>& own)
     : particle_count_(particles.size()) {
   require_size("particle volumes", particles.volume.size(), particles.size());
   check(options);
-  if (!body.empty()) {
-    require_size("bodies of points", static_cast<Eigen::Index>(body.size()), points.rows());
+  if (!own.empty()) {
+    require_size("particles of points", static_cast<Eigen::Index>(own.size()), points.rows());
+    check(own, particles.size());
   }
-  Field<Dim> extended(particles.size() + ghosts.size(), Dim);
-  extended.topRows(particles.size()) = particles.position;
-  ghosts.extend_positions(extended.data(), particles.size(), extended.rows());
-  const NeighbourSearch<Dim> search(extended);
-  // Images of a support move as it does, not as particles alone: points are served without them.
-  const auto around = [&](Index c, const Vector<Dim>& centre, double radius,
-                          std::vector<Index>& found) {
-    search.within(centre, radius, found);
-    std::erase_if(found, [&](Index b) {
-      return b >= particles.size() && !ghosts.by_symmetry(b - particles.size());
-    });
-    if (particles.body.empty() || found.empty()) return;
-    const auto body_of = [&](Index b) {
-      const Index particle = b < particles.size() ? b : ghosts.source(b - particles.size());
-      return particles.body[static_cast<std::size_t>(particle)];
-    };
-    const auto distance = [&](Index b) {
-      return (extended.row(b).transpose() - centre).squaredNorm();
-    };
-    const Index own = body.empty() ? body_of(*std::ranges::min_element(found, {}, distance))
-                                   : body[static_cast<std::size_t>(c)];
-    std::erase_if(found, [&](Index b) { return body_of(b) != own; });
-  };
+  const bool all_alike = particles.body.empty() && particles.spacing.size() == 0;
+  const Surroundings<Dim> around(particles, ghosts);
+  const Field<Dim>& extended = around.positions();
 
   constexpr double growth = 1.05;
   // Boundary points at two to a spacing are a multiple of this from the particles of a lattice.
@@ -111,9 +161,13 @@ PointOperator<Dim>::PointOperator(const ParticleSet<Dim>& particles, const Ghost
   Eigen::Matrix<double, Dim, Eigen::Dynamic> offset;
   for (Eigen::Index c = 0; c < points.rows(); ++c) {
     const Vector<Dim> centre = points.row(c).transpose();
-    double radius = options.support_radius;
+    const Index particle = !own.empty() ? own[static_cast<std::size_t>(c)]
+                           : all_alike  ? 0
+                                        : around.nearest(centre, options.support_radius);
+    const double narrowest = support_radius_of(particles, particle, options);
+    double radius = narrowest;
     const auto search_within = [&] {
-      around(static_cast<Index>(c), centre, radius, found);
+      around.within(centre, radius, particle, found);
       offset.resize(Dim, static_cast<Eigen::Index>(found.size()));
       for (std::size_t k = 0; k < found.size(); ++k) {
         offset.col(static_cast<Eigen::Index>(k)) =
@@ -123,7 +177,7 @@ PointOperator<Dim>::PointOperator(const ParticleSet<Dim>& particles, const Ghost
     search_within();
     while (!append_point(particles, ghosts, found, offset, radius, options)) {
       radius *= growth;
-      if (radius > options.max_enlargement * options.support_radius) {
+      if (radius > options.max_enlargement * narrowest) {
         throw std::runtime_error("point " + std::to_string(c) + " has no well-conditioned " +
                                  "neighbourhood within " + std::to_string(options.max_enlargement) +
                                  " support radii");
@@ -141,18 +195,11 @@ PointOperator<Dim> PointOperator<Dim>::at_particles(const ParticleSet<Dim>& part
                                                     const std::vector<Index>& particle,
                                                     const RowOptions& options) {
   Field<Dim> points(static_cast<Eigen::Index>(particle.size()), Dim);
+  check(particle, particles.size());
   for (std::size_t c = 0; c < particle.size(); ++c) {
-    if (particle[c] < 0 || particle[c] >= particles.size()) {
-      throw ShapeError("particle " + std::to_string(particle[c]) + " of " +
-                       std::to_string(particles.size()));
-    }
     points.row(static_cast<Eigen::Index>(c)) = particles.position.row(particle[c]);
   }
-  std::vector<Index> body;
-  for (const Index a : particle) {
-    if (!particles.body.empty()) body.push_back(particles.body[static_cast<std::size_t>(a)]);
-  }
-  PointOperator result(particles, ghosts, points, options, body);
+  PointOperator result(particles, ghosts, points, options, particle);
   for (std::size_t c = 0; c < particle.size(); ++c) {
     bool own = true;  // its images, if any, follow it
     for (std::size_t k = result.offset_[c]; k < result.offset_[c + 1]; ++k) {

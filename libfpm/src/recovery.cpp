@@ -30,6 +30,16 @@ struct Member {
   Index body;
 };
 
+// [m] Radius of a particle's neighbourhood: the options' is that of the finest spacing.
+template <int Dim>
+Eigen::VectorXd radii(const ParticleSet<Dim>& particles, double radius) {
+  if (particles.spacing.size() == 0) {
+    return Eigen::VectorXd::Constant(particles.size(), radius);
+  }
+  require_size("spacings", particles.spacing.size(), particles.size());
+  return radius * (particles.spacing / particles.spacing.minCoeff());
+}
+
 /// Members sorted into the cells of a grid, for one pass over each neighbourhood of a radius known
 /// beforehand: there is no list to be made, as a search in a tree would.
 template <int Dim>
@@ -130,17 +140,16 @@ std::vector<Member<Dim>> members_of(const ParticleSet<Dim>& particles,
 // Measured from the particle's own place and value, so that a constant is kept to the last bit;
 // directions without extent are left out of the fit.
 template <int Dim>
-double fitted(const Grid<Dim>& grid, const Member<Dim>& own, const RecoveryOptions& options) {
+double fitted(const Grid<Dim>& grid, const Member<Dim>& own, Kernel kernel, double radius) {
   double total = 0.0, mean = 0.0;
   Vector<Dim> centre = Vector<Dim>::Zero(), moment = Vector<Dim>::Zero();
   Tensor<Dim> spread = Tensor<Dim>::Zero();
-  const double square = options.radius * options.radius;
-  grid.around(own.position, options.radius, [&](const Member<Dim>& other) {
+  const double square = radius * radius;
+  grid.around(own.position, radius, [&](const Member<Dim>& other) {
     const Vector<Dim> x = other.position - own.position;
     const double distance = x.squaredNorm();
     if (distance >= square || other.body != own.body) return;
-    const double weight =
-        other.volume * evaluate(options.kernel, std::sqrt(distance), options.radius).value;
+    const double weight = other.volume * evaluate(kernel, std::sqrt(distance), radius).value;
     const double difference = other.value - own.value;
     total += weight;
     mean += weight * difference;
@@ -177,12 +186,14 @@ Eigen::VectorXd recover(const ParticleSet<Dim>& particles,
     require_size("bodies", static_cast<Eigen::Index>(particles.body.size()), particles.size());
   }
   if (!(options.radius > 0.0)) throw std::invalid_argument("the radius must be positive");
-  const auto members = members_of(particles, field, planes, options.radius);
+  if (particles.size() == 0) return {};
+  const Eigen::VectorXd radius = radii(particles, options.radius);
+  const auto members = members_of(particles, field, planes, radius.maxCoeff());
   const Grid<Dim> grid(members, options.radius);
   Eigen::VectorXd recovered(particles.size());
 #pragma omp parallel for schedule(static)
   for (Index a = 0; a < particles.size(); ++a) {
-    recovered[a] = fitted(grid, members[static_cast<std::size_t>(a)], options);
+    recovered[a] = fitted(grid, members[static_cast<std::size_t>(a)], options.kernel, radius[a]);
   }
   return recovered;
 }

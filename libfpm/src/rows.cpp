@@ -32,6 +32,34 @@ Eigen::VectorXd with_ghosts(const Eigen::VectorXd& volume, const Ghosts<Dim>& gh
 }  // namespace
 
 template <int Dim>
+Ghosts<Dim> make_ghosts(const ParticleSet<Dim>& particles,
+                        const std::vector<GhostPlane<Dim>>& planes, const RowOptions& options) {
+  const double widest = options.max_enlargement * options.support_radius;
+  if (particles.spacing.size() == 0 || planes.empty()) {
+    return Ghosts<Dim>(particles.position, planes, widest);
+  }
+  require_size("spacings", particles.spacing.size(), particles.size());
+  // No row is nearer to an image than to its source: whoever may see the one sees the other.
+  Eigen::VectorXd reach(particles.size());
+  for (Index a = 0; a < particles.size(); ++a) {
+    reach[a] = options.max_enlargement * support_radius_of(particles, a, options);
+  }
+  const Eigen::VectorXd own = reach;
+  const NeighbourSearch<Dim> search(particles.position);
+  std::vector<Index> found;
+  for (Index a = 0; a < particles.size(); ++a) {
+    const Vector<Dim> place = particles.position.row(a).transpose();
+    const bool near = std::ranges::any_of(planes, [&](const GhostPlane<Dim>& plane) {
+      return std::abs(place[plane.axis] - plane.position) < own[a];
+    });
+    if (!near) continue;
+    search.within(place, own[a], found);
+    for (const Index b : found) reach[b] = std::max(reach[b], own[a]);
+  }
+  return Ghosts<Dim>(particles.position, planes, reach);
+}
+
+template <int Dim>
 void Rows<Dim>::set_initial(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts) {
   if (!particles.body.empty()) {
     require_size("bodies", static_cast<Eigen::Index>(particles.body.size()), particles.size());
@@ -53,7 +81,8 @@ Rows<Dim>::Rows(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
   }
   set_initial(particles, ghosts);
   const Index n = particles.size();
-  support_radius_.setConstant(n, options.support_radius);
+  if (particles.spacing.size() > 0) require_size("spacings", particles.spacing.size(), n);
+  support_radius_.resize(n);
   reference_volume_ = particles.volume;
   slot_.assign(static_cast<std::size_t>(n), -1);
 
@@ -63,9 +92,10 @@ Rows<Dim>::Rows(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
   RowWeights<Dim> scratch;
   for (Index a = 0; a < n; ++a) {
     constexpr double growth = 1.05;
-    double radius = options.support_radius;
+    const double narrowest = support_radius_of(particles, a, options);
+    double radius = narrowest;
     for (;; radius *= growth) {
-      if (radius > options.max_enlargement * options.support_radius) {
+      if (radius > options.max_enlargement * narrowest) {
         throw std::runtime_error("particle " + std::to_string(a) + " has no well-conditioned " +
                                  "neighbourhood within " + std::to_string(options.max_enlargement) +
                                  " support radii");
@@ -333,6 +363,10 @@ void Rows<Dim>::restore(const ParticleSet<Dim>& particles, const Ghosts<Dim>& gh
   index_corrected_rows();
 }
 
+template Ghosts<2> make_ghosts<2>(const ParticleSet<2>&, const std::vector<GhostPlane<2>>&,
+                                  const RowOptions&);
+template Ghosts<3> make_ghosts<3>(const ParticleSet<3>&, const std::vector<GhostPlane<3>>&,
+                                  const RowOptions&);
 template class Rows<2>;
 template class Rows<3>;
 

@@ -23,40 +23,40 @@ std::vector<Index> labels(const std::vector<std::string>& rows) {
 }
 
 TEST(Bodies, AreConnectedByFaces) {
-  const auto body = fpm::lattice_bodies<2>(lattice<2>({4, 4}),
-                                           labels({"aabb", "aabb", "bbaa", "bbaa"}), never, 2);
+  const auto body = fpm::bodies_of<2>(Cells<2>(lattice<2>({4, 4})),
+                                      labels({"aabb", "aabb", "bbaa", "bbaa"}), never, 2);
   EXPECT_EQ(body, labels({"aabb", "aabb", "ccdd", "ccdd"}));
 }
 
 TEST(Bodies, OfJoinedLabelsAreOne) {
   const auto joined = [](Index low, Index high) { return low == 0 && high == 2; };
   const auto body =
-      fpm::lattice_bodies<2>(lattice<2>({6, 2}), labels({"aabbcc", "aabbcc"}), joined, 2);
+      fpm::bodies_of<2>(Cells<2>(lattice<2>({6, 2})), labels({"aabbcc", "aabbcc"}), joined, 2);
   EXPECT_EQ(body, labels({"aabbcc", "aabbcc"}));
   const auto next =
-      fpm::lattice_bodies<2>(lattice<2>({6, 2}), labels({"bbaacc", "bbaacc"}), joined, 2);
+      fpm::bodies_of<2>(Cells<2>(lattice<2>({6, 2})), labels({"bbaacc", "bbaacc"}), joined, 2);
   EXPECT_EQ(next, labels({"aabbbb", "aabbbb"}));
 }
 
 TEST(Bodies, ThinOnesGoWithTheirNeighbours) {
   const std::vector<Index> seam = labels({"aaa", "aaa", "aaa", "bbb", "bbb", "aaa", "aaa", "aaa"});
-  EXPECT_EQ(fpm::lattice_bodies<2>(lattice<2>({3, 8}), seam, never, 3), std::vector<Index>(24, 0));
-  EXPECT_EQ(fpm::lattice_bodies<2>(lattice<2>({3, 8}), seam, never, 2),
+  EXPECT_EQ(fpm::bodies_of<2>(Cells<2>(lattice<2>({3, 8})), seam, never, 3),
+            std::vector<Index>(24, 0));
+  EXPECT_EQ(fpm::bodies_of<2>(Cells<2>(lattice<2>({3, 8})), seam, never, 2),
             labels({"aaa", "aaa", "aaa", "bbb", "bbb", "ccc", "ccc", "ccc"}));
 }
 
 template <int Dim>
-void expect_closed_surfaces(LatticeLayout layout) {
+void expect_closed_surfaces(const Cells<Dim>& cells) {
   // A block in the upper corner is of another body.
-  const auto box = lattice<Dim>(Counts<Dim>::Constant(6), 0.1, layout);
-  const ParticleSet<Dim> set = make_lattice(box);
+  const ParticleSet<Dim> set = fpm::make_particles(cells);
   std::vector<Index> label;
   for (Index a = 0; a < set.size(); ++a) {
     label.push_back((set.position.row(a).array() > 0.29).all() ? 1 : 0);
   }
-  const auto body = fpm::lattice_bodies<Dim>(box, label, never, 2);
+  const auto body = fpm::bodies_of<Dim>(cells, label, never, 2);
   EXPECT_EQ(body, label);
-  auto faces = fpm::common_faces(box, body);
+  auto faces = fpm::common_faces(cells, body);
   ASSERT_EQ(faces.first.size(), faces.second.size());
   for (std::size_t c = 0; c < faces.first.size(); ++c) {
     EXPECT_NE(body[static_cast<std::size_t>(faces.first[c])],
@@ -76,11 +76,11 @@ void expect_closed_surfaces(LatticeLayout layout) {
     add(faces.points, c, block_first ? 1.0 : -1.0);
   }
   for (const Face& face : fpm::all_faces<Dim>()) {
-    const auto outer = fpm::outer_faces(box, face);
+    const auto outer = fpm::outer_faces(cells, face);
     EXPECT_NEAR(outer.points.weight.sum(), std::pow(0.6, Dim - 1), 1e-14);
     for (Eigen::Index c = 0; c < outer.points.weight.size(); ++c) {
       const Index cell = outer.first[static_cast<std::size_t>(c)];
-      EXPECT_EQ(fpm::cell_at<Dim>(box, outer.points.position.row(c).transpose()), cell);
+      EXPECT_EQ(cells.containing(outer.points.position.row(c).transpose()), cell);
       if (body[static_cast<std::size_t>(cell)] == 1) add(outer.points, c, 1.0);
     }
   }
@@ -94,9 +94,20 @@ void expect_closed_surfaces(LatticeLayout layout) {
 
 TEST(CommonFaces, CloseTheSurfaceOfEachBody) {
   for (const auto layout : {LatticeLayout::cell, LatticeLayout::vertex}) {
-    expect_closed_surfaces<2>(layout);
-    expect_closed_surfaces<3>(layout);
+    expect_closed_surfaces(Cells<2>(lattice<2>({6, 6}, 0.1, layout)));
+    expect_closed_surfaces(Cells<3>(lattice<3>({6, 6, 6}, 0.1, layout)));
   }
+}
+
+TEST(CommonFaces, CloseTheSurfaceOfEachBodyWhereCellsDifferInWidth) {
+  // Fine beside a face of the block that the widest cells end at.
+  const auto graded = [](const auto& lower, const auto& /*upper*/) {
+    return lower[0] < 0.29 ? 0.05 : 0.1;
+  };
+  const Cells<2> cells(lattice<2>({12, 12}, 0.05), graded);
+  ASSERT_TRUE(cells.graded());
+  expect_closed_surfaces(cells);
+  expect_closed_surfaces(Cells<3>(lattice<3>({12, 12, 12}, 0.05), graded));
 }
 
 TEST(Bodies, RowsAndPointsSeeTheirOwnAlone) {
@@ -122,7 +133,7 @@ TEST(Bodies, RowsAndPointsSeeTheirOwnAlone) {
   field.bottomRows(40).setOnes();
   Field<2> points(2, 2);
   points << 0.5, 0.4, 0.5, 0.4;
-  const fpm::PointOperator<2> either(set, none, points, row_options<2>(), {0, 1});
+  const fpm::PointOperator<2> either(set, none, points, row_options<2>(), {0, 40});
   EXPECT_LE(either.value(0, field).norm(), round_off(30.0, 1.0));
   EXPECT_LE((either.value(1, field) - Vector<2>::Ones()).norm(), round_off(30.0, 1.0));
 }

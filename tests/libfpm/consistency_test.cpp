@@ -9,8 +9,8 @@ namespace {
 
 using namespace fpm_test;
 template <int Dim>
-void expect_force_patch_test(const LatticeOptions<Dim>& box, bool symmetric) {
-  const Corrected<Dim> body(box, symmetric);
+void expect_force_patch_test(const Cells<Dim>& cells, bool symmetric) {
+  const Corrected<Dim> body(cells, symmetric);
   const Tensor<Dim> stress = some_stress<Dim>(symmetric);
   const Field<Dim> external = body.external_force(stress);
   const MomentOperator<Dim> plain(body.model.rows, body.model.ghosts, {});
@@ -19,9 +19,14 @@ void expect_force_patch_test(const LatticeOptions<Dim>& box, bool symmetric) {
   const Field<Dim> defect = consistency_defect(body.model.rows, body.model.ghosts, body.area);
   EXPECT_GT(before, 1e-3 * external.norm());
   // The boundary is where its coordinates say but for the round-off of their differences.
-  const double misplaced = body.model.rows.coordinate_round_off() / (support * box.spacing);
+  const double misplaced = body.model.rows.coordinate_round_off() / (support * body.box.spacing);
   EXPECT_LE(after, 2.0 * (solver_tolerance * defect.norm() + misplaced * body.area.norm()) *
                        stress.norm());
+}
+
+template <int Dim>
+void expect_force_patch_test(const LatticeOptions<Dim>& box, bool symmetric) {
+  expect_force_patch_test(Cells<Dim>(box), symmetric);
 }
 
 TEST(Consistency, MakesTheForcePatchTestExact) {
@@ -33,6 +38,16 @@ TEST(Consistency, MakesTheForcePatchTestExact) {
         expect_force_patch_test<2>(lattice<2>({18, 10}, 0.1, layout, jitter), symmetric);
         expect_force_patch_test<3>(lattice<3>({6, 5, 5}, 0.1, layout, jitter), symmetric);
       }
+    }
+  }
+}
+
+TEST(Consistency, HoldsWhereCellsDifferInWidth) {
+  for (const bool symmetric : {false, true}) {
+    for (const double jitter : {0.0, 0.2, 0.4}) {
+      SCOPED_TRACE(testing::Message() << "symmetric " << symmetric << ", jitter " << jitter);
+      expect_force_patch_test(graded_cells<2>({32, 24}, 0.1, jitter), symmetric);
+      expect_force_patch_test(graded_cells<3>({12, 12, 8}, 0.1, jitter), symmetric);
     }
   }
 }

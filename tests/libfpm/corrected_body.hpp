@@ -10,7 +10,6 @@
 // Bodies with the consistency correction, and the loads of constant stresses on them.
 namespace fpm_test {
 
-using fpm::BoundaryQuadratureOptions;
 using fpm::Face;
 using fpm::MomentOperator;
 using fpm::PointOperator;
@@ -31,9 +30,11 @@ struct Corrected {
   MomentOperator<Dim> op;
 
   Corrected(const LatticeOptions<Dim>& lattice, bool symmetric)
-      : box(lattice),
+      : Corrected(Cells<Dim>(lattice), symmetric) {}
+  Corrected(const Cells<Dim>& cells, bool symmetric)
+      : box(cells.lattice()),
         model(
-            box, false,
+            make_particles(cells), row_options<Dim>(box.spacing),
             symmetric ? std::vector<SymmetryPlane>{{0, box.min[0]}} : std::vector<SymmetryPlane>{}),
         faces(fpm::all_faces<Dim>()) {
     if (symmetric) faces.erase(faces.begin());
@@ -48,11 +49,13 @@ struct Corrected {
       at_points = PointOperator<Dim>::at_particles(model.set, model.ghosts, particles,
                                                    row_options<Dim>(box.spacing));
     } else {
-      points = boundary_quadrature(
-          BoundaryQuadratureOptions<Dim>{.min = box.min, .max = box.max, .spacing = box.spacing},
-          faces);
+      for (const Face& face : faces) points.append(boundary_quadrature(cells, face));
+      std::vector<Index> own;
+      for (Index c = 0; c < points.size(); ++c) {
+        own.push_back(cells.containing(points.position.row(c).transpose()));
+      }
       at_points = PointOperator<Dim>(model.set, model.ghosts, points.position,
-                                     row_options<Dim>(box.spacing));
+                                     row_options<Dim>(box.spacing), own);
       area = area_vectors(at_points, points);
     }
     correction = consistency_correction(model.rows, model.ghosts, area);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <fpm/cells.hpp>
 #include <fpm/moment_operator.hpp>
 #include <limits>
 #include <random>
@@ -9,6 +10,7 @@
 // Particle sets and fields that the tests share.
 namespace fpm_test {
 
+using fpm::Cells;
 using fpm::Field;
 using fpm::GhostPlane;
 using fpm::Ghosts;
@@ -51,6 +53,16 @@ LatticeOptions<Dim> lattice(const Counts<Dim>& cells, double spacing = 0.1,
   return options;
 }
 
+/// A tree in a box of `cells` finest cells, whose cells grow with the distance from its lower
+/// corner up to four spacings.
+template <int Dim>
+Cells<Dim> graded_cells(const Counts<Dim>& cells, double spacing = 0.1, double jitter = 0.0) {
+  const auto box = lattice<Dim>(cells, spacing, LatticeLayout::cell, jitter);
+  return Cells<Dim>(box, [&](const Vector<Dim>& lower, const Vector<Dim>& /*upper*/) {
+    return std::min(4.0 * spacing, std::max(spacing, 0.4 * (lower - box.min).norm()));
+  });
+}
+
 template <int Dim>
 RowOptions row_options(double spacing = 0.1, bool second = false) {
   RowOptions options;
@@ -83,8 +95,7 @@ struct Model {
   Model(ParticleSet<Dim> particles, const RowOptions& options,
         const std::vector<SymmetryPlane>& planes = {})
       : set(std::move(particles)),
-        ghosts(set.position, planes_of_symmetry<Dim>(planes),
-               options.max_enlargement * options.support_radius),
+        ghosts(fpm::make_ghosts(set, planes_of_symmetry<Dim>(planes), options)),
         rows(set, ghosts, options) {}
   explicit Model(const LatticeOptions<Dim>& options, bool second = false,
                  const std::vector<SymmetryPlane>& planes = {})

@@ -14,16 +14,23 @@ struct Sample {
   std::string layout = "cell";
   double jitter = 0.0;
   std::string kinematics = "small_strain";
+  bool graded = false;  // to half the spacing at a corner, and four times that far from it
 };
 
 // A block on a rough base between rollers, confined, elastic.
 std::string block(const Sample& sample, const std::string& more) {
   const bool flat = sample.dimension == 2;
   std::string text = fmt::format(
-      "[geometry]\ndimension = {}\nmin = [0.0, 0.0{}]\nmax = [{}]\nspacing = 0.1\nlayout = "
+      "[geometry]\ndimension = {}\nmin = [0.0, 0.0{}]\nmax = [{}]\nspacing = {}\nlayout = "
       "\"{}\"\njitter = {:.1f}\n[approximation]\nkinematics = \"{}\"\nconsistency = \"on\"\n",
-      sample.dimension, flat ? "" : ", 0.0", flat ? "0.8, 1.0" : "0.6, 0.7, 0.6", sample.layout,
-      sample.jitter, sample.kinematics);
+      sample.dimension, flat ? "" : ", 0.0", flat ? "0.8, 1.0" : "0.6, 0.7, 0.6",
+      sample.graded ? 0.05 : 0.1, sample.layout, sample.jitter, sample.kinematics);
+  if (sample.graded) {
+    text += fmt::format(
+        "[grading]\nenabled = true\ngrowth = 0.5\nexponent = 1.0\ncoarsest = 0.2\n[[refine]]\n"
+        "at = [0.0, 0.0{}]\n",
+        flat ? "" : ", 0.0");
+  }
   text +=
       "[[material]]\nname = \"m\"\nmodel = \"elastic\"\nyoungs_modulus = 1e6\n"
       "poissons_ratio = 0.25\n";
@@ -107,13 +114,19 @@ std::vector<Sample> samples() {
     }
     all.push_back({3, layout, 0.2, "finite_strain"});
   }
+  for (const double jitter : {0.0, 0.4}) {
+    for (const std::string kinematics : {"small_strain", "finite_strain"}) {
+      all.push_back({2, "cell", jitter, kinematics, true});
+    }
+  }
+  all.push_back({3, "cell", 0.2, "finite_strain", true});
   return all;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HeldFace, testing::ValuesIn(samples()), [](const auto& info) {
   const Sample& s = info.param;
-  return fmt::format("in{}D{}{}{}", s.dimension, s.layout, std::lround(10 * s.jitter),
-                     s.kinematics.substr(0, 5));
+  return fmt::format("in{}D{}{}{}{}", s.dimension, s.layout, std::lround(10 * s.jitter),
+                     s.kinematics.substr(0, 5), s.graded ? "graded" : "");
 });
 
 const Settings by_ghosts{"support.0.method=ghosts", "support.1.method=ghosts",

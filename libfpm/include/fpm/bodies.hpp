@@ -4,14 +4,15 @@
 #include <vector>
 
 #include "fpm/boundary.hpp"
+#include "fpm/cells.hpp"
 #include "fpm/particles.hpp"
 #include "fpm/points.hpp"
 #include "fpm/types.hpp"
 
 namespace fpm {
 
-/// Bodies of a lattice: its cells with equal labels that share faces, and those whose labels are
-/// `joined`. The cell of a particle of a vertex lattice is what is nearer to it than to others.
+/// Bodies of a set: its cells with equal labels that share faces, and those whose labels are
+/// `joined`.
 /// @param label  of each particle
 /// @param joined  whether cells with two different labels, the smaller first, are of one body
 /// @param thickness  [cells] a body thinner than that, along any axis, joins its neighbours: rows
@@ -19,9 +20,8 @@ namespace fpm {
 /// @returns a body for each particle, numbered by first appearance; jitter does not matter.
 /// @throws ShapeError if there is not one label per particle.
 template <int Dim>
-std::vector<Index> lattice_bodies(const LatticeOptions<Dim>& lattice,
-                                  const std::vector<Index>& label,
-                                  const std::function<bool(Index, Index)>& joined, Index thickness);
+std::vector<Index> bodies_of(const Cells<Dim>& cells, const std::vector<Index>& label,
+                             const std::function<bool(Index, Index)>& joined, Index thickness);
 
 /// Points where two bodies meet, one per particle and face: more of them than particles would lock
 /// a body that flows.
@@ -32,19 +32,15 @@ struct CommonFaces {
   std::vector<Index> second;   ///< ... on the second
 };
 
-/// The faces that cells of different bodies share.
+/// The faces that cells of different bodies share; of two cells' the narrower's.
 /// @throws ShapeError if there is not one body per particle.
 template <int Dim>
-CommonFaces<Dim> common_faces(const LatticeOptions<Dim>& lattice, const std::vector<Index>& body);
+CommonFaces<Dim> common_faces(const Cells<Dim>& cells, const std::vector<Index>& body);
 
 /// One point on the outer face of each cell at a face of the box, in the order of the particles:
 /// `first` only.
 template <int Dim>
-CommonFaces<Dim> outer_faces(const LatticeOptions<Dim>& lattice, const Face& face);
-
-/// The particle in whose cell a point of the box is.
-template <int Dim>
-Index cell_at(const LatticeOptions<Dim>& lattice, const Vector<Dim>& point);
+CommonFaces<Dim> outer_faces(const Cells<Dim>& cells, const Face& face);
 
 /// Two bodies that meet at points, or one and a rigid one.
 template <int Dim>

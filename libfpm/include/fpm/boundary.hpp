@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "fpm/cells.hpp"
 #include "fpm/ghosts.hpp"
 #include "fpm/particles.hpp"
 #include "fpm/points.hpp"
@@ -67,6 +68,16 @@ BoundaryPoints<Dim> boundary_quadrature(const BoundaryQuadratureOptions<Dim>& op
 template <int Dim>
 BoundaryPoints<Dim> boundary_quadrature(BoundaryQuadratureOptions<Dim> options,
                                         const std::vector<Face>& faces);
+
+/// `boundary_quadrature` of a part of a face of the box that cells fill, by the spacing at each
+/// cell of the face.
+/// @param range_min, range_max  [m] as in the options
+/// @throws std::invalid_argument if there is no such face or the range misses it.
+template <int Dim>
+BoundaryPoints<Dim> boundary_quadrature(
+    const Cells<Dim>& cells, const Face& face,
+    const Vector<Dim>& range_min = Vector<Dim>::Constant(-std::numeric_limits<double>::infinity()),
+    const Vector<Dim>& range_max = Vector<Dim>::Constant(std::numeric_limits<double>::infinity()));
 
 /// Boundary particles as quadrature points.
 template <int Dim>

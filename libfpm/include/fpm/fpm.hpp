@@ -5,6 +5,7 @@
 #include "fpm/boundary.hpp"
 #include "fpm/boundary_loads.hpp"
 #include "fpm/carried_consistency.hpp"
+#include "fpm/cells.hpp"
 #include "fpm/consistency.hpp"
 #include "fpm/ghosts.hpp"
 #include "fpm/hourglass.hpp"

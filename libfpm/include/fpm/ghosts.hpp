@@ -61,7 +61,13 @@ class Ghosts {
   /// than the distance of two parallel planes. A particle on the plane itself (within 1e-9 reach)
   /// has no image.
   /// @throws std::invalid_argument if an axis does not exist.
-  Ghosts(const Field<Dim>& position, const std::vector<GhostPlane<Dim>>& planes, double reach);
+  Ghosts(const Field<Dim>& position, const std::vector<GhostPlane<Dim>>& planes, double reach)
+      : Ghosts(position, planes, Eigen::VectorXd::Constant(position.rows(), reach)) {}
+
+  /// The same with a reach [m] of each particle (`make_ghosts` of rows.hpp finds it).
+  /// @throws std::invalid_argument as above; ShapeError if sizes disagree.
+  Ghosts(const Field<Dim>& position, const std::vector<GhostPlane<Dim>>& planes,
+         const Eigen::VectorXd& reach);
 
   Index size() const { return static_cast<Index>(source_.size()); }
   const std::vector<GhostPlane<Dim>>& planes() const { return planes_; }

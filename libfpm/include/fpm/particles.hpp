@@ -14,6 +14,8 @@ struct ParticleSet {
   Eigen::VectorXd volume;  ///< [m^Dim] n; per unit thickness in 2D
   /// Body that each belongs to, or empty: one body. Neighbours are of one body (bodies.hpp).
   std::vector<Index> body = {};
+  /// [m] Spacing of the particles around each, or empty: the same for all (cells.hpp).
+  Eigen::VectorXd spacing = {};
 
   Index size() const { return static_cast<Index>(position.rows()); }
 };

@@ -35,14 +35,15 @@ class PointOperator {
   /// @param particles  where the operator's fields live, in its reference configuration
   /// @param ghosts  their images; made with a reach of the widest support
   /// @param points  [m] m x Dim
-  /// @param body  of each point, whose particles serve it; empty: that of the nearest particle
+  /// @param own  particle of each point: those of its body serve the point, and the support is as
+  ///   wide as its own; empty: the nearest
   /// @param options  kernel and support; a point with fewer than Dim + 2 neighbours or a poor
   ///   condition number gets a support wider by up to `max_enlargement`
   /// @throws std::runtime_error naming the point if no admissible support gives a valid operator;
   ///   std::invalid_argument if an option is out of range; ShapeError if sizes disagree.
   PointOperator(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
                 const Field<Dim>& points, const RowOptions& options,
-                const std::vector<Index>& body = {});
+                const std::vector<Index>& own = {});
 
   /// The operator at particles whose value is the particle's own (N_cb = 1 for b = particle[c],
   /// otherwise 0) and whose gradient is the corrected one: boundary terms lumped to particles.

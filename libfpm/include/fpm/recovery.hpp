@@ -13,7 +13,7 @@ namespace fpm {
 struct RecoveryOptions {
   Kernel kernel = Kernel::cubic_spline;
   /// [m] > 0. From 3.2 spacings on, the cubic spline leaves less than 1 % of what alternates from
-  /// one particle to the next.
+  /// one particle to the next. Where spacings differ (ParticleSet::spacing), of the finest.
   double radius = 0.0;
 };
 

@@ -15,11 +15,12 @@ namespace fpm {
 /// How neighbourhoods are chosen.
 struct RowOptions {
   Kernel kernel = Kernel::cubic_spline;
-  double support_radius = 0.0;  ///< [m] R > 0; 2.4 spacings is usual
-  double spacing = 0.0;         ///< [m] > 0; offsets within round-off of a multiple of half of it
-                                ///< are taken as that multiple, so that lattice rows share stencils
-  bool second = false;          ///< the rows must also carry second-gradient weights
-  double max_condition = 1e4;   ///< a row with a larger condition number of M or A is not accepted
+  double support_radius = 0.0;  ///< [m] R > 0; 2.4 spacings is usual. Where the spacing is a
+                                ///< multiple of the finest (ParticleSet::spacing), so is R
+  double spacing = 0.0;         ///< [m] > 0, the finest; offsets within round-off of a multiple of
+                         ///< half of it are taken as that, so that lattice rows share stencils
+  bool second = false;           ///< the rows must also carry second-gradient weights
+  double max_condition = 1e4;    ///< a row with a larger condition number of M or A is not accepted
   double max_enlargement = 2.0;  ///< the first search widens R up to this factor for a poor row
 
   /// Fewest neighbours (itself excluded) of an acceptable row.
@@ -29,6 +30,19 @@ struct RowOptions {
     return second && fit > Dim + 2 ? fit : Dim + 2;
   }
 };
+
+/// [m] R of a particle before any widening: as many of its own spacings as the options say.
+template <int Dim>
+double support_radius_of(const ParticleSet<Dim>& particles, Index particle,
+                         const RowOptions& options) {
+  if (particles.spacing.size() == 0) return options.support_radius;
+  return options.support_radius * (particles.spacing[particle] / options.spacing);
+}
+
+/// Images of the particles behind planes as far as the widest supports of rows may reach for them.
+template <int Dim>
+Ghosts<Dim> make_ghosts(const ParticleSet<Dim>& particles,
+                        const std::vector<GhostPlane<Dim>>& planes, const RowOptions& options);
 
 /// The reference configuration of every row: its neighbours and where they were, with what
 /// volumes, when the row was last searched. This is primary state: together with the initial
