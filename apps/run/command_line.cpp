@@ -196,6 +196,10 @@ std::string graded_text(const scene::Scene& scene) {
 }
 
 std::string particles_text(const scene::Scene& scene) {
+  if (!scene.cutout.empty()) {
+    return fmt::format("{} ({}with cutouts, spacing {} m)", model::particle_count(scene),
+                       scene.grading.enabled ? "graded, " : "", scene.geometry.spacing);
+  }
   if (scene.grading.enabled) {
     return scene.geometry.dimension == 2 ? graded_text<2>(scene) : graded_text<3>(scene);
   }

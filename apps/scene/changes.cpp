@@ -21,7 +21,7 @@ std::string text_at(const SceneTable& table, const tables::Field<Scene>& field, 
                     std::size_t index) {
   if (index >= table.size(scene)) return "absent";
   const auto value = field.read(scene, index);
-  return value ? tables::value_text(*value) : "absent";
+  return value ? tables::value_text(*value, field.kind) : "absent";
 }
 
 }  // namespace

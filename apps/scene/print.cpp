@@ -51,7 +51,7 @@ void print_entry(std::string& out, const SceneTable& table, std::size_t index, c
   for (const tables::Field<Scene>& field : table.fields) {
     const auto value = field.read(scene, index);
     const std::string assignment =
-        value ? fmt::format("{} = {}", field.key, tables::value_text(*value))
+        value ? fmt::format("{} = {}", field.key, tables::value_text(*value, field.kind))
               : fmt::format("# {} =", field.key);
     fmt::format_to(std::back_inserter(out), "{:<{}}  # {}{}\n", assignment, value_column,
                    resolution_of(table, field, index, scene), note_of(field));
@@ -73,7 +73,7 @@ std::string default_of(const SceneTable& table, const tables::Field<Scene>& fiel
   Scene scene;
   table.resize(scene, 1);
   const auto value = field.read(scene, 0);
-  return value ? fmt::format("`{}`", tables::value_text(*value)) : "absent";
+  return value ? fmt::format("`{}`", tables::value_text(*value, field.kind)) : "absent";
 }
 
 void print_reference(std::string& out, const SceneTable& table) {

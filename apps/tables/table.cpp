@@ -113,6 +113,17 @@ std::string value_text(const Value& value) {
   return std::visit(Show{}, value);
 }
 
+std::string value_text(const Value& value, ValueKind kind) {
+  const auto* coordinates = std::get_if<std::vector<double>>(&value);
+  if (kind != ValueKind::points || coordinates == nullptr) return value_text(value);
+  std::string out;
+  for (std::size_t i = 0; i + 1 < coordinates->size(); i += 2) {
+    out += fmt::format("{}[{}, {}]", i == 0 ? "" : ", ", number_text((*coordinates)[i]),
+                       number_text((*coordinates)[i + 1]));
+  }
+  return "[" + out + "]";
+}
+
 std::string joined(std::span<const std::string_view> items) {
   std::string out;
   for (std::size_t i = 0; i < items.size(); ++i) {

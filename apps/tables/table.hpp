@@ -111,6 +111,8 @@ template <class Table>
 [[nodiscard]] std::string number_text(double value);
 /// A value as TOML text.
 [[nodiscard]] std::string value_text(const Value& value);
+/// The same of a value of a kind: coordinates of points are put in pairs.
+[[nodiscard]] std::string value_text(const Value& value, ValueKind kind);
 /// `a, b, c`.
 [[nodiscard]] std::string joined(std::span<const std::string_view> items);
 
