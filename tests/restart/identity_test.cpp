@@ -75,6 +75,8 @@ const std::vector<Case> cases{
      {"material.0.model=mohr_coulomb", "hourglass.control=mixed"},
      20,
      true},
+    {"cutouts", &tunnel, {}, 8},
+    {"graded_cutouts", &tunnel, {"geometry.spacing=0.125", "grading.enabled=true"}, 8},
     {"block_3d", &block, {}, 6},
     {"mixed_block_3d",
      &block,

@@ -55,6 +55,48 @@ const std::string loaded_plate = [] {
   return text;
 }();
 
+const std::string tunnel = R"(
+title = "small tunnel in a slope"
+[geometry]
+dimension = 2
+min = [0.0, 0.0]
+max = [3.0, 2.0]
+spacing = 0.25
+[[cutout]]
+name = "tunnel"
+centre = [1.0, 0.8]
+radius = 0.4
+kind = "roller"
+[[cutout]]
+name = "air"
+outline = [[2.0, 2.5], [2.2, 1.0], [3.5, 0.6], [3.5, 2.5]]
+pressure = 500
+[[material]]
+name = "soil"
+model = "drucker_prager"
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+cohesion = 8e3
+friction_angle = 20.0
+dilation_angle = 5.0
+density = 1800.0
+[[support]]
+name = "base"
+side = "bottom"
+directions = ["x", "y"]
+[gravity]
+acceleration = [0.0, -9.81]
+[drive]
+kind = "load"
+scales = ["gravity", "traction"]
+[programme]
+steps = 8
+[output]
+frames_every = 0
+checkpoints_every = 1
+checkpoints_kept = 100
+)";
+
 const std::string block = R"(
 title = "small block"
 [geometry]

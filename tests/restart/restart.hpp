@@ -23,6 +23,8 @@ extern const std::string footing;
 extern const std::string layered;
 /// The footing whole, under a load that does not act at its middle.
 extern const std::string loaded_plate;
+/// A plane slope over a tunnel, cut out of a box, whose weight grows.
+extern const std::string tunnel;
 /// A 3D elastic block whose weight grows.
 extern const std::string block;
 
