@@ -282,10 +282,10 @@ void check_load(const Scene& scene, tables::Diagnosis& diagnosis) {
   const auto scaled = [&](LoadKind kind) {
     return std::find(scales.begin(), scales.end(), kind) != scales.end();
   };
-  const bool has_traction = !scene.traction.empty() ||
-                            std::ranges::any_of(scene.cutout, [](const Cutout& cutout) {
-                              return cutout.pressure != 0.0 || cutout.shear != 0.0;
-                            });
+  const bool has_traction =
+      !scene.traction.empty() || std::ranges::any_of(scene.cutout, [](const Cutout& cutout) {
+        return cutout.pressure != 0.0 || cutout.shear != 0.0;
+      });
   if (scaled(LoadKind::traction) && !has_traction && diagnosis.good({"traction"})) {
     diagnosis.error("drive.scales", "found traction, but the scene has none", "add a [[traction]]");
   }

@@ -80,8 +80,8 @@ class Cells {
     for (Index a = 0; a < size(); ++a) {
       for (int i = 0; i < Dim; ++i) {
         const Index below = beside(a, i, false), above = beside(a, i, true);
-        // Of several narrower cells each has this one beside it, and so has each that is beside what
-        // this one has taken over.
+        // Of several narrower cells each has this one beside it, and so has each that is beside
+        // what this one has taken over.
         if (below >= 0 && (width(below) > width(a) || beside(below, i, true) != a)) {
           visit(below, a, i);
         }
