@@ -64,8 +64,8 @@ struct Support;
 [[nodiscard]] bool is_mirror(const Scene& scene, Side side);
 
 /// Whether the consistency correction is on: `automatic` means on for jittered and graded sets,
-/// where sides are held by images and, what the particles decide, where materials are bodies of
-/// their own.
+/// for bodies with cutouts, where sides are held by images and, what the particles decide, where
+/// materials are bodies of their own.
 [[nodiscard]] bool resolve_consistency(const Scene& scene);
 
 /// The solver's settings with the preset's values filled in.

@@ -224,11 +224,12 @@ SceneTable approximation() {
           {.range = tables::between(1.5, 4.0),
            .doc = "Support radius R over spacing; for the cubic spline R is two smoothing lengths.",
            .source = "1.2 smoothing lengths per spacing, as in the paper"})
-      .key("consistency", &Approximation::consistency,
-           {.doc =
-                "Correction that makes nodal integration pass the patch test, of rows whose "
-                "neighbourhoods are cut or irregular; auto: on for jittered and graded sets, where "
-                "sides are held by ghosts, and where materials are bodies of their own."})
+      .key(
+          "consistency", &Approximation::consistency,
+          {.doc = "Correction that makes nodal integration pass the patch test, of rows whose "
+                  "neighbourhoods are cut or irregular; auto: on for jittered and graded sets, for "
+                  "bodies with cutouts, where sides are held by ghosts, and where materials are "
+                  "bodies of their own."})
       .key("kinematics", &Approximation::kinematics,
            {.doc = "finite_strain: updated Lagrangian, Hughes-Winget. small_strain: geometrically "
                    "linear, for comparison with limit loads and beam theory.",
