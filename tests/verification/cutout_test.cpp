@@ -100,5 +100,31 @@ TEST(CutCylinder, BoreMovesAsLameSays) {
   EXPECT_LT(std::abs(irregular), 0.01);
 }
 
+// Kirsch's plate under tension, a quarter, 16 radii wide (which raises the concentration by less
+// than 1 %): the stress of the particle at the crown of the hole, half a spacing within.
+double crown_stress_error(double spacing) {
+  verification::Run<2> run(
+      scene_of(box(16.0, spacing) + circle("hole", 1.0, "") +
+               "[grading]\nenabled = true\ngrowth = 0.25\nlength = 1.0\ncoarsest = 1.0\n" +
+               elastic + quarter + loaded +
+               "[[traction]]\nname = \"q\"\nside = \"right\"\nvalue = [1e3, 0.0]\n"
+               "[programme]\nsteps = 1\n[solver]\ntolerance = 1e-6\n"));
+  run.complete();
+  EXPECT_LT(run.model.size(), 1500);
+  const Eigen::Index crown = run.nearest({0.0, 1.0});
+  const double y = run.model.particles.position(crown, 1);
+  const double exact = 500.0 * (2.0 + 1.0 / (y * y) + 3.0 / (y * y * y * y));
+  return run.state.stress(0, crown) / exact - 1.0;
+}
+
+TEST(CutPlate, ConcentratesStressAsKirschSays) {
+  const double coarse = crown_stress_error(0.1);
+  const double fine = crown_stress_error(0.05);
+  report("error_at_10_particles_per_radius", coarse);
+  report("error_at_20_particles_per_radius", fine);
+  EXPECT_LT(std::abs(fine), 0.03);
+  EXPECT_LT(std::abs(fine), 0.6 * std::abs(coarse));
+}
+
 }  // namespace
 }  // namespace verification
