@@ -38,7 +38,8 @@ constexpr std::string_view usage =
     "Brackets the collapse load of a strip footing by finite-element limit analysis: a lower and\n"
     "an upper bound, both certified, refined until they are as close as asked for. The footing is\n"
     "that of a scene of fpm-run, or described by options. A scene of fpm-limit's own, of polygons\n"
-    "(share/scenes/limit), has other loads, too: pressures, gravity, the strength itself.\n";
+    "(share/scenes/limit), has other loads, too: pressures, gravity, earthquakes, the strength "
+    "itself.\n";
 
 constexpr std::string_view examples =
     "Examples:\n"

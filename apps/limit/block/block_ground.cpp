@@ -21,19 +21,23 @@ double cross(const mesh::Point& a, const mesh::Point& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// First moment, of x, of the triangle between the pole and a straight piece, both seen from the
-// pole; positive where the piece runs counterclockwise at positive x.
-double moment_under(const mesh::Point& first, const mesh::Point& second) {
-  return cross(first, second) * (first.x() + second.x()) / 6.0;
+// First moments, of x and y, of the triangle between the pole and a straight piece, both seen from
+// the pole; positive where the piece runs counterclockwise at positive x or y.
+mesh::Point moment_under(const mesh::Point& first, const mesh::Point& second) {
+  return cross(first, second) / 6.0 * (first + second);
 }
 
-// The same of the sector under an arc, from its lower to its upper angle: of r^3 cos(angle) / 3.
-double moment_under(const problem::SpiralArc& arc) {
+// The same of the sector under an arc, from its lower to its upper angle: of r^3 / 3 towards the
+// angle.
+mesh::Point moment_under(const problem::SpiralArc& arc) {
   const double g = 3.0 * arc.growth;
-  const auto at = [&](double angle) { return g * std::cos(angle) + std::sin(angle); };
+  const auto at = [&](double angle) -> mesh::Point {
+    const mesh::Point e = towards(angle);
+    return g * e + mesh::Point(e.y(), -e.x());
+  };
   const double shrunk = std::exp(g * (arc.lower - arc.upper));
-  return arc.radius * arc.radius * arc.radius / 3.0 * (at(arc.upper) - shrunk * at(arc.lower)) /
-         (1.0 + g * g);
+  return arc.radius * arc.radius * arc.radius / 3.0 / (1.0 + g * g) *
+         (at(arc.upper) - shrunk * at(arc.lower));
 }
 
 // How far a spiral turns back (clockwise, from `angle` at `radius`) before it is outside of a
@@ -83,6 +87,8 @@ double turn_to_leave(double inside, double normal_angle, double angle, double ra
 
 problem::Problem mirrored(problem::Problem problem) {
   for (mesh::Point& node : problem.mesh.nodes) node.x() = -node.x();
+  problem.pull.x() = -problem.pull.x();
+  problem.live_pull.x() = -problem.live_pull.x();
   for (mesh::Triangle& triangle : problem.mesh.triangles) {
     std::swap(triangle.nodes[1], triangle.nodes[2]);
   }
@@ -311,10 +317,13 @@ std::optional<int> BlockGround::follow(int triangle, double angle, double radius
   return std::nullopt;
 }
 
-void BlockGround::add_weight(const problem::Soil& soil, double moment, double sign) {
-  // Unit angular velocity: the vertical one is x from the pole.
-  powers_.dead -= sign * soil.unit_weight * moment;
-  powers_.live -= sign * soil.live_unit_weight * moment;
+void BlockGround::add_weight(const problem::Soil& soil, const mesh::Point& moment, double sign) {
+  // Unit angular velocity: at (x, y) from the pole the velocity is (-y, x).
+  const auto power = [&](const mesh::Point& pull) {
+    return sign * (pull.y() * moment.x() - pull.x() * moment.y());
+  };
+  powers_.dead += soil.unit_weight * power(problem_.pull);
+  powers_.live += soil.live_unit_weight * power(problem_.live_pull);
 }
 
 void BlockGround::add_arc(double upper, double lower, double radius, int region) {
@@ -418,7 +427,7 @@ void BlockGround::add_seams() {
     });
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       if (!is_in_block((ends[i] + ends[i + 1]) / 2.0)) continue;
-      const double moment = moment_under(ends[i] - pole_, ends[i + 1] - pole_);
+      const mesh::Point moment = moment_under(ends[i] - pole_, ends[i + 1] - pole_);
       add_weight(soil(seam.left), moment, 1.0);
       add_weight(soil(seam.right), moment, -1.0);
     }

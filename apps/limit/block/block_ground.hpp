@@ -93,7 +93,7 @@ class BlockGround {
                                        const mesh::Point& high) const;
   void add_seams();
   [[nodiscard]] bool is_in_block(const mesh::Point& place) const;
-  void add_weight(const problem::Soil& soil, double moment, double sign);
+  void add_weight(const problem::Soil& soil, const mesh::Point& moment, double sign);
 
   problem::Problem problem_;
   double least_length_;

@@ -259,8 +259,8 @@ class Examination {
     }
   }
 
-  // Loads of a piece: the moment of the soil to its left, less that to its right, between it and
-  // the pole, as far as it is in the block, by rays; and its tractions.
+  // Loads of a piece: the first moments of the soil to its left, less that to its right, between it
+  // and the pole, as far as it is in the block, by rays; and its tractions.
   void work(const Piece& piece) {
     std::vector<double> ends = crossings(piece);
     double first = std::atan2(piece.first.y(), piece.first.x());
@@ -286,12 +286,14 @@ class Examination {
       const bool is_in = distance(middle) < at(arc, middle);
       // Near the end of sight along the piece, its distance is steep.
       const double slant = std::abs(cross(towards(middle), along)) / along.norm();
-      const double moment =
-          sign * integral(ends[i], ends[i + 1], 3.0 * arc.growth + 3.0 / slant, [&](double angle) {
-            const double radius = is_in ? distance(angle) : at(arc, angle);
-            return radius * radius * radius * std::cos(angle) / 3.0;
-          });
-      weigh(piece, moment);
+      const auto moment = [&](double phase) {
+        return sign *
+               integral(ends[i], ends[i + 1], 3.0 * arc.growth + 3.0 / slant, [&](double angle) {
+                 const double radius = is_in ? distance(angle) : at(arc, angle);
+                 return radius * radius * radius * std::cos(angle - phase) / 3.0;
+               });
+      };
+      weigh(piece, mesh::Point(moment(0.0), moment(pi / 2.0)));
       if (is_in && piece.side != nullptr) {
         const double begin = sign > 0.0 ? ends[i] : ends[i + 1];
         const double end = sign > 0.0 ? ends[i + 1] : ends[i];
@@ -300,12 +302,18 @@ class Examination {
     }
   }
 
-  void weigh(const Piece& piece, double moment) {
-    dead_ -= piece.left->unit_weight * moment;
-    live_ -= piece.left->live_unit_weight * moment;
+  // The velocity at (x, y) from the pole is (-y, x).
+  void weigh(const Piece& piece, const mesh::Point& moment) {
+    const double shear = block_.clockwise ? -1.0 : 1.0;  // as x is turned round
+    const auto power = [&](const mesh::Point& pull) {
+      return -shear * pull.x() * moment.y() + pull.y() * moment.x();
+    };
+    const double dead = power(problem_.pull), live = power(problem_.live_pull);
+    dead_ += piece.left->unit_weight * dead;
+    live_ += piece.left->live_unit_weight * live;
     if (piece.right == nullptr) return;
-    dead_ += piece.right->unit_weight * moment;
-    live_ += piece.right->live_unit_weight * moment;
+    dead_ -= piece.right->unit_weight * dead;
+    live_ -= piece.right->live_unit_weight * live;
   }
 
   // Constant tractions on a linear velocity.

@@ -118,8 +118,11 @@ class Flow {
         corner.shear[1].emplace_back(y, gradient.x());
       }
       points_.push_back(corner);
-      dead_.emplace_back(velocity(t, 3 + i) + 1, -soil_of(t).unit_weight * area / 3.0);
-      live_.emplace_back(velocity(t, 3 + i) + 1, -soil_of(t).live_unit_weight * area / 3.0);
+      for (const Eigen::Index xy : {0, 1}) {
+        const Eigen::Index at = velocity(t, 3 + i) + xy;
+        dead_.emplace_back(at, problem_.pull[xy] * soil_of(t).unit_weight * area / 3.0);
+        live_.emplace_back(at, problem_.live_pull[xy] * soil_of(t).live_unit_weight * area / 3.0);
+      }
     }
   }
 

@@ -75,8 +75,14 @@ problem::Problem loads_of(const GroundScene& scene, const std::optional<Base>& b
       soil.live_unit_weight = soil.unit_weight;
       soil.unit_weight = 0.0;
     }
+    if (scene.load.sought == Sought::earthquake && material.grows && scene.load.kh != 0.0) {
+      soil.live_unit_weight = soil.unit_weight;
+    }
     problem.soils.push_back(soil);
   }
+  const bool is_shaken = scene.load.sought != Sought::earthquake;
+  problem.pull = {is_shaken ? scene.load.kh : 0.0, scene.load.kv - 1.0};
+  problem.live_pull = is_shaken ? problem.pull : mesh::Point(scene.load.kh, 0.0);
   for (const GroundSide& side : scene.sides) problem.boundaries.push_back(boundary_of(scene, side));
   if (base) problem.footing = footing_of(scene, *base, diagnosis);
   if (scene.load.sought == Sought::strength) make_live(problem);
@@ -87,7 +93,7 @@ problem::Problem loads_of(const GroundScene& scene, const std::optional<Base>& b
 double live_stress(const problem::Problem& problem, double length) {
   double largest = 0.0;
   for (const problem::Soil& soil : problem.soils) {
-    largest = std::max(largest, soil.live_unit_weight * length);
+    largest = std::max(largest, soil.live_unit_weight * problem.live_pull.norm() * length);
   }
   for (const problem::Boundary& boundary : problem.boundaries) {
     largest = std::max(
@@ -112,6 +118,11 @@ void require_live_load(const GroundScene& scene, const std::optional<Base>& base
       break;
     case Sought::gravity:
       allowed = "gravity wants a material with a unit_weight that grows";
+      break;
+    case Sought::earthquake:
+      allowed =
+          "an earthquake wants kh, 1 or -1 for along +x or -x, and a material with a "
+          "unit_weight that grows";
       break;
     case Sought::strength:
       allowed = "strength wants a load: unit weights, pressures, shears";
@@ -191,6 +202,9 @@ std::vector<std::string> assumptions_of(const GroundScene& scene, const problem:
                                  ? "the footing is free to move along x and y and to rotate"
                                  : "the footing is guided along its normal");
   }
+  if (scene.load.kh != 0.0 || scene.load.kv != 0.0) {
+    assumptions.emplace_back("an earthquake is a steady weight aslant (pseudo-static)");
+  }
   if (scene.load.sought == Sought::strength) {
     assumptions.emplace_back(
         "cohesion and tan(friction angle) of all materials are divided by the factor");
@@ -211,6 +225,10 @@ void describe(const GroundScene& scene, problem::Case& result) {
         material.name, fmt::format("c = {:g} {}, phi = {:g} deg, {:g} {}", material.soil.cohesion,
                                    scene.units.stress, material.soil.friction_angle / degree,
                                    material.soil.unit_weight, scene.units.unit_weight()));
+  }
+  if (scene.load.kh != 0.0 || scene.load.kv != 0.0) {
+    result.data.emplace_back("earthquake",
+                             fmt::format("kh = {:g}, kv = {:g}", scene.load.kh, scene.load.kv));
   }
   switch (scene.load.sought) {
     case Sought::footing:
@@ -233,6 +251,11 @@ void describe(const GroundScene& scene, problem::Case& result) {
       break;
     case Sought::gravity:
       result.quantity = "multiplier of the unit weights at collapse";
+      break;
+    case Sought::earthquake:
+      result.quantity = std::abs(scene.load.kh) == 1.0
+                            ? "horizontal weight over weight (kh) at collapse"
+                            : "multiplier of kh at collapse";
       break;
     case Sought::strength:
       result.quantity = "factor of safety of the strength";

@@ -43,11 +43,14 @@ GroundTable units() {
 GroundTable load() {
   return Builder<GroundLoad>("load", &GroundScene::load, "what grows until collapse")
       .required()
-      .key("sought", &GroundLoad::sought,
-           {.need = Need::required,
-            .doc = "footing: its pressure; traction: a multiplier of the live pressures and "
-                   "shears; gravity: a multiplier of the unit weights; strength: the factor "
-                   "of safety, by which cohesion and tan(friction angle) may be divided"})
+      .key(
+          "sought", &GroundLoad::sought,
+          {.need = Need::required,
+           .doc =
+               "footing: its pressure; traction: a multiplier of the live pressures and "
+               "shears; gravity: a multiplier of the unit weights; strength: the factor "
+               "of safety, by which cohesion and tan(friction angle) may be divided; earthquake: a "
+               "multiplier of kh"})
       .key("inclination", &GroundLoad::inclination,
            {.unit = "deg",
             .range = inclinations,
@@ -55,6 +58,12 @@ GroundTable load() {
       .in(degree)
       .key("eccentricity", &GroundLoad::eccentricity,
            {.unit = "m", .doc = "of the footing's load from the base's middle, likewise"})
+      .key("kh", &GroundLoad::kh,
+           {.doc = "of an earthquake: horizontal weight over weight, along +x or, if negative, "
+                   "-x; what grows where an earthquake is sought, 1 or -1 says which way"})
+      .key("kv", &GroundLoad::kv,
+           {.range = {.lower = -1.0, .upper = 1.0, .upper_open = true},
+            .doc = "of an earthquake: the share of the weight that it lifts"})
       .key("guided", &GroundLoad::guided,
            {.need = Need::optional,
             .doc = "the footing moves along its normal alone",
@@ -81,7 +90,8 @@ GroundTable material() {
       .key("unit_weight", [](auto& m) -> auto& { return m.soil.unit_weight; },
            {.unit = "N/m3", .range = at_least(0.0)})
       .key("grows", &GroundMaterial::grows,
-           {.doc = "its weight is multiplied where gravity is sought"})
+           {.doc = "its weight is multiplied where gravity is sought, and shaken where an "
+                   "earthquake is"})
       .build();
 }
 
@@ -182,6 +192,12 @@ void check_side(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnosis)
   for (const char* key : {"base", "tension"}) belongs(key, footing, "kind footing");
   if (side.along.size() == 1) {
     diagnosis.error(table + "along", "found one point", "allowed are 2 or more");
+  }
+  if (side.kind == SideKind::symmetry && scene.load.kh != 0.0 &&
+      diagnosis.good({table + "kind", "load.kh"})) {
+    diagnosis.error(table + "kind", fmt::format("found symmetry, and kh = {:g}", scene.load.kh),
+                    "ground that is shaken has no plane of symmetry; allowed is all of it, or kind "
+                    "roller for a smooth wall");
   }
   if (side.kind == SideKind::symmetry) side.kind = SideKind::roller;
 }

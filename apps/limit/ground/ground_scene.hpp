@@ -46,15 +46,15 @@ struct GroundSide {
   bool tension = true;              // footing: bonded to the soil; else it may lift off
 };
 
-enum class Sought { footing, traction, gravity, strength };
+enum class Sought { footing, traction, gravity, strength, earthquake };
 
 // The names of each enumeration's values as written, in the order of the enumerators.
 namespace names {
 inline constexpr std::array<std::string_view, 6> side{"free",   "loaded",  "fixed",
                                                       "roller", "footing", "symmetry"};
 inline constexpr std::array<std::string_view, 2> base{"rough", "smooth"};
-inline constexpr std::array<std::string_view, 4> sought{"footing", "traction", "gravity",
-                                                        "strength"};
+inline constexpr std::array<std::string_view, 5> sought{"footing", "traction", "gravity",
+                                                        "strength", "earthquake"};
 }  // namespace names
 constexpr std::span<const std::string_view> names_of(SideKind) {
   return names::side;
@@ -69,8 +69,11 @@ constexpr std::span<const std::string_view> names_of(Sought) {
 /// What is to grow until collapse.
 struct GroundLoad {
   Sought sought = Sought::footing;
-  double inclination = 0.0;    // [rad] of the footing's load, from the base's normal
-  double eccentricity = 0.0;   // [m] of the footing's load, from the base's middle
+  double inclination = 0.0;   // [rad] of the footing's load, from the base's normal
+  double eccentricity = 0.0;  // [m] of the footing's load, from the base's middle
+  double kh = 0.0;            // horizontal weight over weight, along +x; with an earthquake sought,
+                              // per unit of the multiplier
+  double kv = 0.0;            // share of the weight that is lifted
   std::optional<bool> guided;  // the footing moves along its normal alone; absent: if it ends at a
                                // roller, whose mirror image completes it
 };

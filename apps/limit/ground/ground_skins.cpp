@@ -46,19 +46,25 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
         "on it: no stress there is strictly within yield, and no stress field can be certified",
         scene.materials[m].name, side.name);
     if (std::find(said.begin(), said.end(), note) == said.end()) said.push_back(note);
-    if (face <= level) continue;
-    const double slides = std::tan(soil.friction_angle) / std::tan(face);
+    // The weight, aslant in an earthquake, along the skin and across it.
+    const mesh::Point way = (outline.at(segment.second) - outline.at(segment.first)).normalized();
+    const double along = std::abs(way.dot(soils.live_pull));
+    const double across = std::abs(way.x() * soils.live_pull.y() - way.y() * soils.live_pull.x());
+    if (along <= level * across) continue;
+    const double slides = std::tan(soil.friction_angle) * across / along;
     result.known_upper = std::min(result.known_upper.value_or(INFINITY), slides);
   }
   if (result.has_lower) return;
+  const bool is_shaken = soils.live_pull.x() != 0.0;
   if (result.known_upper) {
     result.notes.push_back(fmt::format(
         "a skin of a face without cohesion slides parallel to it at tan(friction angle) / "
-        "tan(inclination) = {:.7g}",
+        "tan({}) = {:.7g}",
+        is_shaken ? "angle of the shaken weight to its normal" : "inclination",
         *result.known_upper));
   }
   const bool is_dry_sand =
-      gentlest == steepest && steepest > 0.0 &&
+      !is_shaken && gentlest == steepest && steepest > 0.0 &&
       std::none_of(
           scene.sides.begin(), scene.sides.end(),
           [](const GroundSide& side) { return presses(side) || side.kind == SideKind::footing; }) &&

@@ -13,8 +13,8 @@ namespace limit::problem {
 struct Soil {
   double cohesion = 0.0;          // [Pa]
   double friction_angle = 0.0;    // [rad] 0 <= phi < pi/2
-  double unit_weight = 0.0;       // [N/m3] acts along -y
-  double live_unit_weight = 0.0;  // [N/m3] per unit of the multiplier, along -y, too
+  double unit_weight = 0.0;       // [N/m3] acts along Problem::pull
+  double live_unit_weight = 0.0;  // [N/m3] per unit of the multiplier, along Problem::live_pull
 };
 
 /// What is known on a boundary in one direction (normal or tangential to it).
@@ -53,6 +53,8 @@ struct Problem {
   std::vector<Soil> soils;           // by Triangle::region
   std::vector<Boundary> boundaries;  // by BoundaryEdge::boundary
   Footing footing;
+  /// Body forces per unit weight: down, or aslant as an earthquake's are taken to be.
+  mesh::Point pull{0.0, -1.0}, live_pull{0.0, -1.0};
   /// Where the multiplier is not followed any further, in its unit: where more weight makes more
   /// strength than it takes, nothing limits it. Absent: wherever it ends.
   std::optional<double> most_multiplier;

@@ -136,7 +136,7 @@ class Builder {
     for (Eigen::Index i = 0; i < 3; ++i) add(variables + i, factor * form[i]);
   }
 
-  // div sigma + (0, -gamma) = 0, gamma dead and live, with the constant gradients of the corners'
+  // div sigma + gamma pull = 0, gamma dead and live, with the constant gradients of the corners'
   // shape functions.
   void equilibrium_of_triangles() {
     const mesh::Mesh& mesh = problem_.mesh;
@@ -145,8 +145,8 @@ class Builder {
       const double area2 = mesh::twice_area(mesh, triangle);
       const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(triangle.region)];
       for (int row = 0; row < 2; ++row) {
-        begin_equation(row == 0 ? 0.0 : soil.unit_weight);
-        if (row == 1) add(multiplier(), -soil.live_unit_weight);
+        begin_equation(-problem_.pull[row] * soil.unit_weight);
+        add(multiplier(), problem_.live_pull[row] * soil.live_unit_weight);
         for (int i = 0; i < 3; ++i) {
           const auto at = [&](int k) -> const mesh::Point& {
             return mesh.nodes[static_cast<std::size_t>(

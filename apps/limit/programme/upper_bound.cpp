@@ -59,9 +59,9 @@ struct Loads {
     const problem::Soil& soil = problem.soils[static_cast<std::size_t>(triangle.region)];
     const double third = mesh::twice_area(problem.mesh, triangle) / 6.0;
     for (std::size_t middle = 3; middle < 6; ++middle) {
-      const auto row = static_cast<Eigen::Index>(2 * (6 * t + middle) + 1);
-      dead[row] -= soil.unit_weight * third;
-      live[row] -= soil.live_unit_weight * third;
+      const auto row = static_cast<Eigen::Index>(2 * (6 * t + middle));
+      dead.segment<2>(row) += soil.unit_weight * third * problem.pull;
+      live.segment<2>(row) += soil.live_unit_weight * third * problem.live_pull;
     }
   }
 
