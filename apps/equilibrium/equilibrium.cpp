@@ -213,13 +213,13 @@ jfnk::Evaluation Equilibrium<Dim>::operator()(const Eigen::VectorXd& increment,
                                               Eigen::VectorXd& residual) {
   extend_increment(increment);
   const LoopOutcome outcome = loops_.respond(loop_data());
-  failure_.particle = outcome.failed;
+  failure_ = {.particle = outcome.failed};
   if (!outcome.ok()) return jfnk::Evaluation::out_of_domain;
   assemble(evaluation_.extended.data(), evaluation_.unmasked.data());
   evaluation_.unmasked -= step_.external;
   double reaction_square = take_plane_reactions();
   add_boundary_terms(increment);
-  if (failure_.particle >= 0) return jfnk::Evaluation::out_of_domain;
+  if (failure_.any()) return jfnk::Evaluation::out_of_domain;
   for (const fpm::Vector<Dim>& held : interfaces_.rigid_force()) {
     reaction_square += held.squaredNorm();
   }
@@ -268,6 +268,7 @@ bool Equilibrium<Dim>::linearise_before_motion(const Eigen::VectorXd& increment,
 
 template <int Dim>
 bool Equilibrium<Dim>::linearise(const Eigen::VectorXd& increment) {
+  failure_ = {};
   extend_increment(increment);
   evaluation_.base_increment = increment;
   if (tangents_.stress.size() == 0) allocate(tangents_, step_.sizes);
@@ -275,7 +276,7 @@ bool Equilibrium<Dim>::linearise(const Eigen::VectorXd& increment) {
     evaluation_.displacement = state_.displacement + Eigen::Map<const fpm::Field<Dim>>(
                                                          increment.data(), model_.size(), Dim);
     if (!interfaces_.linearise(state_, evaluation_.displacement, rigid_load_)) {
-      failure_.particle = particle_under_plate();
+      failure_.plate = true;
       return false;
     }
   }
@@ -308,13 +309,6 @@ void Equilibrium<Dim>::act(const Eigen::VectorXd& v, double load_change, Eigen::
 }
 
 template <int Dim>
-fpm::Index Equilibrium<Dim>::particle_under_plate() const {
-  const auto plate = std::ranges::find_if(
-      model_.interfaces, [](const auto& interface) { return interface.plate.has_value(); });
-  return nearest_particle(plate->faces.points.position.row(0));
-}
-
-template <int Dim>
 fpm::Index Equilibrium<Dim>::nearest_particle(
     const Eigen::Matrix<double, 1, Dim>& reference_place) const {
   Eigen::Index nearest = 0;
@@ -342,7 +336,7 @@ void Equilibrium<Dim>::add_boundary_terms(const Eigen::VectorXd& increment) {
   }
   evaluation_.displacement = state_.displacement + step;
   if (!interfaces_.add_force(state_, evaluation_.displacement, rigid_load_, force)) {
-    failure_.particle = particle_under_plate();
+    failure_.plate = true;
   }
   for (const auto& support : model_.penalty_supports) {
     fpm::add_penalty_force<Dim>(support.op, support.points, support.options, support.target,

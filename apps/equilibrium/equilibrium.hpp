@@ -15,6 +15,9 @@ namespace equilibrium {
 struct EvaluationFailure {
   // The lowest index whose motion is inverted or not finite, or next to such a point of a load.
   fpm::Index particle = -1;
+  bool plate = false;  // no motion of a free plate is in balance with its load
+
+  bool any() const { return particle >= 0 || plate; }
 };
 
 /// What a converged step leaves for the records.
@@ -84,7 +87,6 @@ class Equilibrium {
   void remember_pairs(Eigen::Index a, const Eigen::VectorXd& position_moments);
   void assemble(const double* field, double* force);
   void add_boundary_terms(const Eigen::VectorXd& increment);
-  [[nodiscard]] fpm::Index particle_under_plate() const;
   [[nodiscard]] fpm::Index nearest_particle(
       const Eigen::Matrix<double, 1, Dim>& reference_place) const;
   void add_boundary_actions(const Eigen::VectorXd& v, double load_change, Eigen::VectorXd& jv);

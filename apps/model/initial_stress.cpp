@@ -57,7 +57,7 @@ void add_initial_stress(const scene::Scene& scene, Model<Dim>& model) {
   for (int s = 0; s < 2 * Dim; ++s) {
     const auto side = static_cast<scene::Side>(s);
     if (bears_across(scene, side)) continue;
-    const SidePoints<Dim> face = side_points(scene, model, side, {}, {});
+    const SurfacePoints<Dim> face = side_points(scene, model, side, {}, {});
     const int axis = scene::axis_of(side);
     fpm::Field<Dim> force = fpm::Field<Dim>::Zero(face.points.size(), Dim);
     for (fpm::Index c = 0; c < face.points.size(); ++c) {

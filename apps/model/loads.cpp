@@ -60,22 +60,20 @@ void add_cutout_tractions(const scene::Scene& scene, Model<Dim>& model) {
     const scene::Cutout& cutout = scene.cutout[i];
     if (cutout.pressure == 0.0 && cutout.shear == 0.0) continue;
     const SurfacePoints<Dim> surface = surface_points(model, {i});
-    const fpm::PointOperator<Dim> op(model.particles, model.ghosts, surface.points.position,
-                                     model.row_options, surface.particle);
     fpm::Field<Dim> traction = -cutout.pressure * surface.points.normal;
     // Along the surface, the body to the left: the normal turned to the left.
     traction.col(0) -= cutout.shear * surface.points.normal.col(1);
     traction.col(1) += cutout.shear * surface.points.normal.col(0);
-    fpm::add_traction<Dim>(op, surface.points, traction, load);
+    fpm::add_traction<Dim>(surface.op, surface.points, traction, load);
   }
 }
 
 // The particles of a region, or the one at a place, as points: each with the area of one face of
 // its cell.
 template <int Dim>
-SidePoints<Dim> particle_points(const scene::Scene& scene, const Model<Dim>& model,
-                                const scene::Support& support) {
-  SidePoints<Dim> result;
+SurfacePoints<Dim> particle_points(const scene::Scene& scene, const Model<Dim>& model,
+                                   const scene::Support& support) {
+  SurfacePoints<Dim> result;
   std::vector<fpm::Index> particles;
   for (const Eigen::Index a : supported_particles(scene, support, model)) {
     particles.push_back(static_cast<fpm::Index>(a));
@@ -161,9 +159,7 @@ fpm::Field<Dim> cut_area_vectors(const scene::Scene& scene, const Model<Dim>& mo
   fpm::Field<Dim> area = fpm::Field<Dim>::Zero(model.size(), Dim);
   const auto add = [&](const SurfacePart& part, double sign) {
     const SurfacePoints<Dim> surface = surface_points(model, part);
-    const fpm::PointOperator<Dim> op(model.particles, model.ghosts, surface.points.position,
-                                     model.row_options, surface.particle);
-    area += sign * fpm::area_vectors(op, surface.points);
+    area += sign * fpm::area_vectors(surface.op, surface.points);
   };
   for (std::size_t i = 0; i < scene.cutout.size(); ++i) add({i}, 1.0);
   for (const fpm::Face& face : faces) add({{}, face}, 1.0);

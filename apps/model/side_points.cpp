@@ -28,13 +28,13 @@ bool is_plain_vertex_lattice(const scene::Scene& scene) {
 }
 
 template <int Dim>
-SidePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, scene::Side side,
-                            const scene::Point& range_min, const scene::Point& range_max) {
+SurfacePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, scene::Side side,
+                               const scene::Point& range_min, const scene::Point& range_max) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const fpm::Face face{scene::axis_of(side), scene::is_upper(side)};
   const auto from = range_corner<Dim>(range_min, side, -infinity);
   const auto to = range_corner<Dim>(range_max, side, infinity);
-  SidePoints<Dim> result;
+  SurfacePoints<Dim> result;
   if (is_plain_vertex_lattice(scene)) {
     auto tributary = fpm::tributary_points(model.cells.lattice(), face, from, to);
     result.op = fpm::PointOperator<Dim>::at_particles(model.particles, model.ghosts,
@@ -44,11 +44,7 @@ SidePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, 
   }
   if (!model.surface.empty()) {
     const int along = 1 - face.axis;
-    auto left = surface_points(model, {{}, face, from[along], to[along]});
-    result.op = fpm::PointOperator<Dim>(model.particles, model.ghosts, left.points.position,
-                                        model.row_options, left.particle);
-    result.points = std::move(left.points);
-    return result;
+    return surface_points(model, {{}, face, from[along], to[along]});
   }
   result.points = fpm::boundary_quadrature(model.cells, face, from, to);
   result.op = fpm::PointOperator<Dim>(model.particles, model.ghosts, result.points.position,
@@ -56,9 +52,9 @@ SidePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, 
   return result;
 }
 
-template SidePoints<2> side_points<2>(const scene::Scene&, const Model<2>&, scene::Side,
-                                      const std::vector<double>&, const std::vector<double>&);
-template SidePoints<3> side_points<3>(const scene::Scene&, const Model<3>&, scene::Side,
-                                      const std::vector<double>&, const std::vector<double>&);
+template SurfacePoints<2> side_points<2>(const scene::Scene&, const Model<2>&, scene::Side,
+                                         const std::vector<double>&, const std::vector<double>&);
+template SurfacePoints<3> side_points<3>(const scene::Scene&, const Model<3>&, scene::Side,
+                                         const std::vector<double>&, const std::vector<double>&);
 
 }  // namespace model

@@ -3,6 +3,7 @@
 #include "fpm/particles.hpp"
 #include "fpm/points.hpp"
 #include "model/model.hpp"
+#include "model/surface.hpp"
 #include "scene/choices.hpp"
 
 namespace scene {
@@ -11,20 +12,13 @@ struct Scene;
 
 namespace model {
 
-/// Points on a part of a side, and the operator between them and the particles.
-template <int Dim>
-struct SidePoints {
-  fpm::PointOperator<Dim> op;
-  fpm::BoundaryPoints<Dim> points;
-};
-
 /// A part of a side as points: lumped to the particles of a vertex lattice, which lie on it, or
 /// true boundary points that the particles are interpolated to.
 /// @param range_min, range_max  [m] Dim - 1 entries each, or empty: the whole side
 template <int Dim>
-SidePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, scene::Side side,
-                            const std::vector<double>& range_min,
-                            const std::vector<double>& range_max);
+SurfacePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, scene::Side side,
+                               const std::vector<double>& range_min,
+                               const std::vector<double>& range_max);
 
 /// Whether the particles are the vertices of a lattice without jitter.
 bool is_plain_vertex_lattice(const scene::Scene& scene);

@@ -172,7 +172,7 @@ void for_each_piece(const Model<Dim>& model, const SurfacePart& part, Visitor&& 
   }
 }
 
-// Appends points to those of a part; their number is not known beforehand.
+// Points of a part of the surface, whose number is not known beforehand.
 template <int Dim>
 struct PointList {
   std::vector<Place> position, normal;
@@ -222,7 +222,11 @@ SurfacePoints<Dim> surface_points(const Model<Dim>& model, const SurfacePart& pa
     const double length = (piece.to - piece.from).norm();
     list.add(piece, std::max(1, static_cast<int>(std::ceil(length / half - round_off))));
   });
-  return {list.points(), std::move(list.particle)};
+  SurfacePoints<Dim> surface;
+  surface.points = list.points();
+  surface.op = fpm::PointOperator<Dim>(model.particles, model.ghosts, surface.points.position,
+                                       model.row_options, list.particle);
+  return surface;
 }
 
 template <int Dim>

@@ -1,7 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <optional>
-#include <vector>
 
 #include "fpm/bodies.hpp"
 #include "model/model.hpp"
@@ -31,14 +32,14 @@ struct SurfacePart {
   static int source_of(const fpm::Face& face) { return -1 - 2 * face.axis - (face.upper ? 1 : 0); }
 };
 
-/// Points of a part of the surface and the particles of the cells they lie on.
+/// Points on a part of the surface, and the operator between them and the particles.
 template <int Dim>
 struct SurfacePoints {
+  fpm::PointOperator<Dim> op;
   fpm::BoundaryPoints<Dim> points;
-  std::vector<fpm::Index> particle;
 };
 
-/// At least two to a spacing, as quadrature wants them.
+/// Points on a part of the surface, at least two to a spacing, as quadrature wants them.
 template <int Dim>
 SurfacePoints<Dim> surface_points(const Model<Dim>& model, const SurfacePart& part);
 

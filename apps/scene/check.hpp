@@ -44,6 +44,9 @@ bool check_at(const Point& at, const std::string& key, const Scene& scene,
 bool check_range(Side side, const Point& range_min, const Point& range_max,
                  const std::string& table, const Scene& scene, tables::Diagnosis& diagnosis);
 
+/// Reports a part of a side that is driven, pushed or loaded, if it is none or has no particles.
+void check_driven_part(const Scene& scene, tables::Diagnosis& diagnosis);
+
 /// Whether a side exists in this dimension; reports otherwise.
 bool check_side(Side side, const std::string& key, const Scene& scene,
                 tables::Diagnosis& diagnosis);

@@ -187,6 +187,18 @@ bool check_range(Side side, const Point& range_min, const Point& range_max,
   return true;
 }
 
+void check_driven_part(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const Drive& drive = scene.drive;
+  if (!check_side(drive.side, "drive.side", scene, diagnosis)) return;
+  const bool fits =
+      check_range(drive.side, drive.range_min, drive.range_max, "drive", scene, diagnosis);
+  if (!fits || drive.range_min.empty() || !diagnosis.good({"geometry.spacing"})) return;
+  if (lattice_layer(scene.geometry, drive.side, drive.range_min, drive.range_max).empty()) {
+    diagnosis.error("drive.range_max", "no particle lies between range_min and range_max",
+                    fmt::format("particles are {} apart", scene.geometry.spacing));
+  }
+}
+
 void check_boundaries(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (!scene.symmetry.empty() && scene.geometry.layout == Layout::vertex &&
       diagnosis.good({"geometry.layout", "symmetry"})) {

@@ -262,14 +262,7 @@ void check_displacement(const Scene& scene, tables::Diagnosis& diagnosis) {
     diagnosis.warning("drive.scales", "found with kind = \"displacement\"",
                       "it has no effect: tractions and gravity are constant");
   }
-  if (!check_side(drive.side, "drive.side", scene, diagnosis)) return;
-  const bool fits =
-      check_range(drive.side, drive.range_min, drive.range_max, "drive", scene, diagnosis);
-  if (!fits || drive.range_min.empty() || !diagnosis.good({"geometry.spacing"})) return;
-  if (lattice_layer(scene.geometry, drive.side, drive.range_min, drive.range_max).empty()) {
-    diagnosis.error("drive.range_max", "no particle lies between range_min and range_max",
-                    fmt::format("particles are {} apart", scene.geometry.spacing));
-  }
+  check_driven_part(scene, diagnosis);
 }
 
 void check_load(const Scene& scene, tables::Diagnosis& diagnosis) {

@@ -43,21 +43,6 @@ void check_key(bool given, bool needed, const std::string& key, MeasureKind kind
                               needed ? "needs it" : "does not have it"));
 }
 
-void check_point(const Scene& scene, const Point& at, const std::string& key,
-                 tables::Diagnosis& diagnosis) {
-  const auto n = static_cast<std::size_t>(scene.geometry.dimension);
-  if (at.empty() || !check_length(at, n, key, scene, diagnosis) || !box_is_good(scene, diagnosis)) {
-    return;
-  }
-  const double slack = same_place(scene.geometry);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (at[i] >= scene.geometry.min[i] - slack && at[i] <= scene.geometry.max[i] + slack) continue;
-    diagnosis.error(
-        key, fmt::format("found {} along {}", at[i], name_of(static_cast<Axis>(i))),
-        fmt::format("the body is from {} to {}", scene.geometry.min[i], scene.geometry.max[i]));
-  }
-}
-
 void check_support_name(const Scene& scene, const std::string& name, const std::string& key,
                         tables::Diagnosis& diagnosis) {
   std::vector<std::string> names;
@@ -82,7 +67,7 @@ void check_measure(const Scene& scene, std::size_t index, tables::Diagnosis& dia
             diagnosis);
   check_key(measure.side.has_value(), kind == MeasureKind::resultant, table + ".side", kind,
             diagnosis);
-  check_point(scene, measure.at, table + ".at", diagnosis);
+  check_at(measure.at, table + ".at", scene, diagnosis);
   if (measure.support) {
     check_support_name(scene, *measure.support, table + ".support", diagnosis);
   }

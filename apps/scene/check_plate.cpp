@@ -100,14 +100,7 @@ void check_plate(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_force(scene, diagnosis);
   const Drive& drive = scene.drive;
   if (!loads_plate(drive) || !diagnosis.good({"drive.side", "drive.scales"})) return;
-  if (!check_side(drive.side, "drive.side", scene, diagnosis)) return;
-  const bool fits =
-      check_range(drive.side, drive.range_min, drive.range_max, "drive", scene, diagnosis);
-  if (!fits || drive.range_min.empty() || !diagnosis.good({"geometry.spacing"})) return;
-  if (lattice_layer(scene.geometry, drive.side, drive.range_min, drive.range_max).empty()) {
-    diagnosis.error("drive.range_max", "no particle lies between range_min and range_max",
-                    fmt::format("particles are {} apart", scene.geometry.spacing));
-  }
+  check_driven_part(scene, diagnosis);
 }
 
 }  // namespace scene

@@ -32,6 +32,9 @@ std::string what_limits(const StepResult& result) {
     return fmt::format("a folded particle: the neighbourhood of particle {} turns inside out",
                        result.folded_particle);
   }
+  if (result.unbalanced_plate) {
+    return "the plate: no motion of it is in balance with its load";
+  }
   if (result.trouble == jfnk::Trouble::flat || result.trouble == jfnk::Trouble::singular) {
     return "the tangent: the body, or a part of it, gives way without resistance";
   }

@@ -184,6 +184,7 @@ bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult&
   result.trouble = report.trouble;
   result.reason = reason_of(report, scene_, Dim);
   result.folded_particle = equilibrium_->failure().particle;
+  result.unbalanced_plate = equilibrium_->failure().plate;
   if (report.status == jfnk::Status::stopped) result.outcome = StepOutcome::stopped;
   return false;
 }

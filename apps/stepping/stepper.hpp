@@ -44,6 +44,7 @@ struct StepResult {
   std::string reason;                             // why the last attempt failed, in scene's words
   // Of the last attempt, if the stepper gave up:
   fpm::Index folded_particle = -1;  // could not be evaluated: inverted or not finite
+  bool unbalanced_plate = false;    // a free plate found no motion in balance with its load
   Eigen::VectorXd attempt;          // [m] increment of the lowest residual met, or empty
   Eigen::VectorXd residual;         // [N/m or N] at it, 0 at prescribed unknowns, or empty
   int attempts = 0;                 // at steps, since the load was `patience_mark`

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "places.hpp"
+
 namespace fpm {
 namespace {
 
@@ -50,20 +52,6 @@ Pieces cut(const Span& span, double step) {
     from = to;
   }
   return pieces;
-}
-
-// Calls visit(index per axis) for all combinations, first axis fastest.
-template <int Dim, class Visitor>
-void for_each_combination(const Eigen::Matrix<Index, Dim, 1>& count, Visitor&& visit) {
-  Eigen::Matrix<Index, Dim, 1> at = Eigen::Matrix<Index, Dim, 1>::Zero();
-  const Index total = count.prod();
-  for (Index k = 0; k < total; ++k) {
-    visit(at);
-    for (int i = 0; i < Dim; ++i) {
-      if (++at[i] < count[i]) break;
-      at[i] = 0;
-    }
-  }
 }
 
 void refuse(const std::vector<std::string>& messages) {
@@ -163,7 +151,7 @@ BoundaryPoints<Dim> boundary_quadrature(const BoundaryQuadratureOptions<Dim>& op
   Vector<Dim> corner = options.min;
   if (upper) corner[axis] = options.max[axis];
   Eigen::Index c = 0;
-  for_each_combination<Dim>(count, [&](const auto& at) {
+  detail::for_each_place<Dim>(count, [&](const auto& at) {
     for (int i = 0; i < Dim; ++i) {
       const auto k = static_cast<std::size_t>(at[i]);
       points.position(c, i) = corner[i] + pieces[i].centre[k];
@@ -243,7 +231,7 @@ TributaryPoints<Dim> tributary_points(const LatticeOptions<Dim>& lattice, Face f
   std::vector<double> area;
   TributaryPoints<Dim> result;
   Index particle = 0;
-  for_each_combination<Dim>(count, [&](const auto& at) {
+  detail::for_each_place<Dim>(count, [&](const auto& at) {
     double product = 1.0;
     for (int i = 0; i < Dim; ++i) product *= length(i, at[i]);
     if (product > 0.0) {

@@ -1,28 +1,15 @@
 #include "cell_tree.hpp"
 
 #include <algorithm>
-#include <tuple>
 #include <unordered_map>
+
+#include "places.hpp"
 
 namespace fpm::detail {
 namespace {
 
 template <int Dim>
 using Place = Eigen::Matrix<Index, Dim, 1>;
-
-// Calls visit(place) for all places below `count`, first axis fastest.
-template <int Dim, class Visitor>
-void for_each_place(const Place<Dim>& count, Visitor&& visit) {
-  Place<Dim> at = Place<Dim>::Zero();
-  const Index total = count.prod();
-  for (Index k = 0; k < total; ++k) {
-    visit(at);
-    for (int i = 0; i < Dim; ++i) {
-      if (++at[i] < count[i]) break;
-      at[i] = 0;
-    }
-  }
-}
 
 template <int Dim>
 class TreeBuilder {

@@ -71,6 +71,14 @@ TEST(FailureReport, OfAFoldedParticleNamesItAndItsPlace) {
   }
 }
 
+TEST(FailureReport, OfAPlateWithoutBalanceSaysSo) {
+  const SmallFooting run;
+  StepResult result = given_up(jfnk::Status::line_search_failed);
+  result.unbalanced_plate = true;
+  EXPECT_THAT(report_of(run, result),
+              HasSubstr("limits: the plate: no motion of it is in balance with its load"));
+}
+
 TEST(FailureReport, SaysThatTheBodyGivesWayWhereItsTangentShowsIt) {
   const SmallFooting run;
   StepResult result = given_up(jfnk::Status::krylov_stalled);
