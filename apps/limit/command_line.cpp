@@ -13,6 +13,7 @@
 #include "limit/fields.hpp"
 #include "limit/footing/scene_case.hpp"
 #include "limit/ground/ground_case.hpp"
+#include "limit/ground/ground_of_scene.hpp"
 #include "limit/report.hpp"
 #include "program/command_line.hpp"
 #include "program/version.hpp"
@@ -217,7 +218,12 @@ std::optional<Input> input_of_scene(const std::string& text, std::span<const std
       throw UsageError(
           "--no-tension: a scene of polygons has the key tension in its footing's side");
     }
-    const auto ground = ground::read_ground_scene(text, settings, diagnosis, unreadable);
+    std::optional<ground::GroundScene> ground;
+    if (!ground::is_scene_of_both(text)) {
+      ground = ground::read_ground_scene(text, settings, diagnosis, unreadable);
+    } else if ((scene = scene::parse_scene(text, settings, diagnosis, unreadable))) {
+      ground = ground::ground_of_scene(*scene, diagnosis);
+    }
     if (ground) cases = ground::ground_case(*ground, diagnosis);
   } else {
     scene = scene::parse_scene(text, settings, diagnosis, unreadable);

@@ -45,7 +45,7 @@ void place_particles(const scene::Scene& scene, Model<Dim>& model) {
   model.spacing = geometry.spacing;
   model.cells = cells_of<Dim>(scene);
   model.particles = fpm::make_particles(model.cells);
-  if (!scene.cutout.empty()) cut_body(scene, model);
+  if (scene::is_cut(scene)) cut_body(scene, model);
 
   model.row_options.kernel = to_kernel(scene.approximation.kernel);
   model.row_options.support_radius = scene.approximation.support_over_spacing * geometry.spacing;
@@ -57,7 +57,8 @@ void place_particles(const scene::Scene& scene, Model<Dim>& model) {
 template <int Dim>
 void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
   const Eigen::Index n = model.size();
-  model.material.assign(static_cast<std::size_t>(n), 0);
+  const bool known = !model.material.empty();  // of regions
+  model.material.resize(static_cast<std::size_t>(n), 0);
   model.mass.resize(n);
   for (const scene::Material& material : scene.material) {
     model.materials.push_back(constitutive::make_material(scene::parameters_of(material)));
@@ -70,8 +71,10 @@ void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
     if (!model.surface.empty() && model.particles.volume[a] != std::pow(model.spacing_at(a), Dim)) {
       place = model.particles.position.row(a).transpose();
     }
-    model.material[static_cast<std::size_t>(a)] =
-        static_cast<MaterialIndex>(scene::material_at(scene, {place.data(), Dim}));
+    if (!known) {
+      model.material[static_cast<std::size_t>(a)] =
+          static_cast<MaterialIndex>(scene::material_at(scene, {place.data(), Dim}));
+    }
     model.mass[a] = scene.material[model.material[static_cast<std::size_t>(a)]].density *
                     model.particles.volume[a];
   }
@@ -152,6 +155,18 @@ void constrain(const scene::Scene& scene, Model<Dim>& model) {
   }
 }
 
+// The widest spacing [m] at which three cells fit across the regions that a box of space meets.
+double fitting_spacing(const shape::Body& body, const shape::Point& low, const shape::Point& high,
+                       double finest) {
+  constexpr double fewest = 3.0;
+  double widest = std::numeric_limits<double>::infinity();
+  for (int r = 0; r < body.regions(); ++r) {
+    if (body.distance_to_region(low, high, r) > 0.0) continue;
+    widest = std::min(widest, std::max(finest, body.thickness(r) / fewest));
+  }
+  return widest;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -165,7 +180,7 @@ fpm::Cells<Dim> cells_of(const scene::Scene& scene) {
                                                           : fpm::LatticeLayout::vertex;
   lattice.jitter = geometry.jitter;
   lattice.seed = static_cast<std::uint64_t>(geometry.seed);
-  const bool cut = Dim == 2 && !scene.cutout.empty();
+  const bool cut = Dim == 2 && scene::is_cut(scene);
   if (!scene.grading.enabled) {
     // A tree of equal cells can lose some of them.
     if (cut) return {lattice, [&](const auto& /*lower*/, const auto& /*upper*/) { return 0.0; }};
@@ -175,16 +190,19 @@ fpm::Cells<Dim> cells_of(const scene::Scene& scene) {
   std::optional<shape::Body> body;
   if (cut) body = scene::body_of(scene);
   return {lattice, [&](const fpm::Vector<Dim>& lower, const fpm::Vector<Dim>& upper) {
-            const double to_cutouts =
-                body ? body->distance_to_cuts(lower.template head<2>(), upper.template head<2>())
-                     : std::numeric_limits<double>::infinity();
-            return scene::wanted_spacing(scene, places, {lower.data(), Dim}, {upper.data(), Dim},
-                                         to_cutouts);
+            const auto wanted = [&](double to_cutouts) {
+              return scene::wanted_spacing(scene, places, {lower.data(), Dim}, {upper.data(), Dim},
+                                           to_cutouts);
+            };
+            if (!body) return wanted(std::numeric_limits<double>::infinity());
+            const shape::Point low = lower.template head<2>(), high = upper.template head<2>();
+            return std::min(wanted(body->distance_to_cuts(low, high)),
+                            fitting_spacing(*body, low, high, geometry.spacing));
           }};
 }
 
 std::int64_t particle_count(const scene::Scene& scene) {
-  if (!scene.cutout.empty()) {
+  if (scene::is_cut(scene)) {
     Model<2> model;
     place_particles(scene, model);
     return model.size();

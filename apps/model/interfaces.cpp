@@ -12,6 +12,7 @@
 #include "model/surface.hpp"
 #include "scene/cutouts.hpp"
 #include "scene/derived.hpp"
+#include "scene/ground.hpp"
 #include "scene/scene.hpp"
 
 namespace model {
@@ -132,6 +133,7 @@ Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
 // Of what cutouts leave of the faces between cells, where two bodies meet.
 template <int Dim>
 fpm::CommonFaces<Dim> common_faces(const scene::Scene& scene, const Model<Dim>& model) {
+  if (!model.joints.empty()) return joint_faces(model);
   auto faces = fpm::common_faces(model.cells, model.particles.body);
   if constexpr (Dim == 2) {
     if (model.surface.empty()) return faces;
@@ -156,7 +158,7 @@ fpm::CommonFaces<Dim> common_faces(const scene::Scene& scene, const Model<Dim>& 
 template <int Dim>
 fpm::CommonFaces<Dim> outer_faces(const Model<Dim>& model, const fpm::Face& face) {
   return model.surface.empty() ? fpm::outer_faces(model.cells, face)
-                               : surface_faces(model, {{}, face});
+                               : surface_faces(model, SurfacePart::of_face(face));
 }
 
 template <int Dim>
@@ -251,6 +253,15 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
   model.interfaces.push_back(std::move(plate));
 }
 
+SurfacePart held_part(const scene::Scene& scene, std::size_t side) {
+  SurfacePart part = SurfacePart::of_side(side);
+  for (int face = 0; face < 4; ++face) {
+    part.without[static_cast<std::size_t>(face)] =
+        scene::is_held(scene, static_cast<scene::Side>(face));
+  }
+  return part;
+}
+
 template <int Dim>
 void add_cutouts(const scene::Scene& scene, Model<Dim>& model) {
   scene::Contact smooth;  // a roller: held across, whichever way it is pulled
@@ -260,8 +271,28 @@ void add_cutouts(const scene::Scene& scene, Model<Dim>& model) {
     if (cutout.kind == scene::CutoutKind::free) continue;
     const auto law =
         cutout.kind == scene::CutoutKind::fixed ? constitutive::InterfaceLaw{} : law_of(smooth);
-    model.interfaces.push_back(interface_at(scene, model, surface_faces(model, {i}), smooth, law));
+    model.interfaces.push_back(
+        interface_at(scene, model, surface_faces(model, SurfacePart::of_cutout(i)), smooth, law));
     model.interfaces.back().support = cutout.name;
+    model.interfaces.back().is_boundary = true;
+  }
+}
+
+// What sides hold where no support or mirror of the box does.
+template <int Dim>
+void add_held_sides(const scene::Scene& scene, Model<Dim>& model) {
+  scene::Contact smooth;
+  smooth.tension = true;
+  for (std::size_t i = 0; i < scene.side.size(); ++i) {
+    const scene::OutlineSide& side = scene.side[i];
+    if (!scene::holds(side.kind)) continue;
+    const auto faces = surface_faces(model, held_part(scene, i));
+    if (faces.points.size() == 0) continue;
+    const auto law =
+        side.kind == scene::OutlineKind::fixed ? constitutive::InterfaceLaw{} : law_of(smooth);
+    model.interfaces.push_back(interface_at(scene, model, faces, smooth, law));
+    model.interfaces.back().support = side.name;
+    model.interfaces.back().is_boundary = true;
   }
 }
 
@@ -272,6 +303,7 @@ void add_interfaces(const scene::Scene& scene, Model<Dim>& model) {
   add_between_materials(scene, model);
   add_rigid(scene, model);
   add_cutouts(scene, model);
+  add_held_sides(scene, model);
 }
 
 template void add_interfaces<2>(const scene::Scene&, Model<2>&);

@@ -8,6 +8,7 @@
 #include "model/side_points.hpp"
 #include "model/surface.hpp"
 #include "scene/derived.hpp"
+#include "scene/ground.hpp"
 #include "scene/scene.hpp"
 
 namespace model {
@@ -50,21 +51,36 @@ void add_tractions(const scene::Scene& scene, Model<Dim>& model) {
   }
 }
 
-// What presses on the surfaces that cutouts leave.
+// A pressure, and a shear along the surface that has the body to its left.
 template <int Dim>
-void add_cutout_tractions(const scene::Scene& scene, Model<Dim>& model) {
-  const bool scaled = scales_with(scene, scene::LoadKind::traction);
-  Eigen::Map<fpm::Field<Dim>> load((scaled ? model.scaled_load : model.constant_load).data(),
-                                   model.size(), Dim);
+void add_surface_load(const SurfacePoints<Dim>& surface, double pressure, double shear,
+                      Eigen::VectorXd& load) {
+  if (pressure == 0.0 && shear == 0.0) return;
+  fpm::Field<Dim> traction = -pressure * surface.points.normal;
+  // The normal turned to the left.
+  traction.col(0) -= shear * surface.points.normal.col(1);
+  traction.col(1) += shear * surface.points.normal.col(0);
+  Eigen::Map<fpm::Field<Dim>> field(load.data(), load.size() / Dim, Dim);
+  fpm::add_traction<Dim>(surface.op, surface.points, traction, field);
+}
+
+// What presses on the surfaces that cutouts leave, and on the scene's sides.
+template <int Dim>
+void add_surface_loads(const scene::Scene& scene, Model<Dim>& model) {
+  auto& growing =
+      scales_with(scene, scene::LoadKind::traction) ? model.scaled_load : model.constant_load;
   for (std::size_t i = 0; i < scene.cutout.size(); ++i) {
     const scene::Cutout& cutout = scene.cutout[i];
     if (cutout.pressure == 0.0 && cutout.shear == 0.0) continue;
-    const SurfacePoints<Dim> surface = surface_points(model, {i});
-    fpm::Field<Dim> traction = -cutout.pressure * surface.points.normal;
-    // Along the surface, the body to the left: the normal turned to the left.
-    traction.col(0) -= cutout.shear * surface.points.normal.col(1);
-    traction.col(1) += cutout.shear * surface.points.normal.col(0);
-    fpm::add_traction<Dim>(surface.op, surface.points, traction, load);
+    add_surface_load(surface_points(model, SurfacePart::of_cutout(i)), cutout.pressure,
+                     cutout.shear, growing);
+  }
+  for (std::size_t i = 0; i < scene.side.size(); ++i) {
+    const scene::OutlineSide& side = scene.side[i];
+    if (side.kind != scene::OutlineKind::loaded) continue;
+    const SurfacePoints<Dim> surface = surface_points(model, SurfacePart::of_side(i));
+    add_surface_load(surface, side.pressure, side.shear, model.constant_load);
+    add_surface_load(surface, side.live_pressure, side.live_shear, model.scaled_load);
   }
 }
 
@@ -140,7 +156,7 @@ void add_loads(const scene::Scene& scene, Model<Dim>& model) {
   model.scaled_load.setZero(model.unknowns());
   add_gravity(scene, model);
   add_tractions(scene, model);
-  add_cutout_tractions(scene, model);
+  add_surface_loads(scene, model);
   add_penalty_supports(scene, model);
 }
 
@@ -150,8 +166,24 @@ fpm::Face face_at(int axis, double position, double middle) {
   return {axis, position > middle};
 }
 
-// Of what is left of given faces of the box, but for the parts under plates, and of the surfaces
-// that cutouts leave.
+// The part of a side that is boundary by its own points: not where it goes on in images or is tied.
+SurfacePart bounding_part(const scene::Scene& scene, std::size_t side,
+                          const std::vector<fpm::Face>& faces) {
+  SurfacePart part = SurfacePart::of_side(side);
+  const bool tied = scene::holds(scene.side[side].kind);
+  part.without[SurfacePart::no_face] = tied;
+  for (int f = 0; f < 4; ++f) {
+    const auto face = static_cast<scene::Side>(f);
+    const bool bounds = std::ranges::any_of(faces, [&](const fpm::Face& other) {
+      return other.axis == scene::axis_of(face) && other.upper == scene::is_upper(face);
+    });
+    part.without[static_cast<std::size_t>(f)] = !bounds || (tied && !scene::is_held(scene, face));
+  }
+  return part;
+}
+
+// Of the surface of a body cut to shape, as far as it is on given faces of the box or on none, but
+// for the parts under plates.
 template <int Dim>
 fpm::Field<Dim> cut_area_vectors(const scene::Scene& scene, const Model<Dim>& model,
                                  const std::vector<fpm::Face>& faces,
@@ -161,16 +193,20 @@ fpm::Field<Dim> cut_area_vectors(const scene::Scene& scene, const Model<Dim>& mo
     const SurfacePoints<Dim> surface = surface_points(model, part);
     area += sign * fpm::area_vectors(surface.op, surface.points);
   };
-  for (std::size_t i = 0; i < scene.cutout.size(); ++i) add({i}, 1.0);
-  for (const fpm::Face& face : faces) add({{}, face}, 1.0);
+  for (std::size_t i = 0; i < scene.cutout.size(); ++i) {
+    if (scene.cutout[i].kind == scene::CutoutKind::free) add(SurfacePart::of_cutout(i), 1.0);
+  }
+  for (std::size_t i = 0; i < scene.side.size(); ++i) add(bounding_part(scene, i, faces), 1.0);
+  for (const fpm::Face& face : faces) {
+    if (scene.region.empty()) add(SurfacePart::of_face(face), 1.0);
+  }
   for (const auto& plate : plates) {
     const int along = 1 - plate.axis;
     const double middle = 0.5 * (model.box_min[plate.axis] + model.box_max[plate.axis]);
-    add({{},
-         face_at(plate.axis, plate.position, middle),
-         plate.range_min[along],
-         plate.range_max[along]},
-        -1.0);
+    SurfacePart under = SurfacePart::of_face(face_at(plate.axis, plate.position, middle));
+    under.from = plate.range_min[along];
+    under.to = plate.range_max[along];
+    add(under, -1.0);
   }
   return area;
 }
@@ -228,10 +264,11 @@ template <int Dim>
 fpm::Field<Dim> boundary_area_vectors(const scene::Scene& scene, const Model<Dim>& model) {
   fpm::Field<Dim> area = outer_area_vectors(scene, model);
   for (const Interface<Dim>& interface : model.interfaces) {
-    if (interface.is_rigid()) continue;
+    if (interface.is_rigid() && !interface.is_boundary) continue;
     const auto& points = interface.faces.points;
     const fpm::Field<Dim> piece = points.weight.asDiagonal() * points.normal;
     interface.faces.first.add_transposed_values(piece, area);
+    if (interface.is_rigid()) continue;
     interface.faces.second.add_transposed_values(fpm::Field<Dim>(-piece), area);
   }
   return area;

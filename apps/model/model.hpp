@@ -77,15 +77,28 @@ struct Interface {
   std::string support;              // whose the rigid body is; empty: the drive's, or none
   std::optional<Plate<Dim>> plate;  // a rigid body that is not driven in every way
 
+  // Whether these points, not those of a finer rule, are the body's boundary to the consistency
+  // correction, so that what they bear is what a constant stress asks of them.
+  bool is_boundary = false;
+
   bool is_rigid() const { return faces.second.size() == 0; }
 };
 
-/// A straight piece of the surface of a plane body with cutouts, within one cell; the body is to
+/// A straight piece of the surface of a plane body of any shape, within one cell; the body is to
 /// its left.
 struct SurfacePiece {
   Eigen::Vector2d from, to;  // [m]
   fpm::Index particle = 0;   // of that cell
-  int source = 0;            // index of the cutout; of the box's faces -1 left, -2 right, -3, -4
+  int cut = -1;              // index of the cutout that made it
+  int side = -1;             // index of the scene's side
+  int face = -1;             // of the box: 0 left, 1 right, 2 bottom, 3 top
+};
+
+/// A straight piece of where two regions of a plane body meet, about a spacing long; the particle
+/// `first` is to its left.
+struct JointPiece {
+  Eigen::Vector2d from, to;  // [m]
+  fpm::Index first = 0, second = 0;
 };
 
 /// A scene turned into particles, materials, constraints and loads: everything that stays the same
@@ -129,7 +142,8 @@ struct Model {
   std::vector<FollowingPressure<Dim>> following_pressures;
   std::vector<PenaltySupport<Dim>> penalty_supports;
   std::vector<Interface<Dim>> interfaces;
-  std::vector<SurfacePiece> surface;  // of a body with cutouts only
+  std::vector<SurfacePiece> surface;  // of a body with cutouts or regions only
+  std::vector<JointPiece> joints;     // of a body of regions only
 
   /// Number of points of all interfaces.
   Eigen::Index interface_points() const;

@@ -44,7 +44,10 @@ SurfacePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& mode
   }
   if (!model.surface.empty()) {
     const int along = 1 - face.axis;
-    return surface_points(model, {{}, face, from[along], to[along]});
+    SurfacePart part = SurfacePart::of_face(face);
+    part.from = from[along];
+    part.to = to[along];
+    return surface_points(model, part);
   }
   result.points = fpm::boundary_quadrature(model.cells, face, from, to);
   result.op = fpm::PointOperator<Dim>(model.particles, model.ghosts, result.points.position,

@@ -5,61 +5,16 @@
 #include <numeric>
 #include <set>
 
+#include "model/cut_cells.hpp"
 #include "scene/cutouts.hpp"
 #include "scene/derived.hpp"
+#include "scene/ground.hpp"
 #include "scene/scene.hpp"
 
 namespace model {
 namespace {
 
 using Place = Eigen::Vector2d;
-
-// What is left of each cell of a tree, and which cell stands for it.
-struct CutCells {
-  std::vector<shape::Part> part;
-  std::vector<fpm::Index> owner;
-};
-
-// The cell beside another that takes over what is left of it: the one with most left.
-fpm::Index heir(const fpm::Cells<2>& cells, const std::vector<shape::Part>& part,
-                const std::vector<char>& stands, fpm::Index a) {
-  fpm::Index best = -1;
-  const fpm::Index steps = cells.steps(a);
-  for (fpm::Index dx = -1; dx <= 1; ++dx) {
-    for (fpm::Index dy = -1; dy <= 1; ++dy) {
-      const auto at = [steps](fpm::Index d) { return d < 0 ? -1 : d > 0 ? steps : 0; };
-      const fpm::Index b = cells.holding(cells.place(a) + fpm::Cells<2>::Place(at(dx), at(dy)));
-      if (b < 0 || b == a || stands[static_cast<std::size_t>(b)] == 0) continue;
-      const auto k = static_cast<std::size_t>(b);
-      if (best < 0 || part[k].area > part[static_cast<std::size_t>(best)].area) best = b;
-    }
-  }
-  return best;
-}
-
-CutCells cut(const shape::Body& body, const fpm::Cells<2>& cells) {
-  // Less than this of a cell is no particle: its row would be close to singular.
-  constexpr double fewest = 0.3;
-  constexpr double nothing = 1e-9;
-  CutCells result;
-  std::vector<char> stands;
-  for (fpm::Index a = 0; a < cells.size(); ++a) {
-    const double cell = cells.width(a) * cells.width(a);
-    result.part.push_back(body.within(cells.lower(a), cells.upper(a)));
-    stands.push_back(result.part.back().area >= fewest * cell ? 1 : 0);
-  }
-  for (fpm::Index a = 0; a < cells.size(); ++a) {
-    const auto k = static_cast<std::size_t>(a);
-    const double cell = cells.width(a) * cells.width(a);
-    if (stands[k] != 0) {
-      result.owner.push_back(a);
-    } else {
-      result.owner.push_back(
-          result.part[k].area > nothing * cell ? heir(cells, result.part, stands, a) : -1);
-    }
-  }
-  return result;
-}
 
 // Parameters 0 ... 1 at which a segment crosses the lines of the finest cells, both ends included.
 std::vector<double> crossings(const fpm::LatticeOptions<2>& lattice, const Place& from,
@@ -78,28 +33,36 @@ std::vector<double> crossings(const fpm::LatticeOptions<2>& lattice, const Place
   return {at.begin(), at.end()};
 }
 
+// Unit normal of a segment, to its left.
+Place left_of(const Place& from, const Place& to) {
+  const Place along = (to - from).normalized();
+  return {-along.y(), along.x()};
+}
+
+constexpr double inward = 1e-6;  // spacings, to be on one side of a segment
+
 // Cuts the segments of a surface where they pass from one cell to another.
-std::vector<SurfacePiece> pieces_of(const shape::Body& body, const fpm::Cells<2>& cells) {
-  constexpr double inward = 1e-6;  // spacings, to be on the side of the body
+std::vector<SurfacePiece> pieces_of(const shape::Body& body, const CutCells& cut,
+                                    const fpm::Cells<2>& cells) {
   constexpr double sliver = 1e-9;  // spacings
   const auto& lattice = cells.lattice();
   std::vector<SurfacePiece> pieces;
   for (const shape::SurfaceSegment& segment : body.surface()) {
     const Place along = segment.to - segment.from;
-    const Place left = Place(-along.y(), along.x()).normalized() * (inward * lattice.spacing);
+    const Place left = left_of(segment.from, segment.to) * (inward * lattice.spacing);
     const auto cuts = crossings(lattice, segment.from, segment.to);
     bool first = true;
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
       if ((cuts[k + 1] - cuts[k]) * along.norm() <= sliver * lattice.spacing) continue;
       const Place middle = segment.from + 0.5 * (cuts[k] + cuts[k + 1]) * along;
-      const fpm::Index owner = cells.containing(middle + left);
+      const fpm::Index owner = cut.particle_at(middle + left, segment.region, cells);
       const Place end = segment.from + cuts[k + 1] * along;
       if (!first && pieces.back().particle == owner) {
         pieces.back().to = end;
         continue;
       }
       const Place begin = first ? segment.from : pieces.back().to;
-      pieces.push_back({begin, end, owner, segment.source});
+      pieces.push_back({begin, end, owner, segment.cut, segment.side, segment.face});
       first = false;
     }
     if (!first) pieces.back().to = segment.to;
@@ -107,32 +70,76 @@ std::vector<SurfacePiece> pieces_of(const shape::Body& body, const fpm::Cells<2>
   return pieces;
 }
 
+// Cuts a joint into pieces as long as the cells beside it are wide.
+std::vector<double> joint_cuts(const shape::Joint& joint, const fpm::Cells<2>& cells) {
+  const Place along = joint.to - joint.from;
+  const double length = along.norm();
+  std::vector<double> cuts{0.0};
+  while (cuts.back() < length) {
+    const double next = cuts.back() + 0.5 * cells.lattice().spacing;
+    const fpm::Index cell = cells.containing(joint.from + std::min(1.0, next / length) * along);
+    cuts.push_back(cuts.back() + (cell < 0 ? cells.lattice().spacing : cells.width(cell)));
+  }
+  // Stretched or shrunk to its length, whichever is less.
+  if (cuts.size() > 2 && cuts.back() - length > length - cuts[cuts.size() - 2]) cuts.pop_back();
+  for (double& cut : cuts) cut /= cuts.back();
+  return cuts;
+}
+
+std::vector<JointPiece> joints_of(const shape::Body& body, const CutCells& cut,
+                                  const fpm::Cells<2>& cells) {
+  std::vector<JointPiece> pieces;
+  for (const shape::Joint& joint : body.joints()) {
+    const Place along = joint.to - joint.from;
+    const Place left = left_of(joint.from, joint.to) * (inward * cells.lattice().spacing);
+    const auto cuts = joint_cuts(joint, cells);
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+      const Place middle = joint.from + 0.5 * (cuts[k] + cuts[k + 1]) * along;
+      pieces.push_back({joint.from + cuts[k] * along, joint.from + cuts[k + 1] * along,
+                        cut.particle_at(middle + left, joint.left, cells),
+                        cut.particle_at(middle - left, joint.right, cells)});
+    }
+  }
+  return pieces;
+}
+
+fpm::Index nearest_to(const Place& place, const fpm::Field<2>& position) {
+  Eigen::Index nearest = 0;
+  (position.rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+  return static_cast<fpm::Index>(nearest);
+}
+
 // Pieces that lie on what belongs to no cell, by round-off, go to the nearest particle.
 void find_owners(const fpm::Field<2>& position, std::vector<SurfacePiece>& pieces) {
   for (SurfacePiece& piece : pieces) {
     if (piece.particle >= 0) continue;
     const Place middle = 0.5 * (piece.from + piece.to);
-    Eigen::Index nearest = 0;
-    (position.rowwise() - middle.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
-    piece.particle = static_cast<fpm::Index>(nearest);
+    piece.particle = nearest_to(middle, position);
+  }
+}
+
+// What has no owner lies on what belongs to no cell, by round-off.
+void find_owners(const fpm::Field<2>& position, std::vector<JointPiece>& pieces) {
+  for (JointPiece& piece : pieces) {
+    const Place middle = 0.5 * (piece.from + piece.to);
+    for (fpm::Index* particle : {&piece.first, &piece.second}) {
+      if (*particle < 0) *particle = nearest_to(middle, position);
+    }
   }
 }
 
 void cut_plane_body(const scene::Scene& scene, Model<2>& model) {
   const shape::Body body = scene::body_of(scene);
   const fpm::Cells<2> whole = model.cells;
-  const CutCells left = cut(body, whole);
-  model.cells = whole.restricted(left.owner);
+  const CutCells cut(body, whole);
+  model.cells = cut.standing();
   model.particles = fpm::make_particles(model.cells);
   Eigen::VectorXd area = Eigen::VectorXd::Zero(model.size());
   fpm::Field<2> moment = fpm::Field<2>::Zero(model.size(), 2);
-  for (fpm::Index a = 0; a < whole.size(); ++a) {
-    const auto k = static_cast<std::size_t>(a);
-    if (left.owner[k] < 0) continue;
-    const fpm::Index b = model.cells.holding(whole.place(a));
-    area[b] += left.part[k].area;
-    moment.row(b) += left.part[k].area * (left.part[k].centroid - model.cells.site(b)).transpose();
-  }
+  cut.for_each_share(model.cells, [&](fpm::Index b, double share, const Place& centroid) {
+    area[b] += share;
+    moment.row(b) += share * (centroid - model.cells.site(b)).transpose();
+  });
   for (Eigen::Index b = 0; b < model.size(); ++b) {
     const double cell = std::pow(model.cells.width(static_cast<fpm::Index>(b)), 2);
     // A whole cell keeps its jitter, and its digits.
@@ -143,20 +150,35 @@ void cut_plane_body(const scene::Scene& scene, Model<2>& model) {
     model.particles.position.row(b) =
         model.cells.site(static_cast<fpm::Index>(b)).transpose() + moment.row(b) / area[b];
   }
-  model.surface = pieces_of(body, model.cells);
+  model.surface = pieces_of(body, cut, model.cells);
   find_owners(model.particles.position, model.surface);
+  if (scene.region.empty()) return;
+  model.joints = joints_of(body, cut, model.cells);
+  find_owners(model.particles.position, model.joints);
+  for (const int region : cut.regions(model.cells)) {
+    model.material.push_back(
+        static_cast<MaterialIndex>(scene::material_of(scene, static_cast<std::size_t>(region))));
+  }
 }
 
 bool is_of(const SurfacePiece& piece, const SurfacePart& part) {
-  const int source =
-      part.cutout ? static_cast<int>(*part.cutout) : SurfacePart::source_of(part.face);
-  return piece.source == source;
+  switch (part.of) {
+    case SurfacePart::Of::cutout:
+      return piece.cut == part.index;
+    case SurfacePart::Of::side:
+      return piece.side == part.index &&
+             !part.without[piece.face < 0 ? SurfacePart::no_face
+                                          : static_cast<std::size_t>(piece.face)];
+    case SurfacePart::Of::face:
+      break;
+  }
+  return piece.face == part.index;
 }
 
 // The part of a piece of a face that a range leaves; nothing if there is none.
 std::optional<SurfacePiece> clipped(SurfacePiece piece, const SurfacePart& part, double sliver) {
-  if (part.cutout) return piece;
-  const int along = 1 - part.face.axis;
+  if (part.of != SurfacePart::Of::face) return piece;
+  const int along = 1 - part.index / 2;
   for (double* x : {&piece.from[along], &piece.to[along]}) *x = std::clamp(*x, part.from, part.to);
   if ((piece.to - piece.from).norm() <= sliver) return std::nullopt;
   return piece;
@@ -239,10 +261,29 @@ fpm::CommonFaces<Dim> surface_faces(const Model<Dim>& model, const SurfacePart& 
   return faces;
 }
 
+template <int Dim>
+fpm::CommonFaces<Dim> joint_faces(const Model<Dim>& model) {
+  PointList<Dim> list;
+  fpm::CommonFaces<Dim> faces;
+  for (const JointPiece& joint : model.joints) {
+    const auto body = [&](fpm::Index a) {
+      return model.particles.body[static_cast<std::size_t>(a)];
+    };
+    if (fpm::share_body(body(joint.first), body(joint.second))) continue;
+    list.add({joint.from, joint.to, joint.first}, 1);
+    faces.second.push_back(joint.second);
+  }
+  faces.points = list.points();
+  faces.first = std::move(list.particle);
+  return faces;
+}
+
 template void cut_body<2>(const scene::Scene&, Model<2>&);
 template void cut_body<3>(const scene::Scene&, Model<3>&);
 template SurfacePoints<2> surface_points<2>(const Model<2>&, const SurfacePart&);
 template SurfacePoints<3> surface_points<3>(const Model<3>&, const SurfacePart&);
+template fpm::CommonFaces<2> joint_faces<2>(const Model<2>&);
+template fpm::CommonFaces<3> joint_faces<3>(const Model<3>&);
 template fpm::CommonFaces<2> surface_faces<2>(const Model<2>&, const SurfacePart&);
 template fpm::CommonFaces<3> surface_faces<3>(const Model<3>&, const SurfacePart&);
 

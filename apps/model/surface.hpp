@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -13,23 +14,31 @@ struct Scene;
 
 namespace model {
 
-/// Cuts the cells and the particles of a plane body with cutouts: a particle is at the centroid of
-/// what is left of its cell and stands for its area. What is left of a cell and too small for a
-/// particle of its own goes to a cell beside it. Fills `model.surface` with the pieces of the
-/// surface, each within one cell.
+/// Cuts the cells and the particles of a plane body with cutouts or of regions: a particle is at
+/// the centroid of what is left of its cell and stands for its area. What is left of a cell and too
+/// small for a particle of its own, or of another region than most of it, goes to a cell beside it.
+/// Fills `model.surface` with the pieces of the surface, each within one cell, and, of regions,
+/// `model.joints` and `model.material`.
 template <int Dim>
 void cut_body(const scene::Scene& scene, Model<Dim>& model);
 
-/// A part of the surface: what a cutout left, by its index, or what is left of a face of the box,
-/// within a range along it.
+/// A part of the surface: what a cutout left, a side of the scene, or what is left of a face of the
+/// box, within a range along it.
 struct SurfacePart {
-  std::optional<std::size_t> cutout;
-  fpm::Face face{};
+  enum class Of { cutout, side, face };
+  Of of = Of::cutout;
+  int index = 0;
   double from = -std::numeric_limits<double>::infinity();  // [m] along a face
   double to = std::numeric_limits<double>::infinity();
+  // Of a side, what does not count: its pieces on each face of the box, and those on none.
+  std::array<bool, 5> without{};
 
-  /// Number of a face in `SurfacePiece::source`.
-  static int source_of(const fpm::Face& face) { return -1 - 2 * face.axis - (face.upper ? 1 : 0); }
+  static SurfacePart of_cutout(std::size_t i) { return {Of::cutout, static_cast<int>(i)}; }
+  static SurfacePart of_side(std::size_t i) { return {Of::side, static_cast<int>(i)}; }
+  static constexpr std::size_t no_face = 4;
+  static SurfacePart of_face(const fpm::Face& face) {
+    return {Of::face, 2 * face.axis + (face.upper ? 1 : 0)};
+  }
 };
 
 /// Points on a part of the surface, and the operator between them and the particles.
@@ -46,5 +55,9 @@ SurfacePoints<Dim> surface_points(const Model<Dim>& model, const SurfacePart& pa
 /// One per particle and straight piece, as a contact wants them.
 template <int Dim>
 fpm::CommonFaces<Dim> surface_faces(const Model<Dim>& model, const SurfacePart& part);
+
+/// One per piece of the joints at which two bodies of particles meet.
+template <int Dim>
+fpm::CommonFaces<Dim> joint_faces(const Model<Dim>& model);
 
 }  // namespace model

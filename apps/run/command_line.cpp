@@ -57,10 +57,12 @@ po::options_description options() {
       ("threads", po::value<int>()->value_name("N"),
        "threads, at least 1; results do not depend on it; default: OpenMP's choice")  //
       ("max-wall", po::value<std::string>()->value_name("TIME"),
-       "stop resumably after this time: 5h, 30m, 90s, 1h30m")                    //
-      ("quiet", po::bool_switch(), "no progress; warnings and errors only")      //
-      ("scene-reference", po::bool_switch(), "print the reference of all keys")  //
-      ("version", po::bool_switch(), "print the version")                        //
+       "stop resumably after this time: 5h, 30m, 90s, 1h30m")  //
+      ("draw", po::value<std::string>()->value_name("FILE.svg"),
+       "check the scene and draw it: particles, materials, what holds and loads them")  //
+      ("quiet", po::bool_switch(), "no progress; warnings and errors only")             //
+      ("scene-reference", po::bool_switch(), "print the reference of all keys")         //
+      ("version", po::bool_switch(), "print the version")                               //
       ("help", po::bool_switch(), "print this help");
   return all;
 }
@@ -102,6 +104,10 @@ RunRequest request_of(const po::variables_map& values) {
   request.settings = program::texts(values, "set");
   if (values.count("resume") != 0) request.resume = ResumeFrom{values["resume"].as<std::string>()};
   request.check_only = values["check"].as<bool>();
+  if (values.count("draw") != 0) {
+    request.drawing = values["draw"].as<std::string>();
+    request.check_only = true;
+  }
   request.quiet = values["quiet"].as<bool>();
   if (values.count("threads") != 0) {
     request.threads = values["threads"].as<int>();
@@ -196,8 +202,8 @@ std::string graded_text(const scene::Scene& scene) {
 }
 
 std::string particles_text(const scene::Scene& scene) {
-  if (!scene.cutout.empty()) {
-    return fmt::format("{} ({}with cutouts, spacing {} m)", model::particle_count(scene),
+  if (scene::is_cut(scene)) {
+    return fmt::format("{} ({}cut to shape, spacing {} m)", model::particle_count(scene),
                        scene.grading.enabled ? "graded, " : "", scene.geometry.spacing);
   }
   if (scene.grading.enabled) {

@@ -25,6 +25,7 @@ struct RunRequest {
   std::vector<std::string> settings;  // the --set arguments, already applied to `scene`
   std::optional<ResumeFrom> resume;   // absent: a fresh run
   bool check_only = false;            // build the model, report particles and memory, do not run
+  std::filesystem::path drawing;      // where the scene is drawn, of a check; empty: nowhere
   int threads = 0;                    // 0: OpenMP's own choice
   std::optional<double> max_wall_s;   // [s] stop at the first converged step after it
   bool quiet = false;

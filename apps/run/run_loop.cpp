@@ -10,17 +10,20 @@
 #include <thread>
 
 #include "bounds/limit_check.hpp"
+#include "files/durable_file.hpp"
 #include "model/build.hpp"
 #include "model/measures.hpp"
 #include "model/state_file.hpp"
 #include "program/stop_signals.hpp"
 #include "program/version.hpp"
 #include "record/run_lock.hpp"
+#include "run/drawing.hpp"
 #include "run/recorder.hpp"
 #include "run/report.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
 #include "stepping/failure_report.hpp"
+#include "stepping/settle.hpp"
 #include "stepping/stepper.hpp"
 
 namespace run {
@@ -83,7 +86,7 @@ class Run {
         err_(err),
         system_(system),
         stop_(request.max_wall_s),
-        model_(model::build_model<Dim>(scene_)),
+        model_(stepping::model_at_rest<Dim>(scene_)),
         measures_(scene_, model_) {}
 
   program::ExitCode operator()() {
@@ -137,11 +140,22 @@ class Run {
     out_ << check_report(scene_, static_cast<std::size_t>(model_.size()),
                          static_cast<std::size_t>(model_.ghosts.size()),
                          stepper.bytes() + state_bytes, state_bytes);
+    draw();
     for (const std::string& warning : start.warnings) err_ << "warning: " << warning << '\n';
     if (!start.checkpoint.empty()) out_ << resumed_line(start) << '\n';
     for (const scene::SceneChange& change : start.changes)
       out_ << "changed: " << change.text() << '\n';
     return program::ExitCode::done;
+  }
+
+  void draw() const {
+    if (request_.drawing.empty()) return;
+    if constexpr (Dim == 2) {
+      files::write_text_durably(request_.drawing, drawing_of(scene_, model_), system_);
+      out_ << fmt::format("  {:<12} {}\n", "drawn", request_.drawing.string());
+    } else {
+      err_ << "warning: --draw: only plane scenes are drawn\n";
+    }
   }
 
   program::ExitCode say_finished(const RunStart<Dim>& start,
@@ -279,8 +293,13 @@ program::ExitCode run_programme(const RunRequest& request, std::ostream& out, st
   RunRequest begun = request;
   begun.scene = scene_in_force(request);
   omp_set_num_threads(thread_count(begun.threads, model::particle_count(*begun.scene)));
-  if (begun.scene->geometry.dimension == 2) return Run<2>(begun, out, err, system)();
-  return Run<3>(begun, out, err, system)();
+  try {
+    if (begun.scene->geometry.dimension == 2) return Run<2>(begun, out, err, system)();
+    return Run<3>(begun, out, err, system)();
+  } catch (const stepping::DoesNotSettle& failure) {
+    err << "error: " << failure.what() << '\n';
+    return program::ExitCode::not_converged;
+  }
 }
 
 }  // namespace run

@@ -162,7 +162,9 @@ void check_material(const Scene& scene, std::size_t index, tables::Diagnosis& di
   const auto key = [&](const char* name) { return table + "." + name; };
 
   const bool has_region = !material.region_min.empty() || !material.region_max.empty();
-  if (index == 0 && has_region) {
+  if (!scene.region.empty()) {
+    // They say where it is.
+  } else if (index == 0 && has_region) {
     diagnosis.error(material.region_min.empty() ? key("region_max") : key("region_min"),
                     "the first material has a region", "it fills the whole body: leave it out");
   } else if (index > 0 && !has_region && diagnosis.good({key("region_min"), key("region_max")})) {

@@ -5,6 +5,7 @@
 
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
+#include "scene/ground.hpp"
 #include "scene/names.hpp"
 #include "scene/places.hpp"
 
@@ -132,8 +133,7 @@ bool is_held(const Scene& scene, Axis axis) {
     const auto& d = support.directions;
     if (std::find(d.begin(), d.end(), axis) != d.end()) return true;
   }
-  const auto holds = [](const Cutout& cutout) { return cutout.kind != CutoutKind::free; };
-  if (std::ranges::any_of(scene.cutout, holds)) return true;
+  if (!tied_surfaces(scene).empty()) return true;
   if (scene.drive.kind != DriveKind::displacement) return false;
   const auto i = static_cast<std::size_t>(axis);
   return scene.drive.lateral == Lateral::fixed ||

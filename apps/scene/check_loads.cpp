@@ -131,13 +131,14 @@ void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
 void check_initial_stress(const Scene& scene, tables::Diagnosis& diagnosis) {
   const InitialStress& initial = scene.initial_stress;
   const std::string kind = "initial_stress.kind";
-  if (initial.kind != InitialStressKind::geostatic || !diagnosis.good({kind})) return;
+  if (initial.kind == InitialStressKind::none || !diagnosis.good({kind})) return;
   if (!diagnosis.good({"gravity.acceleration", "geometry.dimension"})) return;
   if (!has_gravity(scene)) {
-    diagnosis.error(kind, "found geostatic without gravity",
+    diagnosis.error(kind, fmt::format("found {} without gravity", name_of(initial.kind)),
                     "geostatic stress is carried weight: give gravity.acceleration");
     return;
   }
+  if (initial.kind == InitialStressKind::gravity) return;
   const Point& g = scene.gravity.acceleration;
   bool down = g[1] < 0.0;
   for (std::size_t i = 0; i < g.size(); ++i) down = down && (i == 1 || g[i] == 0.0);
@@ -276,19 +277,27 @@ void check_load(const Scene& scene, tables::Diagnosis& diagnosis) {
     return std::find(scales.begin(), scales.end(), kind) != scales.end();
   };
   const bool has_traction =
-      !scene.traction.empty() || std::ranges::any_of(scene.cutout, [](const Cutout& cutout) {
-        return cutout.pressure != 0.0 || cutout.shear != 0.0;
+      !scene.traction.empty() ||
+      std::ranges::any_of(
+          scene.cutout,
+          [](const Cutout& cutout) { return cutout.pressure != 0.0 || cutout.shear != 0.0; }) ||
+      std::ranges::any_of(scene.side, [](const OutlineSide& side) {
+        return side.live_pressure != 0.0 || side.live_shear != 0.0;
       });
   if (scaled(LoadKind::traction) && !has_traction && diagnosis.good({"traction"})) {
-    diagnosis.error("drive.scales", "found traction, but the scene has none", "add a [[traction]]");
+    diagnosis.error("drive.scales", "found traction, but the scene has none",
+                    scene.region.empty() ? "add a [[traction]]"
+                                         : "give a loaded [[side]] a live_pressure or live_shear");
   }
   if (scaled(LoadKind::gravity) && diagnosis.good({"gravity.acceleration"})) {
     if (!has_gravity(scene)) {
       diagnosis.error("drive.scales", "found gravity, but the scene has none",
                       "give gravity.acceleration");
-    } else if (scene.initial_stress.kind == InitialStressKind::geostatic) {
-      diagnosis.error("drive.scales", "found gravity with geostatic initial stress",
-                      "the initial stress already carries the whole weight");
+    } else if (scene.initial_stress.kind != InitialStressKind::none) {
+      diagnosis.error(
+          "drive.scales",
+          fmt::format("found gravity with {} initial stress", name_of(scene.initial_stress.kind)),
+          "the initial stress already carries the whole weight");
     }
   }
   const auto steps = scene.programme.steps.value_or(0);

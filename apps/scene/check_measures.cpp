@@ -6,6 +6,7 @@
 
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
+#include "scene/ground.hpp"
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
 
@@ -47,9 +48,7 @@ void check_support_name(const Scene& scene, const std::string& name, const std::
                         tables::Diagnosis& diagnosis) {
   std::vector<std::string> names;
   for (const Support& support : scene.support) names.push_back(support.name);
-  for (const Cutout& cutout : scene.cutout) {
-    if (cutout.kind != CutoutKind::free) names.push_back(cutout.name);
-  }
+  for (const std::string& tied : tied_surfaces(scene)) names.push_back(tied);
   if (std::ranges::find(names, name) != names.end() || !diagnosis.good({key})) return;
   diagnosis.error(key, fmt::format("found \"{}\"", name),
                   names.empty() ? "the scene has no support"

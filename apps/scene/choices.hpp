@@ -19,7 +19,13 @@ enum class DriveMethod { automatic, direct, ghosts, contact };
 enum class InterfaceKind { through, tied, contact };
 /// What happens at the surface that something cut out leaves.
 enum class CutoutKind { free, fixed, roller };
-enum class InitialStressKind { none, geostatic };
+/// What a part of the outline of regions is.
+enum class OutlineKind { free, loaded, fixed, roller, footing, symmetry };
+/// How a footing lies on the ground.
+enum class Base { rough, smooth };
+/// What fpm-limit lets grow until collapse.
+enum class Sought { footing, traction, gravity, strength, earthquake };
+enum class InitialStressKind { none, geostatic, gravity };
 enum class DriveKind { none, displacement, load };
 enum class Lateral { fixed, free };
 enum class LoadKind { traction, gravity, plate };

@@ -1,5 +1,6 @@
 #include "scene/cutouts.hpp"
 
+#include "scene/ground.hpp"
 #include "scene/scene.hpp"
 
 namespace scene {
@@ -21,7 +22,10 @@ shape::Body body_of(const Scene& scene) {
     cuts.push_back({ring_of(scene, cutout), cutout.outside});
   }
   const Geometry& geometry = scene.geometry;
-  return {{geometry.min[0], geometry.min[1]}, {geometry.max[0], geometry.max[1]}, cuts};
+  const shape::Point lower(geometry.min[0], geometry.min[1]);
+  const shape::Point upper(geometry.max[0], geometry.max[1]);
+  if (scene.region.empty()) return {lower, upper, cuts};
+  return {outline_of(scene), lower, upper, cuts};
 }
 
 }  // namespace scene

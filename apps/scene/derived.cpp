@@ -8,6 +8,7 @@
 #include <string>
 
 #include "constitutive/parameters.hpp"
+#include "scene/ground.hpp"
 #include "scene/scene.hpp"
 
 namespace scene {
@@ -130,10 +131,14 @@ DriveMethod resolve_drive_method(const Scene& scene) {
 
 bool resolve_consistency(const Scene& scene) {
   if (scene.approximation.consistency == Switch::automatic) {
-    return scene.geometry.jitter > 0.0 || scene.grading.enabled || !scene.cutout.empty() ||
+    return scene.geometry.jitter > 0.0 || scene.grading.enabled || is_cut(scene) ||
            holds_by_images(scene);
   }
   return scene.approximation.consistency == Switch::on;
+}
+
+bool is_cut(const Scene& scene) {
+  return !scene.cutout.empty() || !scene.region.empty();
 }
 
 SolverSettings resolve_solver(const Solver& solver) {
@@ -181,16 +186,18 @@ double side_position(const Geometry& geometry, Side side) {
 std::vector<Measure> resolve_measures(const Scene& scene) {
   if (!scene.measure.empty() || scene.drive.kind == DriveKind::displacement) return scene.measure;
   std::vector<Measure> all{{.name = "body", .kind = MeasureKind::max_displacement}};
-  for (std::size_t i = 0; i < scene.support.size(); ++i) {
-    const Support& support = scene.support[i];
-    std::string name = support.name;
+  std::vector<std::string> supports;
+  for (const Support& support : scene.support) supports.push_back(support.name);
+  for (const std::string& tied : tied_surfaces(scene)) supports.push_back(tied);
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    std::string name = supports[i];
     // The name of a column: neither commas nor spaces, and no other one's.
     for (char& c : name) {
       if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
     }
     const auto taken = [&](const Measure& other) { return other.name == name; };
     if (std::ranges::any_of(all, taken)) name.append(1, '_').append(std::to_string(i));
-    all.push_back({.name = name, .kind = MeasureKind::reaction, .support = support.name});
+    all.push_back({.name = name, .kind = MeasureKind::reaction, .support = supports[i]});
   }
   return all;
 }
@@ -210,6 +217,7 @@ double same_place(const Geometry& geometry) {
 }
 
 std::size_t material_at(const Scene& scene, std::span<const double> place) {
+  if (!scene.region.empty()) return material_of_region_at(scene, outline_of(scene), place);
   const double slack = same_place(scene.geometry);
   const auto holds = [&](const Material& material) {
     for (std::size_t i = 0; i < place.size(); ++i) {

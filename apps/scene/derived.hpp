@@ -63,9 +63,12 @@ struct Support;
 /// Whether there is a plane of symmetry at a side.
 [[nodiscard]] bool is_mirror(const Scene& scene, Side side);
 
+/// Whether the body is not the whole box: it has cutouts or is one of regions.
+[[nodiscard]] bool is_cut(const Scene& scene);
+
 /// Whether the consistency correction is on: `automatic` means on for jittered and graded sets,
-/// for bodies with cutouts, where sides are held by images and, what the particles decide, where
-/// materials are bodies of their own.
+/// for bodies that are not whole boxes, where sides are held by images and, what the particles
+/// decide, where materials are bodies of their own.
 [[nodiscard]] bool resolve_consistency(const Scene& scene);
 
 /// The solver's settings with the preset's values filled in.
@@ -94,7 +97,7 @@ struct SolverSettings {
 /// displacement, the reaction of each support and the largest displacement.
 [[nodiscard]] std::vector<Measure> resolve_measures(const Scene& scene);
 
-/// Index of the last material whose region holds a place; the first one fills the whole body.
+/// Index of the material at a place: of the region that holds it, or the last one whose box does.
 [[nodiscard]] std::size_t material_at(const Scene& scene, std::span<const double> place);
 
 /// Vertical stress [Pa] of geostatic ground at a place: the surcharge and the weight above, in

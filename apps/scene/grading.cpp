@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scene/derived.hpp"
+#include "scene/ground.hpp"
 
 namespace scene {
 
@@ -99,6 +100,10 @@ std::vector<FinePlace> fine_places(const Scene& scene) {
   }
   for (const Traction& traction : scene.traction) {
     add_ends(scene, traction.side, traction.range_min, traction.range_max, 0.0, places);
+  }
+  for (const shape::Point& corner : singular_corners(scene)) {
+    const Point at{corner.x(), corner.y()};
+    places.push_back({at, at, scene.geometry.spacing, 0.0});
   }
   for (const Refine& refine : scene.refine) {
     FinePlace place;

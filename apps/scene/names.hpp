@@ -24,7 +24,12 @@ inline constexpr std::array<std::string_view, 6> side{"left", "right", "bottom",
 inline constexpr std::array<std::string_view, 5> method{"auto", "direct", "penalty", "ghosts",
                                                         "contact"};
 inline constexpr std::array<std::string_view, 3> cutout{"free", "fixed", "roller"};
-inline constexpr std::array<std::string_view, 2> initial_stress{"none", "geostatic"};
+inline constexpr std::array<std::string_view, 6> outline{"free",   "loaded",  "fixed",
+                                                         "roller", "footing", "symmetry"};
+inline constexpr std::array<std::string_view, 2> base{"rough", "smooth"};
+inline constexpr std::array<std::string_view, 5> sought{"footing", "traction", "gravity",
+                                                        "strength", "earthquake"};
+inline constexpr std::array<std::string_view, 3> initial_stress{"none", "geostatic", "gravity"};
 inline constexpr std::array<std::string_view, 3> drive{"none", "displacement", "load"};
 inline constexpr std::array<std::string_view, 4> drive_method{"auto", "direct", "ghosts",
                                                               "contact"};
@@ -46,6 +51,15 @@ constexpr std::span<const std::string_view> names_of(Layout) {
 }
 constexpr std::span<const std::string_view> names_of(CutoutKind) {
   return names::cutout;
+}
+constexpr std::span<const std::string_view> names_of(OutlineKind) {
+  return names::outline;
+}
+constexpr std::span<const std::string_view> names_of(Base) {
+  return names::base;
+}
+constexpr std::span<const std::string_view> names_of(Sought) {
+  return names::sought;
 }
 constexpr std::span<const std::string_view> names_of(KernelKind) {
   return names::kernel;

@@ -4,6 +4,7 @@
 
 #include "files/durable_file.hpp"
 #include "scene/check.hpp"
+#include "scene/ground.hpp"
 #include "scene/scene.hpp"
 #include "scene/tables.hpp"
 #include "tables/nearest_name.hpp"
@@ -17,7 +18,9 @@ std::optional<Scene> parse_scene(std::string_view text, std::span<const std::str
   Scene scene;
   unreadable = tables::read_tables(text, settings, scene_tables(), scene, diagnosis);
   if (unreadable) return std::nullopt;
-  check_scene(scene, diagnosis);
+  complete(scene, diagnosis);
+  // Of ground that is none nothing else can be judged.
+  if (scene.region.empty() || diagnosis.errors().empty()) check_scene(scene, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   return scene;
 }

@@ -15,10 +15,10 @@ using Point = std::vector<double>;
 // Every key below has its unit, range, default, meaning and source in one place, the field table
 // (tables_*.cpp), which also makes share/doc/scene.md. Units are SI, tension is positive.
 
-/// The body: a box filled by a lattice of particles.
+/// The box that is filled by a lattice of particles: the body, or around its regions.
 struct Geometry {
   int dimension = 2;
-  Point min;             // [m]
+  Point min;             // [m] once read, of regions as well
   Point max;             // [m]
   double spacing = 0.0;  // [m] a whole number of times in each extent
   Layout layout = Layout::cell;
@@ -37,6 +37,39 @@ class PlanePoint {
 
  private:
   double x_, y_;
+};
+
+/// A polygon of one material.
+struct Region {
+  std::string name;
+  std::string material;             // its name
+  std::vector<PlanePoint> outline;  // either way around
+  bool operator==(const Region&) const = default;
+};
+
+/// A part of the outline of all regions together, and what it is.
+struct OutlineSide {
+  std::string name;
+  OutlineKind kind = OutlineKind::free;
+  std::vector<PlanePoint> along;  // a polyline, either way
+  double pressure = 0.0;          // [Pa] on the body, constant
+  double shear = 0.0;             // [Pa] along the surface, with the body to the left, constant
+  double live_pressure = 0.0;     // [Pa] likewise, at load parameter 1
+  double live_shear = 0.0;        // [Pa]
+  Base base = Base::rough;        // of a footing
+  bool tension = true;            // of a footing: whether it holds on to the ground
+  bool operator==(const OutlineSide&) const = default;
+};
+
+/// What fpm-limit seeks on the same ground, and the weight aslant of an earthquake.
+struct Load {
+  std::optional<Sought> sought;
+  double inclination = 0.0;    // [deg]
+  double eccentricity = 0.0;   // [m]
+  double kh = 0.0;             // horizontal weight over weight
+  double kv = 0.0;             // share of the weight that is lifted
+  std::optional<bool> guided;  // of a footing
+  bool operator==(const Load&) const = default;
 };
 
 /// What is cut out of the box, and what acts on the surface that it leaves; either an outline or a
@@ -97,6 +130,7 @@ struct Material {
   std::optional<double> friction_angle;   // [deg] present for the frictional models
   std::optional<double> dilation_angle;   // [deg] present for the frictional models
   double density = 0.0;                   // [kg/m3]
+  std::optional<double> unit_weight;      // [N/m3] which says the same
   std::optional<double> dilation_cutoff;  // accumulated plastic volume strain
   std::string match = "plane_strain";     // of a family of several
   Point region_min;                       // [m] empty: everywhere
@@ -267,6 +301,9 @@ struct Limit {
 struct Scene {
   std::string title;
   Geometry geometry;
+  std::vector<Region> region;
+  std::vector<OutlineSide> side;
+  Load load;
   std::vector<Cutout> cutout;
   Grading grading;
   std::vector<Refine> refine;

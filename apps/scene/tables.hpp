@@ -15,6 +15,7 @@ using SceneTable = tables::Table<Scene>;
 
 // One per group of tables; `scene_tables` joins them.
 [[nodiscard]] std::vector<SceneTable> body_tables();
+[[nodiscard]] std::vector<SceneTable> ground_tables();
 [[nodiscard]] std::vector<SceneTable> loading_tables();
 [[nodiscard]] std::vector<SceneTable> measure_tables();
 [[nodiscard]] std::vector<SceneTable> run_tables();

@@ -66,19 +66,24 @@ SceneTable top_level() {
 }
 
 SceneTable geometry() {
-  return tables::TableBuilder<Scene, Geometry>("geometry", &Scene::geometry,
-                                               "The body: a box filled by a lattice of particles.")
+  return tables::TableBuilder<Scene, Geometry>(
+             "geometry", &Scene::geometry,
+             "The body: a box filled by a lattice of particles, or "
+             "the regions in it.")
       .required()
-      .key("dimension", &Geometry::dimension,
-           {.need = tables::Need::required,
-            .range = tables::between(2, 3),
-            .doc = "2 is plane strain, per metre out of the plane."})
+      .key(
+          "dimension", &Geometry::dimension,
+          {.range = tables::between(2, 3), .doc = "2 is plane strain, per metre out of the plane."})
       .key("min", &Geometry::min,
-           {.need = tables::Need::required,
+           {.need = tables::Need::optional,
             .unit = "m",
-            .doc = "Lower corner, one entry per dimension."})
+            .doc = "Lower corner, one entry per dimension.",
+            .absent = "the lower corner of the regions"})
       .key("max", &Geometry::max,
-           {.need = tables::Need::required, .unit = "m", .doc = "Upper corner; y points up."})
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "Upper corner; y points up.",
+            .absent = "that of the regions, a whole number of spacings above min"})
       .key("spacing", &Geometry::spacing,
            {.need = tables::Need::required,
             .unit = "m",
@@ -147,7 +152,8 @@ SceneTable grading() {
              "Particles that are fine where it matters and coarse elsewhere: those of a balanced "
              "tree of cells 1, 2, 4, ... spacings wide.")
       .key("enabled", &Grading::enabled,
-           {.doc = "true: finest at the ends of plates and loads and at the places of [[refine]]."})
+           {.doc = "true: finest at the ends of plates and loads, at re-entrant corners of "
+                   "regions, at cutouts and at the places of [[refine]]."})
       .key("growth", &Grading::growth,
            {.range = {0.0, 1.0, true, false},
             .doc = "A: at a distance r from the nearest such place the spacing is at most "
@@ -244,8 +250,9 @@ SceneTable approximation() {
 SceneTable material() {
   return tables::TableBuilder<Scene, Material>(
              "material", &Scene::material,
-             "A material. The first fills the body; each later one has a region "
-             "and wins inside it over the earlier ones.")
+             "A material. The first fills the body; each later one has a box "
+             "and wins inside it over the earlier ones. Where there are [[region]]s, they say "
+             "where it is.")
       .required()
       .key("name", &Material::name,
            {.need = tables::Need::required,
@@ -263,6 +270,13 @@ SceneTable material() {
       .key("friction_angle", &Material::friction_angle, notes_of_strength("friction_angle"))
       .key("dilation_angle", &Material::dilation_angle, notes_of_strength("dilation_angle"))
       .key("density", &Material::density, notes_of("density", tables::Need::defaulted))
+      .key("unit_weight", &Material::unit_weight,
+           {.need = tables::Need::optional,
+            .unit = "N/m3",
+            .range = tables::at_least(0.0),
+            .doc = "Weight per volume; density is this over gravity's acceleration, 9.81 m/s2 "
+                   "down unless [gravity] says more.",
+            .absent = "density says it"})
       .key("dilation_cutoff", &Material::dilation_cutoff,
            notes_of("dilation_cutoff", tables::Need::optional, "never"))
       .key("match", &Material::match,

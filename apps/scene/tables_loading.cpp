@@ -112,7 +112,9 @@ SceneTable initial_stress() {
                                                     "The stress before the first step.")
       .key("kind", &InitialStress::kind,
            {.doc =
-                "geostatic: vertical stress from the weight above, horizontal stress K0 times it."})
+                "geostatic: vertical stress from the weight above, horizontal stress K0 times it. "
+                "gravity: what is left when weight and dead loads have been switched on, of a body "
+                "of any shape."})
       .key("surface", &InitialStress::surface,
            {.need = tables::Need::optional,
             .unit = "m",

@@ -12,6 +12,9 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
+
+#include "shape/outline.hpp"
 
 namespace shape {
 namespace {
@@ -39,60 +42,123 @@ Polygon polygon_of(const Ring& ring) {
   return polygon;
 }
 
+// An edge of a region before anything was cut out of it.
+struct Edge {
+  Point from, to;
+  int side = -1;
+  int other = -1;  // region beyond it
+};
+
+// A region with its edges, after the cuts.
+struct Region {
+  std::vector<Edge> edges;
+  Polygons polygons;
+  std::vector<std::pair<Point, Point>> rings;  // all straight pieces around it
+
+  // Whether its rings pass through a box; else the box is inside or outside as a whole.
+  bool is_cut(const Box& box) const {
+    return std::ranges::any_of(rings, [&](const auto& piece) {
+      const Point low = piece.first.cwiseMin(piece.second);
+      const Point high = piece.first.cwiseMax(piece.second);
+      if (high.x() < box.min_corner().x() || low.x() > box.max_corner().x() ||
+          high.y() < box.min_corner().y() || low.y() > box.max_corner().y()) {
+        return false;
+      }
+      return geometry::intersects(Segment(corner(piece.first), corner(piece.second)), box);
+    });
+  }
+};
+
+double distance_of(const Point& place, const Point& from, const Point& to) {
+  return geometry::distance(corner(place), Segment(corner(from), corner(to)));
+}
+
 }  // namespace
 
 struct Body::Shape {
   Point lower, upper;
   double slack = 0.0;  // [m] round-off of coordinates
-  Polygons polygons;
+  std::vector<Region> regions;
+  std::vector<Polygon> cuts;
   std::vector<SurfaceSegment> surface;
+  std::vector<Joint> joints;
 
-  // The face of the box that a segment is on; 0 for none.
+  Shape(const Point& low, const Point& high) : lower(low), upper(high) {
+    constexpr double round_off = 1e-12;
+    slack = round_off * std::max((upper - lower).maxCoeff(), std::max(lower.cwiseAbs().maxCoeff(),
+                                                                      upper.cwiseAbs().maxCoeff()));
+  }
+
+  void take(const std::vector<Cut>& given) {
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      if (const std::string why = objection(given[i].ring); !why.empty()) {
+        throw std::invalid_argument("cut " + std::to_string(i) + ": " + why);
+      }
+      cuts.push_back(polygon_of(given[i].ring));
+      for (Region& region : regions) {
+        Polygons left;
+        if (given[i].outside) {
+          geometry::intersection(region.polygons, cuts.back(), left);
+        } else {
+          geometry::difference(region.polygons, cuts.back(), left);
+        }
+        region.polygons = std::move(left);
+      }
+    }
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+      for (const Polygon& polygon : regions[r].polygons) {
+        add_ring(polygon.outer(), static_cast<int>(r));
+        for (const auto& hole : polygon.inners()) add_ring(hole, static_cast<int>(r));
+      }
+    }
+  }
+
+  // The face of the box that a segment is on; -1 for none.
   int face_at(const Point& from, const Point& to) const {
     const auto on = [&](int axis, double position) {
       return std::abs(from[axis] - position) <= slack && std::abs(to[axis] - position) <= slack;
     };
-    if (on(0, lower[0])) return -1;
-    if (on(0, upper[0])) return -2;
-    if (on(1, lower[1])) return -3;
-    return on(1, upper[1]) ? -4 : 0;
+    if (on(0, lower[0])) return 0;
+    if (on(0, upper[0])) return 1;
+    if (on(1, lower[1])) return 2;
+    return on(1, upper[1]) ? 3 : -1;
   }
 
-  void add_surface(const Polygon::ring_type& ring, const std::vector<Polygon>& rings) {
+  void add_ring(const Polygon::ring_type& ring, int r) {
+    Region& region = regions[static_cast<std::size_t>(r)];
     for (std::size_t k = 0; k + 1 < ring.size(); ++k) {
-      SurfaceSegment segment{point(ring[k]), point(ring[k + 1]), 0};
-      if ((segment.to - segment.from).norm() <= slack) continue;
-      segment.source = face_at(segment.from, segment.to);
-      if (segment.source == 0) segment.source = nearest_cut(segment, rings);
+      const Point from = point(ring[k]), to = point(ring[k + 1]);
+      if ((to - from).norm() <= slack) continue;
+      region.rings.emplace_back(from, to);
+      const Point middle = 0.5 * (from + to);
+      const Edge* const edge = nearest_edge(region, middle);
+      const auto [cut, to_cut] = nearest_cut(middle);
+      SurfaceSegment segment{from, to, -1, -1, face_at(from, to), r};
+      if (to_cut < distance_of(middle, edge->from, edge->to) && segment.face < 0) {
+        segment.cut = cut;
+      } else if (edge->other >= 0) {
+        if (r < edge->other) joints.push_back({from, to, r, edge->other});
+        continue;
+      } else {
+        segment.side = edge->side;
+      }
       surface.push_back(segment);
     }
   }
 
-  static int nearest_cut(const SurfaceSegment& segment, const std::vector<Polygon>& rings) {
-    const Corner middle = corner(0.5 * (segment.from + segment.to));
-    int nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < rings.size(); ++i) {
-      Line line(rings[i].outer().begin(), rings[i].outer().end());
-      const double distance = geometry::distance(middle, line);
-      if (distance >= least) continue;
-      least = distance;
-      nearest = static_cast<int>(i);
-    }
-    return nearest;
+  static const Edge* nearest_edge(const Region& region, const Point& place) {
+    return &*std::ranges::min_element(
+        region.edges, {}, [&](const Edge& edge) { return distance_of(place, edge.from, edge.to); });
   }
 
-  // Whether the surface passes through a box; else the box is inside or outside as a whole.
-  bool is_cut(const Box& box) const {
-    return std::ranges::any_of(surface, [&](const SurfaceSegment& s) {
-      if (std::max(s.from.x(), s.to.x()) < box.min_corner().x() ||
-          std::min(s.from.x(), s.to.x()) > box.max_corner().x() ||
-          std::max(s.from.y(), s.to.y()) < box.min_corner().y() ||
-          std::min(s.from.y(), s.to.y()) > box.max_corner().y()) {
-        return false;
-      }
-      return geometry::intersects(Segment(corner(s.from), corner(s.to)), box);
-    });
+  std::pair<int, double> nearest_cut(const Point& place) const {
+    std::pair<int, double> nearest{-1, std::numeric_limits<double>::infinity()};
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+      const Line line(cuts[i].outer().begin(), cuts[i].outer().end());
+      const double distance = geometry::distance(corner(place), line);
+      if (distance < nearest.second) nearest = {static_cast<int>(i), distance};
+    }
+    return nearest;
   }
 };
 
@@ -124,32 +190,33 @@ std::string objection(const Ring& ring) {
 }
 
 Body::Body(const Point& lower, const Point& upper, const std::vector<Cut>& cuts)
-    : shape_(std::make_unique<Shape>()) {
-  constexpr double round_off = 1e-12;
-  shape_->lower = lower;
-  shape_->upper = upper;
-  shape_->slack =
-      round_off * std::max((upper - lower).maxCoeff(),
-                           std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff()));
-  geometry::convert(Box(corner(lower), corner(upper)), shape_->polygons.emplace_back());
-  std::vector<Polygon> rings;
-  for (std::size_t i = 0; i < cuts.size(); ++i) {
-    if (const std::string why = objection(cuts[i].ring); !why.empty()) {
-      throw std::invalid_argument("cut " + std::to_string(i) + ": " + why);
-    }
-    rings.push_back(polygon_of(cuts[i].ring));
-    Polygons left;
-    if (cuts[i].outside) {
-      geometry::intersection(shape_->polygons, rings.back(), left);
-    } else {
-      geometry::difference(shape_->polygons, rings.back(), left);
-    }
-    shape_->polygons = std::move(left);
+    : shape_(std::make_unique<Shape>(lower, upper)) {
+  Region& box = shape_->regions.emplace_back();
+  geometry::convert(Box(corner(lower), corner(upper)), box.polygons.emplace_back());
+  const auto& ring = box.polygons.front().outer();
+  for (std::size_t k = 0; k + 1 < ring.size(); ++k) {
+    box.edges.push_back({point(ring[k]), point(ring[k + 1])});
   }
-  for (const Polygon& polygon : shape_->polygons) {
-    shape_->add_surface(polygon.outer(), rings);
-    for (const auto& hole : polygon.inners()) shape_->add_surface(hole, rings);
+  shape_->take(cuts);
+}
+
+Body::Body(const Outline& outline, const Point& lower, const Point& upper,
+           const std::vector<Cut>& cuts)
+    : shape_(std::make_unique<Shape>(lower, upper)) {
+  for (const std::vector<int>& ring : outline.regions) {
+    Ring corners;
+    for (const int p : ring) corners.push_back(outline.at(p));
+    shape_->regions.emplace_back().polygons.push_back(polygon_of(corners));
   }
+  for (const OutlineSegment& segment : outline.segments) {
+    const Point &from = outline.at(segment.first), &to = outline.at(segment.second);
+    const auto edges_of = [&](int r) -> auto& {
+      return shape_->regions[static_cast<std::size_t>(r)].edges;
+    };
+    edges_of(segment.left).push_back({from, to, segment.side, segment.right});
+    if (segment.right >= 0) edges_of(segment.right).push_back({to, from, -1, segment.left});
+  }
+  shape_->take(cuts);
 }
 
 Body::~Body() = default;
@@ -157,28 +224,58 @@ Body::Body(Body&&) noexcept = default;
 Body& Body::operator=(Body&&) noexcept = default;
 
 double Body::area() const {
-  return geometry::area(shape_->polygons);
+  double area = 0.0;
+  for (const Region& region : shape_->regions) area += geometry::area(region.polygons);
+  return area;
 }
 
 std::size_t Body::pieces() const {
-  return shape_->polygons.size();
+  std::vector<const Polygon*> all;
+  std::vector<std::size_t> piece;
+  for (const Region& region : shape_->regions) {
+    for (const Polygon& polygon : region.polygons) {
+      piece.push_back(all.size());
+      all.push_back(&polygon);
+    }
+  }
+  for (const Joint& joint : shape_->joints) {
+    // Those that have the middle of the joint on their rings are one.
+    const Corner middle = corner(0.5 * (joint.from + joint.to));
+    std::vector<std::size_t> meet;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (geometry::distance(middle, *all[i]) <= shape_->slack) meet.push_back(piece[i]);
+    }
+    for (const std::size_t other : meet) std::ranges::replace(piece, other, meet.front());
+  }
+  std::ranges::sort(piece);
+  return static_cast<std::size_t>(
+      std::ranges::distance(piece.begin(), std::unique(piece.begin(), piece.end())));
+}
+
+int Body::regions() const {
+  return static_cast<int>(shape_->regions.size());
 }
 
 const std::vector<SurfaceSegment>& Body::surface() const {
   return shape_->surface;
 }
 
-Part Body::within(const Point& lower, const Point& upper) const {
+const std::vector<Joint>& Body::joints() const {
+  return shape_->joints;
+}
+
+Part Body::within(const Point& lower, const Point& upper, int region) const {
   const Box box(corner(lower), corner(upper));
   const Point middle = 0.5 * (lower + upper);
-  if (!shape_->is_cut(box)) {
-    const bool inside = geometry::within(corner(middle), shape_->polygons);
+  const Region& of = shape_->regions[static_cast<std::size_t>(region)];
+  if (!of.is_cut(box)) {
+    const bool inside = geometry::within(corner(middle), of.polygons);
     return {inside ? (upper - lower).prod() : 0.0, middle};
   }
   Polygon whole;
   geometry::convert(box, whole);
   Polygons parts;
-  geometry::intersection(shape_->polygons, whole, parts);
+  geometry::intersection(of.polygons, whole, parts);
   // Measured from the middle, so that digits are those of the box.
   Part part;
   for (const Polygon& each : parts) {
@@ -195,7 +292,7 @@ Part Body::within(const Point& lower, const Point& upper) const {
 
 Stretch Body::along(const Point& from, const Point& to) const {
   Lines inside;
-  geometry::intersection(Line{corner(from), corner(to)}, shape_->polygons, inside);
+  geometry::intersection(Line{corner(from), corner(to)}, shape_->regions.front().polygons, inside);
   Stretch stretch;
   for (const Line& line : inside) {
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
@@ -213,13 +310,25 @@ double Body::distance_to_cuts(const Point& lower, const Point& upper) const {
   const Box box(corner(lower), corner(upper));
   double least = std::numeric_limits<double>::infinity();
   for (const SurfaceSegment& s : shape_->surface) {
-    if (s.source < 0) continue;
+    if (s.cut < 0) continue;
     // A bound first: most segments are further away than one before.
     const Point apart = (lower - s.from.cwiseMax(s.to)).cwiseMax(s.from.cwiseMin(s.to) - upper);
     if (apart.maxCoeff() >= least) continue;
     least = std::min(least, geometry::distance(Segment(corner(s.from), corner(s.to)), box));
   }
   return least;
+}
+
+double Body::distance_to_region(const Point& lower, const Point& upper, int region) const {
+  return geometry::distance(Box(corner(lower), corner(upper)),
+                            shape_->regions[static_cast<std::size_t>(region)].polygons);
+}
+
+double Body::thickness(int region) const {
+  const Region& of = shape_->regions[static_cast<std::size_t>(region)];
+  double perimeter = 0.0;
+  for (const auto& [from, to] : of.rings) perimeter += (to - from).norm();
+  return 2.0 * geometry::area(of.polygons) / perimeter;
 }
 
 }  // namespace shape

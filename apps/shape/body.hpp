@@ -16,11 +16,20 @@ struct Cut {
   bool outside = false;
 };
 
-/// A straight piece of a surface; the body is to the left of it.
+/// A straight piece of a surface; the body is to the left of it. What it is of, by number; -1:
+/// none.
 struct SurfaceSegment {
   Point from, to;
-  /// Which cut made it; of the box's own faces -1 left, -2 right, -3 bottom, -4 top.
-  int source = 0;
+  int cut = -1;   // that made it
+  int side = -1;  // of the outline
+  int face = -1;  // of the box: 0 left, 1 right, 2 bottom, 3 top
+  int region = 0;
+};
+
+/// A straight piece of where two regions meet.
+struct Joint {
+  Point from, to;
+  int left = 0, right = 0;
 };
 
 /// What of a box is in a body.
@@ -41,11 +50,17 @@ struct Stretch {
 /// What is wrong with a ring, in words; empty if it is a simple polygon.
 [[nodiscard]] std::string objection(const Ring& ring);
 
-/// A box with parts cut out, in the plane.
+struct Outline;
+
+/// A body in the plane: a box, or regions that adjoin each other within one, with parts cut out.
 class Body {
  public:
+  /// A box, the one region.
   /// @throws std::invalid_argument naming the ring by its place if `objection` has one
   Body(const Point& lower, const Point& upper, const std::vector<Cut>& cuts);
+  /// Regions; what of them is beyond the box does not count.
+  Body(const Outline& outline, const Point& lower, const Point& upper,
+       const std::vector<Cut>& cuts);
   ~Body();
   Body(Body&&) noexcept;
   Body& operator=(Body&&) noexcept;
@@ -53,12 +68,20 @@ class Body {
   [[nodiscard]] double area() const;
   /// Number of pieces that do not hang together.
   [[nodiscard]] std::size_t pieces() const;
+  [[nodiscard]] int regions() const;
 
-  [[nodiscard]] Part within(const Point& lower, const Point& upper) const;
+  [[nodiscard]] Part within(const Point& lower, const Point& upper, int region = 0) const;
+  /// What of a straight line is in the first region.
   [[nodiscard]] Stretch along(const Point& from, const Point& to) const;
   [[nodiscard]] const std::vector<SurfaceSegment>& surface() const;
-  /// Distance of a box from the surface that the cuts made, not from the faces of the body's box.
+  [[nodiscard]] const std::vector<Joint>& joints() const;
+  /// Distance of a box from the surface that the cuts made.
   [[nodiscard]] double distance_to_cuts(const Point& lower, const Point& upper) const;
+  /// How far a box is from a region; 0 inside it.
+  [[nodiscard]] double distance_to_region(const Point& lower, const Point& upper, int region) const;
+
+  /// Twice the area over the perimeter of a region: of a long one its thickness.
+  [[nodiscard]] double thickness(int region) const;
 
  private:
   struct Shape;

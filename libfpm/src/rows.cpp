@@ -152,7 +152,8 @@ template <int Dim>
 bool Rows<Dim>::same_body(Index row, Index b) const {
   if (body_.empty()) return true;
   const Index particle = b < size() ? b : ghosts_.source(b - size());
-  return body_[static_cast<std::size_t>(particle)] == body_[static_cast<std::size_t>(row)];
+  return share_body(body_[static_cast<std::size_t>(particle)],
+                    body_[static_cast<std::size_t>(row)]);
 }
 
 template <int Dim>

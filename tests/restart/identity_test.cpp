@@ -76,6 +76,7 @@ const std::vector<Case> cases{
      20,
      true},
     {"cutouts", &tunnel, {}, 8},
+    {"regions", &layered_slope, {}, 20, true},
     {"graded_cutouts", &tunnel, {"geometry.spacing=0.125", "grading.enabled=true"}, 8},
     {"block_3d", &block, {}, 6},
     {"mixed_block_3d",

@@ -97,6 +97,72 @@ checkpoints_every = 1
 checkpoints_kept = 100
 )";
 
+const std::string layered_slope = R"(
+title = "small footing on a layered slope at rest"
+[geometry]
+spacing = 0.25
+[grading]
+enabled = true
+growth = 0.5
+[[material]]
+name = "soil"
+model = "drucker_prager"
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+cohesion = 8e3
+friction_angle = 20.0
+dilation_angle = 5.0
+unit_weight = 18e3
+[[material]]
+name = "firm"
+model = "drucker_prager"
+youngs_modulus = 3e6
+poissons_ratio = 0.3
+cohesion = 15e3
+friction_angle = 25.0
+dilation_angle = 0.0
+unit_weight = 19e3
+[[region]]
+material = "firm"
+outline = [[0, 0], [4, 0], [4, 0.8], [0, 1.3]]
+[[region]]
+material = "soil"
+outline = [[0, 1.3], [4, 0.8], [4, 1.2], [2, 2], [0, 2]]
+[[side]]
+name = "left"
+kind = "symmetry"
+along = [[0, 2], [0, 0]]
+[[side]]
+name = "rigid"
+kind = "fixed"
+along = [[0, 0], [4, 0], [4, 1.2]]
+[[side]]
+name = "slope"
+kind = "loaded"
+pressure = 500
+along = [[4, 1.2], [2, 2]]
+[[side]]
+name = "level"
+kind = "free"
+along = [[2, 2], [1, 2]]
+[[side]]
+name = "strip"
+kind = "footing"
+along = [[0, 2], [1, 2]]
+[initial_stress]
+kind = "gravity"
+[drive]
+kind = "displacement"
+target = 0.1
+[re_search]
+enabled = true
+trigger = 0.02
+[output]
+frames_every = 0
+checkpoints_every = 1
+checkpoints_kept = 100
+)";
+
 const std::string block = R"(
 title = "small block"
 [geometry]

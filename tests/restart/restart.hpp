@@ -25,6 +25,8 @@ extern const std::string layered;
 extern const std::string loaded_plate;
 /// A plane slope over a tunnel, cut out of a box, whose weight grows.
 extern const std::string tunnel;
+/// A strip on a slope of two graded layers that was settled, pressed into it with re-search.
+extern const std::string layered_slope;
 /// A 3D elastic block whose weight grows.
 extern const std::string block;
 

@@ -104,6 +104,13 @@ TEST(FpmRun, ChecksWithASummaryAndACheckOnlyRequest) {
   EXPECT_THAT(called.out, HasSubstr("mixed, stiffness ratio 0.01"));
 }
 
+TEST(FpmRun, DrawsInsteadOfRunning) {
+  const Called called = call({footing, "--draw", "scene.svg"});
+  ASSERT_TRUE(called.request);
+  EXPECT_TRUE(called.request->check_only);
+  EXPECT_EQ(called.request->drawing, "scene.svg");
+}
+
 TEST(FpmRun, PrintsTheEffectiveSceneWithoutRunning) {
   const Called called = call({footing, "--print-effective", "--set", "re_search.enabled=false"});
   EXPECT_EQ(called.code, program::ExitCode::done);

@@ -70,7 +70,8 @@ colour = "red"
               ::testing::UnorderedElementsAre(
                   ::testing::StartsWith("s.toml:6:2: materials: no such table; "),
                   "s.toml:2:13: geometry.dimension: found 4; allowed is a whole number 2 .. 3",
-                  "s.toml:1:1: geometry.max: is missing; needed is a list of numbers [m]",
+                  "s.toml:1:1: geometry.max: is missing; needed is a list of numbers [m], unless "
+                  "[[region]]s are the body",
                   "s.toml:4:11: geometry.spacing: found -1; allowed is a number > 0 [m]",
                   "s.toml:5:1: geometry.colour: no such key; keys of [geometry] are dimension, "
                   "min, max, spacing, layout, jitter, seed",

@@ -56,7 +56,10 @@ TEST(Body, HasASurfaceThatSaysWhereItIsFrom) {
                   {{circle({1.0, 1.0}, 0.4, 1e-4), false}, {triangle, false}});
   expect_closed(body);
   std::map<int, double> length;
-  for (const SurfaceSegment& s : body.surface()) length[s.source] += (s.to - s.from).norm();
+  for (const SurfaceSegment& s : body.surface()) {
+    EXPECT_EQ(s.cut < 0, s.face >= 0);
+    length[s.cut < 0 ? -1 - s.face : s.cut] += (s.to - s.from).norm();
+  }
   EXPECT_NEAR(length[-1], 2.0, round_off);  // left
   EXPECT_NEAR(length[-4], 2.0, round_off);  // top
   EXPECT_NEAR(length[-2], 0.8, round_off);  // right, above the triangle

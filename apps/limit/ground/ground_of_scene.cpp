@@ -1,0 +1,176 @@
+#include "limit/ground/ground_of_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "constitutive/parameters.hpp"
+#include "scene/derived.hpp"
+#include "scene/ground.hpp"
+#include "scene/names.hpp"
+#include "scene/scene.hpp"
+#include "tables/reader.hpp"
+
+namespace limit::ground {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+std::vector<mesh::Point> points_of(const std::vector<scene::PlanePoint>& places) {
+  std::vector<mesh::Point> points;
+  for (const scene::PlanePoint& place : places) points.emplace_back(place.x(), place.y());
+  return points;
+}
+
+/// Takes from a scene what fpm-limit brackets and says what of it that is not.
+class Reader {
+ public:
+  Reader(const scene::Scene& scene, tables::Diagnosis& diagnosis)
+      : scene_(scene), diagnosis_(diagnosis) {}
+
+  GroundScene ground() {
+    found_.title = scene_.title;
+    refuse(!scene_.cutout.empty(), "cutout", "the ground has cutouts",
+           "fpm-limit knows regions alone: let their outlines go around what is cut out");
+    refuse(!scene_.traction.empty(), "traction", "the ground has a traction on a face of its box",
+           "give the [[side]] there kind = \"loaded\"");
+    take_load();
+    for (std::size_t m = 0; m < scene_.material.size(); ++m) take_material(m);
+    for (const scene::Region& region : scene_.region) {
+      found_.regions.push_back(
+          {region.name.empty() ? fmt::format("region {}", found_.regions.size()) : region.name,
+           region.material, scene::material_of(scene_, found_.regions.size()),
+           points_of(region.outline)});
+    }
+    for (const scene::OutlineSide& side : scene_.side) take_side(side);
+    check_supports();
+    return std::move(found_);
+  }
+
+ private:
+  void refuse(bool refused, const std::string& key, const std::string& found,
+              const std::string& allowed) {
+    if (refused) diagnosis_.error(key, found, allowed);
+  }
+
+  // What the drive lets grow, unless [load] says what is sought.
+  std::optional<Sought> sought() const {
+    if (scene_.load.sought) return static_cast<Sought>(*scene_.load.sought);
+    const scene::Drive& drive = scene_.drive;
+    if (drive.kind == scene::DriveKind::displacement || scene::loads_plate(drive)) {
+      return Sought::footing;
+    }
+    const auto grows = [&](scene::LoadKind kind) {
+      return drive.kind == scene::DriveKind::load && std::ranges::count(drive.scales, kind) > 0;
+    };
+    if (grows(scene::LoadKind::gravity)) return Sought::gravity;
+    if (grows(scene::LoadKind::traction)) return Sought::traction;
+    return std::nullopt;
+  }
+
+  void take_load() {
+    GroundLoad& load = found_.load;
+    const auto what = sought();
+    refuse(!what, "load.sought", "is missing, and the drive lets nothing grow",
+           "say what grows until collapse");
+    load.sought = what.value_or(load.sought);
+    load.inclination = scene_.load.inclination * degree;
+    load.eccentricity = scene_.load.eccentricity;
+    // A plate that is moved and has no point to turn about keeps its place and direction.
+    const bool is_moved = scene_.drive.kind == scene::DriveKind::displacement;
+    load.guided = scene_.load.guided;
+    if (!load.guided && is_moved) load.guided = scene_.drive.at.empty();
+    load.kv = scene_.load.kv;
+    load.kh = scene_.load.kh;
+    const scene::Point& gravity = scene_.gravity.acceleration;
+    if (gravity.empty()) return;
+    refuse(gravity[1] > 0.0 || (gravity[1] == 0.0 && gravity[0] != 0.0), "gravity.acceleration",
+           "it does not act downwards", "an earthquake is kh and kv of [load]");
+    if (gravity[1] >= 0.0) return;
+    weight_ = -gravity[1] / (1.0 - load.kv);
+    if (load.sought != Sought::earthquake) load.kh = gravity[0] / weight_;
+  }
+
+  void take_material(std::size_t m) {
+    const scene::Material& material = scene_.material[m];
+    const std::string table = fmt::format("material.{}.", m);
+    refuse(!scene::yields(material), table + "model", "an elastic material never yields",
+           "fpm-limit brackets collapse");
+    refuse(material.match != "plane_strain", table + "match", "found " + material.match,
+           "only strengths matched in plane strain are those of Mohr-Coulomb");
+    GroundMaterial soil;
+    soil.name = material.name;
+    const auto parameters = scene::yields(material) ? scene::parameters_of(material)
+                                                    : constitutive::MaterialParameters{};
+    soil.soil.cohesion = parameters.cohesion;
+    soil.soil.friction_angle = parameters.friction_angle * degree;
+    soil.dilation_angle = parameters.dilation_angle * degree;
+    soil.soil.unit_weight = material.density * weight_;
+    found_.materials.push_back(soil);
+  }
+
+  void take_side(const scene::OutlineSide& side) {
+    GroundSide taken;
+    taken.name = side.name;
+    taken.kind = static_cast<SideKind>(
+        side.kind == scene::OutlineKind::symmetry ? scene::OutlineKind::roller : side.kind);
+    taken.along = points_of(side.along);
+    taken.pressure = side.pressure;
+    taken.shear = side.shear;
+    taken.live_pressure = side.live_pressure;
+    taken.live_shear = side.live_shear;
+    taken.base = side.base == scene::Base::rough ? BaseKind::rough : BaseKind::smooth;
+    taken.tension = side.tension;
+    found_.sides.push_back(std::move(taken));
+  }
+
+  // Whatever is held is held by sides.
+  void check_supports() {
+    scene::Scene bare = scene_;
+    bare.support.clear();
+    bare.symmetry.clear();
+    tables::Diagnosis ignored("");
+    scene::complete(bare, ignored);
+    for (std::size_t i = 0; i < scene_.support.size(); ++i) {
+      const scene::Support& support = scene_.support[i];
+      const bool is_side = std::ranges::any_of(bare.support, [&](const scene::Support& other) {
+        return other.side == support.side && other.directions == support.directions;
+      });
+      refuse(!is_side, fmt::format("support.{}", i), "it holds something else than a side does",
+             "fpm-limit knows what the kinds of [[side]] hold");
+    }
+    for (std::size_t i = 0; i < scene_.symmetry.size(); ++i) {
+      refuse(std::ranges::count(bare.symmetry, scene_.symmetry[i]) == 0,
+             fmt::format("symmetry.{}", i), "it is not one of a side",
+             "give the [[side]] there kind = \"symmetry\"");
+    }
+  }
+
+  const scene::Scene& scene_;
+  tables::Diagnosis& diagnosis_;
+  double weight_ = 0.0;  // [m/s2] of the ground at rest
+  GroundScene found_;
+};
+
+// The kinds are told by the same words in the same order.
+static_assert(names::side.size() == scene::names::outline.size() &&
+              std::ranges::equal(names::side, scene::names::outline));
+static_assert(std::ranges::equal(names::sought, scene::names::sought));
+
+}  // namespace
+
+bool is_scene_of_both(std::string_view text) {
+  return is_ground_scene(text) && tables::has_table(text, "geometry");
+}
+
+std::optional<GroundScene> ground_of_scene(const scene::Scene& scene,
+                                           tables::Diagnosis& diagnosis) {
+  GroundScene ground = Reader(scene, diagnosis).ground();
+  if (!diagnosis.errors().empty()) return std::nullopt;
+  return ground;
+}
+
+}  // namespace limit::ground

@@ -1,0 +1,92 @@
+#include "scene/names.hpp"
+#include "scene/scene.hpp"
+#include "scene/tables.hpp"
+#include "tables/builder.hpp"
+
+namespace scene {
+
+namespace {
+
+SceneTable region() {
+  return tables::TableBuilder<Scene, Region>(
+             "region", &Scene::region,
+             "A polygon of one material; regions adjoin each other and are the body. Plane bodies "
+             "with the layout cell only. fpm-limit reads the same.")
+      .key("name", &Region::name, {.doc = "Serves messages."})
+      .key("material", &Region::material,
+           {.need = tables::Need::required, .doc = "Name of its material."})
+      .key("outline", &Region::outline,
+           {.need = tables::Need::required,
+            .unit = "m",
+            .doc = "Its corners, either way around, [[x, y], ...]."})
+      .build();
+}
+
+SceneTable side() {
+  return tables::TableBuilder<Scene, OutlineSide>(
+             "side", &Scene::side,
+             "A part of the outline of all regions together; every part belongs to one. On a face "
+             "of the box that is held alike everywhere it is a [[support]] or a [[symmetry]], "
+             "which --print-effective shows; a [[support]] of its name says more of that, such as "
+             "its method. Elsewhere particles are tied to it. fpm-limit reads the same.")
+      .key("name", &OutlineSide::name,
+           {.need = tables::Need::required, .doc = "Unique; serves messages and reactions."})
+      .key("kind", &OutlineSide::kind,
+           {.need = tables::Need::required,
+            .doc = "free: nothing acts on it. loaded: pressure and shear do. fixed: it is held. "
+                   "roller, symmetry: it is held across, and free along. footing: a rigid plate, "
+                   "what the drive moves or loads."})
+      .key("along", &OutlineSide::along,
+           {.need = tables::Need::required, .unit = "m", .doc = "A polyline on the outline."})
+      .key("pressure", &OutlineSide::pressure,
+           {.unit = "Pa", .doc = "loaded: on the body, a dead load, there from the start."})
+      .key("shear", &OutlineSide::shear,
+           {.unit = "Pa",
+            .doc = "loaded: along the surface, in the direction that has the body to its left; "
+                   "likewise."})
+      .key("live_pressure", &OutlineSide::live_pressure,
+           {.unit = "Pa", .doc = "loaded: what grows with traction in drive.scales."})
+      .key("live_shear", &OutlineSide::live_shear, {.unit = "Pa", .doc = "loaded: likewise."})
+      .key("base", &OutlineSide::base, {.doc = "footing: whether the ground slides along it."})
+      .key("tension", &OutlineSide::tension,
+           {.doc = "footing: false: it may lift off, by drive.method contact."})
+      .build();
+}
+
+SceneTable load() {
+  return tables::TableBuilder<Scene, Load>(
+             "load", &Scene::load,
+             "What fpm-limit seeks on the same ground; fpm-run takes kh and kv from it.")
+      .key("sought", &Load::sought,
+           {.need = tables::Need::optional,
+            .doc = "What grows until collapse: the footing's pressure, live pressures and shears, "
+                   "unit weights, what the strength may be divided by, or kh.",
+            .absent = "what the drive lets grow"})
+      .key("inclination", &Load::inclination,
+           {.unit = "deg",
+            .range = {.lower = -90.0, .upper = 90.0, .lower_open = true, .upper_open = true},
+            .doc = "Of the footing's load from the base's normal, towards +x (or +y); fpm-limit "
+                   "only."})
+      .key("eccentricity", &Load::eccentricity,
+           {.unit = "m",
+            .doc = "Of the footing's load from the base's middle, likewise; fpm-limit only."})
+      .key("kh", &Load::kh,
+           {.doc = "Of an earthquake: horizontal weight over weight, along +x or, if negative, "
+                   "-x."})
+      .key("kv", &Load::kv,
+           {.range = {.lower = -1.0, .upper = 1.0, .upper_open = true},
+            .doc = "Of an earthquake: the share of the weight that it lifts."})
+      .key("guided", &Load::guided,
+           {.need = tables::Need::optional,
+            .doc = "The footing moves along its normal alone; fpm-limit only.",
+            .absent = "if the drive moves it, unless drive.at lets it turn"})
+      .build();
+}
+
+}  // namespace
+
+std::vector<SceneTable> ground_tables() {
+  return {region(), side(), load()};
+}
+
+}  // namespace scene

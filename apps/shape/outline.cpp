@@ -1,0 +1,397 @@
+#include "shape/outline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace shape {
+
+namespace {
+
+double cross(const Point& a, const Point& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+std::string text_of(const Point& at) {
+  return fmt::format("({:.6g}, {:.6g})", at.x(), at.y());
+}
+
+double area_of(const std::vector<Point>& polygon) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  }
+  return twice / 2.0;
+}
+
+// Where two straight pieces cross within both, if they do; ends do not count.
+std::optional<Point> crossing(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const auto turns = [](const Point& p, const Point& q, const Point& r) {
+    return cross(q - p, r - p);
+  };
+  const double ac = turns(a, b, c), ad = turns(a, b, d), ca = turns(c, d, a), cb = turns(c, d, b);
+  if (!(ac * ad < 0.0 && ca * cb < 0.0)) return std::nullopt;
+  return Point(a + ca / (ca - cb) * (b - a));
+}
+
+class Arranger {
+ public:
+  Arranger(std::span<const NamedRing> regions, std::span<const NamedLine> sides,
+           tables::Diagnosis& diagnosis)
+      : regions_(regions), sides_(sides), diagnosis_(diagnosis) {}
+
+  Outline outline() {
+    measure();
+    if (is_good()) collect_points();
+    if (is_good() && points_are_apart()) {
+      for (auto& ring : result_.regions) divide(ring);
+      for (std::size_t r = 0; r < regions_.size(); ++r) check_itself(r);
+    }
+    if (is_good()) check_overlaps();
+    if (is_good()) join();
+    if (is_good()) check_connection();
+    if (is_good()) name_sides();
+    for (std::size_t r = 0; r < result_.regions.size(); ++r) result_.area += area_of(polygon(r));
+    return std::move(result_);
+  }
+
+ private:
+  using Ring = std::vector<int>;
+
+  [[nodiscard]] bool is_good() const { return diagnosis_.errors().empty(); }
+  [[nodiscard]] static std::string key(std::size_t region) {
+    return fmt::format("region.{}.outline", region);
+  }
+  [[nodiscard]] std::string name(std::size_t region) const { return regions_[region].name; }
+  [[nodiscard]] const Point& at(int point) const { return result_.at(point); }
+
+  void measure() {
+    Point low = regions_.front().ring.front(), high = low;
+    for (const NamedRing& region : regions_) {
+      for (const Point& point : region.ring) {
+        low = low.cwiseMin(point);
+        high = high.cwiseMax(point);
+      }
+    }
+    // Squares of lengths must neither overflow nor vanish.
+    constexpr double least = 1e-100, most = 1e100;
+    const double extent = (high - low).maxCoeff();
+    if (!(extent >= least && extent <= most)) {
+      diagnosis_.error(key(0), fmt::format("the ground is {:.3g} m across", extent),
+                       fmt::format("allowed are {:g} .. {:g} m", least, most));
+      return;
+    }
+    // Coordinates must tell places apart that are well within the tolerance.
+    constexpr double farthest = 1e6;
+    const double away = std::max(high.cwiseAbs().maxCoeff(), low.cwiseAbs().maxCoeff());
+    if (away > farthest * extent) {
+      diagnosis_.error(
+          key(0),
+          fmt::format("the ground is {:.3g} m across, {:.3g} m away from the origin", extent, away),
+          fmt::format("allowed is {:g} times its size", farthest));
+    }
+    result_.size = (high - low).norm();
+  }
+
+  int id_of(const Point& place) {
+    for (std::size_t i = 0; i < result_.points.size(); ++i) {
+      if ((result_.points[i] - place).norm() <= result_.tolerance()) return static_cast<int>(i);
+    }
+    result_.points.push_back(place);
+    return static_cast<int>(result_.points.size()) - 1;
+  }
+
+  void collect_points() {
+    for (std::size_t r = 0; r < regions_.size(); ++r) {
+      std::vector<Point> outline = regions_[r].ring;
+      // A polygon that is closed by its first point is the same polygon.
+      if (outline.size() > 1 && outline.front() == outline.back()) outline.pop_back();
+      if (area_of(outline) < 0.0) std::reverse(outline.begin(), outline.end());
+      Ring ring;
+      for (const Point& point : outline) ring.push_back(id_of(point));
+      if (ring.size() < 3) {
+        diagnosis_.error(key(r), fmt::format("found {} points", ring.size()),
+                         "a polygon has 3 or more");
+      }
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        if (ring[k] != ring[(k + 1) % ring.size()]) continue;
+        diagnosis_.error(key(r), fmt::format("found {} twice in a row", text_of(at(ring[k]))),
+                         "an outline passes no place twice");
+      }
+      result_.regions.push_back(std::move(ring));
+    }
+    for (std::size_t s = 0; s < sides_.size(); ++s) {
+      int before = -1;
+      for (const Point& point : sides_[s].along) {
+        const int here = id_of(point);
+        if (here == before) {
+          diagnosis_.error(fmt::format("side.{}.along", s),
+                           fmt::format("found {} twice in a row", text_of(point)),
+                           "a side passes no place twice");
+        }
+        before = here;
+      }
+    }
+  }
+
+  // The key of what has this point.
+  [[nodiscard]] std::string key_of_point(int point) const {
+    for (std::size_t r = 0; r < result_.regions.size(); ++r) {
+      const Ring& ring = result_.regions[r];
+      if (std::find(ring.begin(), ring.end(), point) != ring.end()) return key(r);
+    }
+    for (std::size_t s = 0; s < sides_.size(); ++s) {
+      for (const Point& place : sides_[s].along) {
+        if ((place - at(point)).norm() <= result_.tolerance()) {
+          return fmt::format("side.{}.along", s);
+        }
+      }
+    }
+    return "region";
+  }
+
+  // Nothing is thinner than a millionth of the ground's size, but what is meant to coincide.
+  bool points_are_apart() {
+    const double thin = 1e-6 * result_.size;
+    for (int i = 0; i < static_cast<int>(result_.points.size()); ++i) {
+      for (int j = 0; j < i; ++j) {
+        const double apart = (at(i) - at(j)).norm();
+        if (apart > thin) continue;
+        diagnosis_.error(key_of_point(i),
+                         fmt::format("{} and {} almost coincide", text_of(at(j)), text_of(at(i))),
+                         fmt::format("apart are at least {:.3g} m, or nothing", thin));
+        return false;
+      }
+      for (std::size_t r = 0; r < result_.regions.size(); ++r) {
+        const Ring& ring = result_.regions[r];
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+          const int a = ring[k], b = ring[(k + 1) % ring.size()];
+          if (i == a || i == b) continue;
+          const double apart = distance(at(i), at(a), at(b));
+          if (apart > thin || apart <= result_.tolerance()) continue;
+          diagnosis_.error(key(r),
+                           fmt::format("{} almost lies on {} - {}: a layer without thickness",
+                                       text_of(at(i)), text_of(at(a)), text_of(at(b))),
+                           fmt::format("apart are at least {:.3g} m, or nothing", thin));
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  // Takes every point that lies on a ring into it.
+  void divide(Ring& ring) const {
+    Ring divided;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const int a = ring[k], b = ring[(k + 1) % ring.size()];
+      std::vector<std::pair<double, int>> between;
+      for (int i = 0; i < static_cast<int>(result_.points.size()); ++i) {
+        if (i == a || i == b || distance(at(i), at(a), at(b)) > result_.tolerance()) continue;
+        between.emplace_back((at(i) - at(a)).norm(), i);
+      }
+      std::sort(between.begin(), between.end());
+      divided.push_back(a);
+      for (const auto& [along, point] : between) divided.push_back(point);
+    }
+    ring = divided;
+  }
+
+  void check_itself(std::size_t r) {
+    const Ring& ring = result_.regions[r];
+    const std::size_t n = ring.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = i + 1; j < n; ++j) {
+        if (ring[i] == ring[j]) {
+          diagnosis_.error(key(r),
+                           fmt::format("the polygon touches itself at {}", text_of(at(ring[i]))),
+                           "an outline passes no place twice");
+          return;
+        }
+        const auto place =
+            crossing(at(ring[i]), at(ring[i + 1]), at(ring[j]), at(ring[(j + 1) % n]));
+        if (!place) continue;
+        diagnosis_.error(key(r), fmt::format("the polygon crosses itself at {}", text_of(*place)),
+                         "an outline passes no place twice");
+        return;
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<Point> polygon(std::size_t r) const {
+    std::vector<Point> points;
+    for (const int point : result_.regions[r]) points.push_back(at(point));
+    return points;
+  }
+
+  void check_overlaps() {
+    for (std::size_t r = 0; r < regions_.size(); ++r) {
+      for (std::size_t other = 0; other < regions_.size(); ++other) {
+        if (other == r) continue;
+        const auto place = overlap(r, other);
+        if (!place) continue;
+        diagnosis_.error(key(std::max(r, other)),
+                         fmt::format("\"{}\" and \"{}\" overlap at {}", name(std::min(r, other)),
+                                     name(std::max(r, other)), text_of(*place)),
+                         "regions share sides at most");
+        return;
+      }
+    }
+  }
+
+  // A place of region r's outline that shows that it overlaps another one.
+  [[nodiscard]] std::optional<Point> overlap(std::size_t r, std::size_t other) const {
+    const std::vector<Point> mine = polygon(r), theirs = polygon(other);
+    for (std::size_t i = 0; i < mine.size(); ++i) {
+      const Point &a = mine[i], &b = mine[(i + 1) % mine.size()];
+      const Point middle = (a + b) / 2.0;
+      bool lies_on_it = false;
+      for (std::size_t j = 0; j < theirs.size(); ++j) {
+        const Point &c = theirs[j], &d = theirs[(j + 1) % theirs.size()];
+        if (const auto place = crossing(a, b, c, d)) return place;
+        if (a == c && b == d) return middle;
+        lies_on_it = lies_on_it || (a == d && b == c);
+      }
+      if (!lies_on_it && is_inside(theirs, middle)) return middle;
+    }
+    return std::nullopt;
+  }
+
+  void join() {
+    std::map<std::pair<int, int>, std::size_t> known;
+    for (std::size_t r = 0; r < result_.regions.size(); ++r) {
+      const Ring& ring = result_.regions[r];
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        const int a = ring[k], b = ring[(k + 1) % ring.size()];
+        const auto [at, is_new] = known.emplace(std::minmax(a, b), result_.segments.size());
+        if (is_new) {
+          result_.segments.push_back({a, b, static_cast<int>(r)});
+        } else {
+          result_.segments[at->second].right = static_cast<int>(r);
+        }
+      }
+    }
+  }
+
+  void check_connection() {
+    std::vector<std::size_t> part(regions_.size());
+    std::iota(part.begin(), part.end(), std::size_t{0});
+    for (const OutlineSegment& segment : result_.segments) {
+      if (segment.right < 0) continue;
+      const std::size_t from = part[static_cast<std::size_t>(segment.left)];
+      const std::size_t to = part[static_cast<std::size_t>(segment.right)];
+      std::replace(part.begin(), part.end(), from, to);
+    }
+    for (std::size_t r = 1; r < part.size(); ++r) {
+      if (part[r] == part[0]) continue;
+      diagnosis_.error(
+          key(r),
+          fmt::format("\"{}\" shares no side with \"{}\" or what adjoins it", name(r), name(0)),
+          "the ground is one piece");
+      return;
+    }
+    std::map<int, int> leaving;
+    for (const OutlineSegment& segment : result_.segments) {
+      if (segment.right >= 0 || ++leaving[segment.first] < 2) continue;
+      diagnosis_.error(
+          key(static_cast<std::size_t>(segment.left)),
+          fmt::format("the ground's outline touches itself at {}", text_of(at(segment.first))),
+          "regions share whole sides, and an outline passes no place twice");
+      return;
+    }
+  }
+
+  void name_sides() {
+    for (std::size_t s = 0; s < sides_.size(); ++s) {
+      const auto& along = sides_[s].along;
+      for (std::size_t i = 0; i + 1 < along.size(); ++i) name_piece(s, along[i], along[i + 1]);
+    }
+    if (!is_good()) return;
+    for (const OutlineSegment& segment : result_.segments) {
+      if (segment.right >= 0 || segment.side >= 0) continue;
+      diagnosis_.error(key(static_cast<std::size_t>(segment.left)),
+                       fmt::format("no [[side]] names the {} {} - {}",
+                                   is_hole(segment.first) ? "outline of a hole," : "outline",
+                                   text_of(at(segment.first)), text_of(at(segment.second))),
+                       "every part of the outline belongs to a side");
+      return;
+    }
+  }
+
+  void name_piece(std::size_t s, const Point& from, const Point& to) {
+    const std::string here = fmt::format("side.{}.along", s);
+    double covered = 0.0;
+    const double near = 2.0 * result_.tolerance();
+    for (OutlineSegment& segment : result_.segments) {
+      const Point &a = at(segment.first), &b = at(segment.second);
+      if (segment.right >= 0 || distance(a, from, to) > near || distance(b, from, to) > near) {
+        continue;
+      }
+      covered += (b - a).norm();
+      if (segment.side >= 0) {
+        const NamedLine& other = sides_[static_cast<std::size_t>(segment.side)];
+        diagnosis_.error(
+            here,
+            fmt::format("{} - {} is named by side \"{}\", too", text_of(a), text_of(b), other.name),
+            "a part of the outline belongs to one side");
+        return;
+      }
+      segment.side = static_cast<int>(s);
+    }
+    if (std::abs(covered - (to - from).norm()) > 1e-6 * result_.size) {
+      diagnosis_.error(
+          here, fmt::format("{} - {} lies off the ground's outline", text_of(from), text_of(to)),
+          "a side follows the outline of the regions together");
+    }
+  }
+
+  // Whether the outline's loop through a point runs clockwise.
+  [[nodiscard]] bool is_hole(int point) const {
+    std::vector<Point> loop;
+    for (int here = point; loop.empty() || here != point;) {
+      loop.push_back(at(here));
+      for (const OutlineSegment& segment : result_.segments) {
+        if (segment.right >= 0 || segment.first != here) continue;
+        here = segment.second;
+        break;
+      }
+    }
+    return area_of(loop) < 0.0;
+  }
+
+  std::span<const NamedRing> regions_;
+  std::span<const NamedLine> sides_;
+  tables::Diagnosis& diagnosis_;
+  Outline result_;
+};
+
+}  // namespace
+
+double distance(const Point& place, const Point& first, const Point& second) {
+  const Point along = second - first;
+  const double share = std::clamp((place - first).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (place - first - share * along).norm();
+}
+
+bool is_inside(const std::vector<Point>& polygon, const Point& place) {
+  bool inside = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    if ((a.y() > place.y()) == (b.y() > place.y())) continue;
+    const double x = a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    if (place.x() < x) inside = !inside;
+  }
+  return inside;
+}
+
+Outline join_regions(std::span<const NamedRing> regions, std::span<const NamedLine> sides,
+                     tables::Diagnosis& diagnosis) {
+  return Arranger(regions, sides, diagnosis).outline();
+}
+
+}  // namespace shape

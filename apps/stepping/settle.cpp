@@ -1,0 +1,88 @@
+#include "stepping/settle.hpp"
+
+#include <fmt/format.h>
+
+#include "model/build.hpp"
+#include "scene/derived.hpp"
+#include "scene/grading.hpp"
+#include "scene/scene.hpp"
+#include "stepping/stepper.hpp"
+
+namespace stepping {
+namespace {
+
+// The scene before its drive begins: weight grows on the same particles.
+scene::Scene settling(const scene::Scene& scene) {
+  scene::Scene ground = scene;
+  ground.initial_stress = {};
+  ground.approximation.kinematics = scene::KinematicsKind::small_strain;
+  // Where the drive's plate ends particles stay fine.
+  for (const scene::FinePlace& place : scene::fine_places(scene)) {
+    scene::Refine refine;
+    refine.region_min = place.min;
+    refine.region_max = place.max;
+    refine.spacing = place.spacing;
+    refine.radius = place.radius;
+    ground.refine.push_back(refine);
+  }
+  ground.grading.length = scene::resolve_grading_length(scene);
+  if (scene.drive.kind == scene::DriveKind::load) {
+    // What grows later is not there yet.
+    for (scene::OutlineSide& side : ground.side) side.live_pressure = side.live_shear = 0.0;
+    if (std::ranges::count(scene.drive.scales, scene::LoadKind::traction) > 0) {
+      ground.traction.clear();
+      for (scene::Cutout& cutout : ground.cutout) cutout.pressure = cutout.shear = 0.0;
+    }
+  }
+  ground.drive = {};
+  ground.drive.kind = scene::DriveKind::load;
+  ground.drive.scales = {scene::LoadKind::gravity};
+  ground.hourglass.control = scene::resolve_control(scene);
+  ground.programme = {};
+  ground.programme.steps = 10;
+  ground.re_search = {};
+  return ground;
+}
+
+template <int Dim>
+void take_stress(const model::Model<Dim>& ground, const model::State<Dim>& rest,
+                 model::Model<Dim>& model) {
+  model.initial_stress = rest.stress;
+  model.initial_load = model.constant_load;
+  // The drive's plate bears nothing yet; all other faces are those of the ground, in its order.
+  Eigen::Index point = 0;
+  std::size_t k = 0;
+  for (model::Interface<Dim>& interface : model.interfaces) {
+    if (interface.is_rigid() && interface.support.empty()) continue;
+    const Eigen::Index count = ground.interfaces.at(k++).faces.points.size();
+    interface.initial_traction = rest.interface_traction.middleCols(point, count).transpose();
+    point += count;
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+model::Model<Dim> model_at_rest(const scene::Scene& scene) {
+  model::Model<Dim> model = model::build_model<Dim>(scene);
+  if (scene.initial_stress.kind != scene::InitialStressKind::gravity) return model;
+  const scene::Scene ground_scene = settling(scene);
+  const model::Model<Dim> ground = model::build_model<Dim>(ground_scene);
+  model::State<Dim> rest = model::initial_state(ground);
+  LoadStepper<Dim> stepper(ground_scene, ground, rest);
+  while (!stepper.finished()) {
+    const StepResult result = stepper.advance();
+    if (result.outcome == StepOutcome::converged) continue;
+    throw DoesNotSettle(fmt::format(
+        "initial_stress.kind = \"gravity\": the ground does not stand under its own weight and "
+        "dead loads: no equilibrium beyond {:.3g} of them ({})",
+        rest.programme.load, result.reason));
+  }
+  take_stress(ground, rest, model);
+  return model;
+}
+
+template model::Model<2> model_at_rest<2>(const scene::Scene&);
+template model::Model<3> model_at_rest<3>(const scene::Scene&);
+
+}  // namespace stepping

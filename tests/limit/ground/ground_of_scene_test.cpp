@@ -1,0 +1,127 @@
+// A scene that both programs read.
+#include "limit/ground/ground_of_scene.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "scene/reader.hpp"
+#include "scene/scene.hpp"
+
+namespace {
+
+using namespace limit;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::string both = R"(
+[geometry]
+spacing = 0.1
+[[material]]
+name = "clay"
+model = "von_mises"
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+cohesion = 5e3
+unit_weight = 17e3
+[[material]]
+name = "sand"
+model = "drucker_prager"
+youngs_modulus = 1e7
+poissons_ratio = 0.3
+cohesion = 1e3
+friction_angle = 30
+dilation_angle = 10
+unit_weight = 19e3
+[[region]]
+material = "sand"
+outline = [[0, 0], [3, 0], [3, 1], [0, 1]]
+[[region]]
+name = "crust"
+material = "clay"
+outline = [[0, 1], [3, 1], [2, 2], [0, 2]]
+[[side]]
+name = "axis"
+kind = "symmetry"
+along = [[0, 2], [0, 0]]
+[[side]]
+name = "rigid"
+kind = "fixed"
+along = [[0, 0], [3, 0], [3, 1]]
+[[side]]
+name = "slope"
+kind = "loaded"
+pressure = 100
+along = [[3, 1], [2, 2]]
+[[side]]
+name = "top"
+kind = "free"
+along = [[2, 2], [0.5, 2]]
+[[side]]
+name = "strip"
+kind = "footing"
+base = "smooth"
+along = [[0.5, 2], [0, 2]]
+[drive]
+kind = "displacement"
+target = 0.01
+)";
+
+std::optional<ground::GroundScene> ground_of(const std::string& text,
+                                             std::vector<std::string>* errors = nullptr) {
+  tables::Diagnosis diagnosis("both.toml");
+  std::optional<tables::Complaint> unreadable;
+  const auto scene = scene::parse_scene(text, {}, diagnosis, unreadable);
+  std::optional<ground::GroundScene> ground;
+  if (scene) ground = ground::ground_of_scene(*scene, diagnosis);
+  if (errors != nullptr) {
+    for (const auto& error : diagnosis.errors()) errors->push_back(error.text());
+  }
+  return ground;
+}
+
+TEST(SceneOfBoth, IsTheSameGround) {
+  EXPECT_TRUE(ground::is_scene_of_both(both));
+  EXPECT_FALSE(ground::is_scene_of_both(both.substr(both.find("[[material]]"))));
+  const auto ground = ground_of(both);
+  ASSERT_TRUE(ground);
+  ASSERT_EQ(ground->materials.size(), 2U);
+  EXPECT_EQ(ground->materials[0].soil.cohesion, 5e3);
+  EXPECT_EQ(ground->materials[0].soil.friction_angle, 0.0);
+  EXPECT_NEAR(ground->materials[0].soil.unit_weight, 17e3, 1e-9);
+  EXPECT_DOUBLE_EQ(ground->materials[1].soil.friction_angle, std::numbers::pi / 6.0);
+  EXPECT_DOUBLE_EQ(ground->materials[1].dilation_angle, std::numbers::pi / 18.0);
+  ASSERT_EQ(ground->regions.size(), 2U);
+  EXPECT_EQ(ground->regions[0].material, 1U);
+  EXPECT_EQ(ground->regions[1].name, "crust");
+  ASSERT_EQ(ground->sides.size(), 5U);
+  EXPECT_EQ(ground->sides[0].kind, ground::SideKind::roller);
+  EXPECT_EQ(ground->sides[1].kind, ground::SideKind::fixed);
+  EXPECT_EQ(ground->sides[2].pressure, 100.0);
+  EXPECT_EQ(ground->sides[4].kind, ground::SideKind::footing);
+  EXPECT_EQ(ground->sides[4].base, ground::BaseKind::smooth);
+  EXPECT_EQ(ground->load.sought, ground::Sought::footing);
+  // The plate of a run neither turns nor moves along itself.
+  EXPECT_EQ(ground->load.guided, true);
+}
+
+TEST(SceneOfBoth, SeeksWhatItSays) {
+  const auto sought = ground_of(both + "[load]\nsought = \"strength\"\nkh = 0.1\nkv = -0.1\n");
+  ASSERT_TRUE(sought);
+  EXPECT_EQ(sought->load.sought, ground::Sought::strength);
+  EXPECT_NEAR(sought->load.kh, 0.1, 1e-12);
+  EXPECT_EQ(sought->load.kv, -0.1);
+  EXPECT_NEAR(sought->materials[1].soil.unit_weight, 19e3, 1e-9);
+}
+
+TEST(SceneOfBoth, SaysWhatFpmLimitDoesNotBracket) {
+  std::vector<std::string> errors;
+  EXPECT_FALSE(ground_of(both + "[[cutout]]\nname = \"tunnel\"\ncentre = [1, 0.5]\nradius = 0.2\n"
+                                "[[support]]\nname = \"post\"\nat = [1, 1]\ndirections = [\"x\"]\n",
+                         &errors));
+  EXPECT_THAT(errors, ElementsAre(HasSubstr("cutout: the ground has cutouts"),
+                                  HasSubstr("it holds something else than a side does")));
+}
+
+}  // namespace
