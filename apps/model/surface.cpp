@@ -269,7 +269,7 @@ fpm::CommonFaces<Dim> joint_faces(const Model<Dim>& model) {
     const auto body = [&](fpm::Index a) {
       return model.particles.body[static_cast<std::size_t>(a)];
     };
-    if (fpm::share_body(body(joint.first), body(joint.second))) continue;
+    if (body(joint.first) == body(joint.second)) continue;
     list.add({joint.from, joint.to, joint.first}, 1);
     faces.second.push_back(joint.second);
   }

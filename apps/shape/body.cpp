@@ -69,6 +69,43 @@ struct Region {
   }
 };
 
+// What of a polygon is on the side of a line across an axis that has `sign` times more than `limit`
+// (Sutherland & Hodgman 1974). Pieces that the line parts stay joined along it, which adds no area.
+Ring cut_off(const Ring& ring, int axis, double limit, double sign) {
+  Ring kept;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Point &from = ring[k], &to = ring[(k + 1) % ring.size()];
+    const double before = sign * (from[axis] - limit), after = sign * (to[axis] - limit);
+    if (before >= 0.0) kept.push_back(from);
+    if ((before > 0.0 && after < 0.0) || (before < 0.0 && after > 0.0)) {
+      Point crossing = from + before / (before - after) * (to - from);
+      crossing[axis] = limit;
+      kept.push_back(crossing);
+    }
+  }
+  return kept;
+}
+
+// Adds what a ring has in a box: its area, negative of a hole, and first moment about the box's
+// middle, so that digits are those of the box. Boost's intersection takes the whole ring for it
+// where an edge goes through a corner of the box.
+void add_part(const Polygon::ring_type& closed, const Point& lower, const Point& upper,
+              Part& part) {
+  Ring ring;
+  const Point middle = 0.5 * (lower + upper);
+  for (std::size_t k = 0; k + 1 < closed.size(); ++k) ring.push_back(point(closed[k]) - middle);
+  for (const int axis : {0, 1}) {
+    ring = cut_off(ring, axis, lower[axis] - middle[axis], 1.0);
+    ring = cut_off(ring, axis, upper[axis] - middle[axis], -1.0);
+  }
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Point &a = ring[k], &b = ring[(k + 1) % ring.size()];
+    const double twice = a.x() * b.y() - a.y() * b.x();
+    part.area += 0.5 * twice;
+    part.centroid += twice / 6.0 * (a + b);
+  }
+}
+
 double distance_of(const Point& place, const Point& from, const Point& to) {
   return geometry::distance(corner(place), Segment(corner(from), corner(to)));
 }
@@ -272,21 +309,13 @@ Part Body::within(const Point& lower, const Point& upper, int region) const {
     const bool inside = geometry::within(corner(middle), of.polygons);
     return {inside ? (upper - lower).prod() : 0.0, middle};
   }
-  Polygon whole;
-  geometry::convert(box, whole);
-  Polygons parts;
-  geometry::intersection(of.polygons, whole, parts);
-  // Measured from the middle, so that digits are those of the box.
   Part part;
-  for (const Polygon& each : parts) {
-    const double area = geometry::area(each);
-    if (!(area > 0.0)) continue;
-    Corner centroid(0.0, 0.0);
-    geometry::centroid(each, centroid);
-    part.area += area;
-    part.centroid += area * (point(centroid) - middle);
+  for (const Polygon& polygon : of.polygons) {
+    add_part(polygon.outer(), lower, upper, part);
+    for (const auto& hole : polygon.inners()) add_part(hole, lower, upper, part);
   }
-  part.centroid = part.area > 0.0 ? Point(middle + part.centroid / part.area) : middle;
+  if (!(part.area > 0.0)) return {0.0, middle};
+  part.centroid = middle + part.centroid / part.area;
   return part;
 }
 

@@ -72,12 +72,13 @@ std::vector<char> thin_cells(const Cells<Dim>& cells, Union& bodies, Index thick
 // Of each cell, whether any cell of its body is not thin.
 std::vector<char> of_any_thick(Union& bodies, const std::vector<char>& thin) {
   std::vector<char> body(thin.size(), 0), result;
+  const auto root = [&](std::size_t a) {
+    return static_cast<std::size_t>(bodies.find(static_cast<Index>(a)));
+  };
   for (std::size_t a = 0; a < thin.size(); ++a) {
-    if (thin[a] == 0) body[static_cast<std::size_t>(bodies.find(static_cast<Index>(a)))] = 1;
+    if (thin[a] == 0) body[root(a)] = 1;
   }
-  for (std::size_t a = 0; a < thin.size(); ++a) {
-    result.push_back(body[static_cast<std::size_t>(bodies.find(static_cast<Index>(a)))]);
-  }
+  for (std::size_t a = 0; a < thin.size(); ++a) result.push_back(body[root(a)]);
   return result;
 }
 
@@ -93,11 +94,7 @@ std::vector<Index> bodies_of(const Cells<Dim>& cells, const std::vector<Index>& 
         std::minmax(label[static_cast<std::size_t>(a)], label[static_cast<std::size_t>(b)]);
     if (low == high || joined(low, high)) bodies.unite(a, b);
   });
-  const std::vector<char> thin = thin_cells(cells, bodies, thickness);
-  const std::vector<char> thick = of_any_thick(bodies, thin);
-  const auto is_thin_part = [&](Index a) {
-    return thin[static_cast<std::size_t>(a)] != 0 && thick[static_cast<std::size_t>(a)] != 0;
-  };
+  const std::vector<char> thick = of_any_thick(bodies, thin_cells(cells, bodies, thickness));
   cells.for_each_pair([&](Index a, Index b, int /*axis*/) {
     if (thick[static_cast<std::size_t>(a)] == 0 || thick[static_cast<std::size_t>(b)] == 0) {
       bodies.unite(a, b);
@@ -110,10 +107,6 @@ std::vector<Index> bodies_of(const Cells<Dim>& cells, const std::vector<Index>& 
     if (own < 0) own = next++;
     body.push_back(own);
   }
-  // Within one body there is nothing to be seen across.
-  for (Index a = 0; a < cells.size() && next > 1; ++a) {
-    if (is_thin_part(a)) body[static_cast<std::size_t>(a)] = every_body;
-  }
   return body;
 }
 
@@ -122,7 +115,7 @@ CommonFaces<Dim> common_faces(const Cells<Dim>& cells, const std::vector<Index>&
   require_size("bodies", static_cast<Eigen::Index>(body.size()), cells.size());
   CommonFaces<Dim> faces;
   cells.for_each_pair([&](Index a, Index b, int axis) {
-    if (share_body(body[static_cast<std::size_t>(a)], body[static_cast<std::size_t>(b)])) return;
+    if (body[static_cast<std::size_t>(a)] == body[static_cast<std::size_t>(b)]) return;
     const bool below = cells.width(a) <= cells.width(b);
     append_face(cells, below ? a : b, {axis, below}, faces);
     faces.points.normal(faces.points.weight.size() - 1, axis) = 1.0;

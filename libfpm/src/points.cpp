@@ -107,7 +107,7 @@ class Surroundings {
               std::vector<Index>& found) const {
     within(centre, radius, found);
     if (particles_.body.empty()) return;
-    std::erase_if(found, [&](Index b) { return !share_body(body_of(b), body_of(own)); });
+    std::erase_if(found, [&](Index b) { return body_of(b) != body_of(own); });
   }
 
   // The nearest particle, searched for in balls that grow from a radius.

@@ -95,6 +95,11 @@ Rows<Dim>::Rows(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
     const double narrowest = support_radius_of(particles, a, options);
     double radius = narrowest;
     for (;; radius *= growth) {
+      if (radius > options.max_enlargement * narrowest && !body_.empty() && !sees_all(a)) {
+        sees_all_.resize(static_cast<std::size_t>(n), 0);
+        sees_all_[static_cast<std::size_t>(a)] = 1;
+        radius = narrowest;
+      }
       if (radius > options.max_enlargement * narrowest) {
         throw std::runtime_error("particle " + std::to_string(a) + " has no well-conditioned " +
                                  "neighbourhood within " + std::to_string(options.max_enlargement) +
@@ -152,8 +157,8 @@ template <int Dim>
 bool Rows<Dim>::same_body(Index row, Index b) const {
   if (body_.empty()) return true;
   const Index particle = b < size() ? b : ghosts_.source(b - size());
-  return share_body(body_[static_cast<std::size_t>(particle)],
-                    body_[static_cast<std::size_t>(row)]);
+  return body_[static_cast<std::size_t>(particle)] == body_[static_cast<std::size_t>(row)] ||
+         sees_all(row);
 }
 
 template <int Dim>

@@ -70,6 +70,24 @@ TEST(Body, HasASurfaceThatSaysWhereItIsFrom) {
   EXPECT_NEAR(length[1], std::hypot(2.0 - corner, 1.2), round_off);
 }
 
+// An edge through the corners of cells, which Boost's intersection with a box does not bear.
+TEST(Body, IsPartedByEdgesThroughCornersOfCells) {
+  const Body body(
+      {0.0, 0.0}, {3.0, 2.0},
+      {{{{0.0, 0.8}, {3.0, 0.4}, {3.0, 0.6}, {2.4, 0.6}, {1.0, 2.0}, {0.0, 2.0}}, true}});
+  double area = 0.0;
+  for (int i = 0; i < 30; ++i) {
+    for (int j = 0; j < 20; ++j) {
+      const double width = 0.1;
+      const Part part = body.within(Point(i, j) * width, Point(i + 1, j + 1) * width);
+      EXPECT_LE(part.area, width * width * (1.0 + 1e-12));
+      area += part.area;
+    }
+  }
+  EXPECT_NEAR(area, body.area(), 1e-12);
+  EXPECT_NEAR(area, 3.0 * 0.6 + 0.5 * (1.0 + 2.4) * 1.4 - 0.5 * 3.0 * (0.8 + 0.4), 1e-12);
+}
+
 // The parts of the cells of any grid are the body.
 TEST(Body, IsTheSumOfItsParts) {
   const Body body({0.0, 0.0}, {1.0, 1.0},

@@ -15,10 +15,8 @@ namespace fpm {
 /// `joined`.
 /// @param label  of each particle
 /// @param joined  whether cells with two different labels, the smaller first, are of one body
-/// @param thickness  [cells] a body thinner than that, along any axis, joins its neighbours, as
-/// rows
-///   of its own would be singular; where a part of it is, as at the tip of a wedge, that part is of
-///   `every_body`
+/// @param thickness  [cells] a body that is thinner than that, along any axis, everywhere
+///   joins its neighbours: rows of its own would be singular
 /// @returns a body for each particle, numbered by first appearance; jitter does not matter.
 /// @throws ShapeError if there is not one label per particle.
 template <int Dim>
@@ -34,8 +32,7 @@ struct CommonFaces {
   std::vector<Index> second;   ///< ... on the second
 };
 
-/// The faces that cells of different bodies (not of `every_body`) share; of two cells' the
-/// narrower's.
+/// The faces that cells of different bodies share; of two cells' the narrower's.
 /// @throws ShapeError if there is not one body per particle.
 template <int Dim>
 CommonFaces<Dim> common_faces(const Cells<Dim>& cells, const std::vector<Index>& body);

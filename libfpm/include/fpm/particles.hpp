@@ -7,21 +7,12 @@
 
 namespace fpm {
 
-/// Of a particle that is of every body: a neighbour of all particles, as they are of it.
-inline constexpr Index every_body = -1;
-
-/// Whether particles of two bodies may be neighbours.
-[[nodiscard]] constexpr bool share_body(Index one, Index other) {
-  return one == other || one == every_body || other == every_body;
-}
-
 /// A set of particles: where they are and what volume each stands for.
 template <int Dim>
 struct ParticleSet {
   Field<Dim> position;     ///< [m] n x Dim
   Eigen::VectorXd volume;  ///< [m^Dim] n; per unit thickness in 2D
-  /// Body that each belongs to, or `every_body`; or empty: one body. Neighbours are of one body
-  /// (bodies.hpp).
+  /// Body that each belongs to, or empty: one body. Neighbours are of one body (bodies.hpp).
   std::vector<Index> body = {};
   /// [m] Spacing of the particles around each, or empty: the same for all (cells.hpp).
   Eigen::VectorXd spacing = {};

@@ -55,7 +55,8 @@ class Rows {
   Rows() = default;
 
   /// First search, on the initial particles, among those of the row's own body. A row with too few
-  /// neighbours or an ill-conditioned moment matrix gets a wider support.
+  /// neighbours or an ill-conditioned moment matrix gets a wider support and, if none will do, as
+  /// at the tip of a wedge, sees all bodies.
   /// @throws std::runtime_error naming the particle if no admissible support gives a valid row.
   Rows(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts, const RowOptions& options);
 
@@ -123,6 +124,9 @@ class Rows {
 
  private:
   bool same_body(Index row, Index b) const;
+  bool sees_all(Index row) const {
+    return !sees_all_.empty() && sees_all_[static_cast<std::size_t>(row)] != 0;
+  }
   bool accept(const RowGeometry<Dim>& geometry, RowWeights<Dim>& scratch) const;
   void rewrite(const std::vector<Index>& rebuilt, const std::vector<std::vector<Index>>& new_lists,
                const std::vector<RowGeometry<Dim>>& new_geometry);
@@ -134,8 +138,9 @@ class Rows {
   Field<Dim> initial_position_;     // ghosts included
   Eigen::VectorXd initial_volume_;  // ghosts included
   Ghosts<Dim> ghosts_;
-  std::vector<Index> body_;  // of the particles; empty: one
-  double round_off_ = 0.0;   // [m] of a difference of initial positions
+  std::vector<Index> body_;     // of the particles; empty: one
+  std::vector<char> sees_all_;  // whether a row sees all bodies; empty: none does
+  double round_off_ = 0.0;      // [m] of a difference of initial positions
 
   std::vector<Index> row_offset_{0};  // CSR over all rows
   std::vector<Index> neighbour_;
