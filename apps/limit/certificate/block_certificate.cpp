@@ -246,6 +246,10 @@ class Examination {
       const double middle = (ends[i] + ends[i + 1]) / 2.0;
       const problem::Soil* soil = soil_at(radius_at(middle) * towards(middle));
       if (soil == nullptr) continue;  // outside of the ground nothing parts
+      if (soil->varies()) {
+        objection_ = "soil of one cohesion only";
+        return;
+      }
       const double growth = std::tan(soil->friction_angle);
       if (std::abs(arc_at(middle).growth - growth) > 1e-12 * (1.0 + growth)) {
         objection_ = "the curve is not at the friction angle of its soil";

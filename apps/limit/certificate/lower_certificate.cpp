@@ -138,6 +138,7 @@ class BalanceEquations {
 struct Ceiling {
   Eigen::Index corner = 0;
   const problem::Soil* soil = nullptr;  // none: no tension
+  double cohesion = 0.0;                // there; linear, as the stress between corners is
   mesh::Point normal{0.0, 0.0};
 };
 
@@ -146,8 +147,11 @@ std::vector<Ceiling> ceilings_of(const problem::Problem& problem) {
   const mesh::Mesh& mesh = problem.mesh;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const problem::Soil& soil = problem.soils[static_cast<std::size_t>(mesh.triangles[t].region)];
-    for (int i = 0; i < 3; ++i)
-      ceilings.push_back({static_cast<Eigen::Index>(9 * t) + 3 * i, &soil});
+    for (int i = 0; i < 3; ++i) {
+      const int node = mesh.triangles[t].nodes[static_cast<std::size_t>(i)];
+      ceilings.push_back(
+          {static_cast<Eigen::Index>(9 * t) + 3 * i, &soil, soil.cohesion_at(node_at(mesh, node))});
+    }
   }
   for (const mesh::Edge& edge : mesh::edges_of(mesh)) {
     if (edge.boundary < 0) continue;
@@ -155,7 +159,7 @@ std::vector<Ceiling> ceilings_of(const problem::Problem& problem) {
     const mesh::Point along = (node_at(mesh, edge.second) - node_at(mesh, edge.first)).normalized();
     for (const int node : {edge.first, edge.second}) {
       ceilings.push_back(
-          {corner_index(mesh, edge.left, node), nullptr, mesh::Point(along.y(), -along.x())});
+          {corner_index(mesh, edge.left, node), nullptr, 0.0, mesh::Point(along.y(), -along.x())});
     }
   }
   return ceilings;
@@ -172,7 +176,7 @@ double excess(const Ceiling& ceiling, const Eigen::VectorXd& field) {
   const double radius = std::hypot((stress[0] - stress[1]) / 2.0, stress[2]);
   const problem::Soil& soil = *ceiling.soil;
   const double strength =
-      soil.cohesion * std::cos(soil.friction_angle) - mean * std::sin(soil.friction_angle);
+      ceiling.cohesion * std::cos(soil.friction_angle) - mean * std::sin(soil.friction_angle);
   return radius - strength;
 }
 

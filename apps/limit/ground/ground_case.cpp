@@ -221,10 +221,17 @@ bool is_unit_traction(const GroundScene& scene) {
 
 void describe(const GroundScene& scene, problem::Case& result) {
   for (const GroundMaterial& material : scene.materials) {
+    std::string cohesion = fmt::format("c = {:g} {}", material.cohesion.value, scene.units.stress);
+    if (material.soil.varies()) {
+      cohesion +=
+          fmt::format(" at ({:g}, {:g}), growing by ({:g}, {:g}) {}/{}", material.cohesion.at[0],
+                      material.cohesion.at[1], material.cohesion.gradient[0],
+                      material.cohesion.gradient[1], scene.units.stress, scene.units.length);
+    }
     result.data.emplace_back(
-        material.name, fmt::format("c = {:g} {}, phi = {:g} deg, {:g} {}", material.soil.cohesion,
-                                   scene.units.stress, material.soil.friction_angle / degree,
-                                   material.soil.unit_weight, scene.units.unit_weight()));
+        material.name,
+        fmt::format("{}, phi = {:g} deg, {:g} {}", cohesion, material.soil.friction_angle / degree,
+                    material.soil.unit_weight, scene.units.unit_weight()));
   }
   if (scene.load.kh != 0.0 || scene.load.kv != 0.0) {
     result.data.emplace_back("earthquake",

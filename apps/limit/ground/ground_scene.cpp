@@ -75,8 +75,11 @@ GroundTable material() {
   return Builder<GroundMaterial>("material", &GroundScene::materials, "a soil")
       .required()
       .key("name", &GroundMaterial::name, {.need = Need::required})
-      .key("cohesion", [](auto& m) -> auto& { return m.soil.cohesion; },
-           {.unit = "Pa", .range = at_least(0.0)})
+      .key("cohesion", &GroundMaterial::cohesion,
+           {.unit = "Pa",
+            .range = at_least(0.0),
+            .doc = "with a gradient [Pa/m] it changes linearly and is more than zero wherever the "
+                   "material is"})
       .key("friction_angle", [](auto& m) -> auto& { return m.soil.friction_angle; },
            {.unit = "deg", .range = angles})
       .in(degree)
@@ -143,6 +146,9 @@ void check_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagno
                     "each material has a name of its own");
   }
   const double friction = material.soil.friction_angle;
+  material.soil.cohesion = material.cohesion.value;
+  material.soil.centre = {material.cohesion.at[0], material.cohesion.at[1]};
+  material.soil.cohesion_gradient = {material.cohesion.gradient[0], material.cohesion.gradient[1]};
   if (!diagnosis.given(path + "dilation_angle")) material.dilation_angle = friction;
   if (material.dilation_angle > friction &&
       diagnosis.good({path + "dilation_angle", path + "friction_angle"})) {
@@ -150,7 +156,7 @@ void check_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagno
                     fmt::format("found {:g}", material.dilation_angle / degree),
                     fmt::format("allowed is 0 .. friction_angle ({:g})", friction / degree));
   }
-  if (material.soil.cohesion == 0.0 && friction == 0.0 &&
+  if (material.soil.cohesion == 0.0 && !material.soil.varies() && friction == 0.0 &&
       diagnosis.good({path + "cohesion", path + "friction_angle"})) {
     diagnosis.error(path + "cohesion", "neither cohesion nor friction", "one must be positive");
   }
@@ -172,6 +178,33 @@ void find_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnos
                     "materials are " + tables::joined(names),
                     tables::nearest_name(region.material_name, names));
   }
+}
+
+// A linear cohesion is least in a corner of a region. From here on it is told from the middle of
+// the corners, so that its value there is typical of the material.
+void check_cohesion(GroundScene& scene, std::size_t m, tables::Diagnosis& diagnosis) {
+  problem::Soil& soil = scene.materials[m].soil;
+  if (!soil.varies()) return;
+  mesh::Point sum(0.0, 0.0);
+  double corners = 0.0;
+  for (const GroundRegion& region : scene.regions) {
+    if (region.material != m) continue;
+    for (const mesh::Point& place : region.outline) {
+      sum += place;
+      corners += 1.0;
+      const double here = soil.cohesion_at(place);
+      if (here > 0.0) continue;
+      diagnosis.error(fmt::format("material.{}.cohesion", m),
+                      fmt::format("{:g} at ({:g}, {:g}), in region {}", here, place.x(), place.y(),
+                                  region.name),
+                      "allowed is a cohesion of more than zero wherever the material is");
+      return;
+    }
+  }
+  if (corners == 0.0) return;
+  const mesh::Point middle = sum / corners;
+  soil.cohesion = soil.cohesion_at(middle);
+  soil.centre = middle;
 }
 
 void check_side(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnosis) {
@@ -213,6 +246,9 @@ std::optional<GroundScene> read_ground_scene(std::string_view text,
   if (unreadable) return std::nullopt;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) check_material(scene, i, diagnosis);
   for (std::size_t i = 0; i < scene.regions.size(); ++i) find_material(scene, i, diagnosis);
+  if (diagnosis.errors().empty()) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) check_cohesion(scene, i, diagnosis);
+  }
   for (std::size_t i = 0; i < scene.sides.size(); ++i) check_side(scene, i, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   return scene;

@@ -10,15 +10,17 @@
 #include "limit/problem/case.hpp"
 #include "limit/problem/problem.hpp"
 #include "tables/diagnosis.hpp"
+#include "tables/table.hpp"
 
 namespace limit::ground {
 
 /// A soil by its name.
 struct GroundMaterial {
   std::string name;
-  problem::Soil soil;           // live_unit_weight unused
-  double dilation_angle = 0.0;  // [rad] 0 .. friction angle
-  bool grows = true;            // its weight is multiplied where gravity is sought
+  problem::Soil soil;            // live_unit_weight unused
+  tables::LinearField cohesion;  // as it is told
+  double dilation_angle = 0.0;   // [rad] 0 .. friction angle
+  bool grows = true;             // its weight is multiplied where gravity is sought
 };
 
 /// A simple polygon of one soil.

@@ -89,7 +89,9 @@ class Builder {
   Eigen::Index multiplier() const { return 3 * static_cast<Eigen::Index>(cones_.size()); }
 
   void add_cone(int region, const mesh::Point& place) {
-    const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(region)];
+    // Linear, as the stress is, so that the corners decide.
+    const problem::Soil& varying = problem_.soils[static_cast<std::size_t>(region)];
+    const problem::Soil soil = varying.with_cohesion(varying.cohesion_at(place));
     const double load = overburden_.at(soil, place);
     cones_.push_back(yield_cone(soil, load, reserve));
     starts_.push_back(inner_point(cones_.back(), load));
