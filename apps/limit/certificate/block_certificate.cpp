@@ -77,7 +77,12 @@ class Examination {
 
   BlockCertificate certificate() {
     BlockCertificate result;
-    check_curve();
+    for (const problem::Soil& soil : problem_.soils) {
+      if (!soil.seepage.isZero(0.0) || !soil.live_seepage.isZero(0.0)) {
+        objection_ = "ground without pore water only";
+      }
+    }
+    if (objection_.empty()) check_curve();
     if (objection_.empty()) check_sight();
     if (objection_.empty()) check_held();
     if (objection_.empty()) dissipate();

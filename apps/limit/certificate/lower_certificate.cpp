@@ -63,9 +63,10 @@ class BalanceEquations {
       perimeter += (node_at(mesh, nodes.nodes[i]) - node_at(mesh, nodes.nodes[(i + 1) % 3])).norm();
     }
     const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(nodes.region)];
-    const mesh::Point force = (soil.unit_weight * problem_.pull +
-                               multiplier_ * soil.live_unit_weight * problem_.live_pull) *
-                              mesh::twice_area(mesh, nodes) / 2.0;
+    const mesh::Point force =
+        (soil.unit_weight * problem_.pull + soil.seepage +
+         multiplier_ * (soil.live_unit_weight * problem_.live_pull + soil.live_seepage)) *
+        mesh::twice_area(mesh, nodes) / 2.0;
     for (const mesh::Point& direction : {mesh::Point(1, 0), mesh::Point(0, 1)}) {
       equations_.begin(-direction.dot(force) / perimeter);
       for (std::size_t i = 0; i < 3; ++i) {
@@ -209,8 +210,8 @@ problem::StressField geostatic(const problem::Problem& problem) {
   problem::StressField field(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const mesh::Triangle& triangle = mesh.triangles[t];
-    const double weight =
-        -problem.pull.y() * problem.soils[static_cast<std::size_t>(triangle.region)].unit_weight;
+    const problem::Soil& soil = problem.soils[static_cast<std::size_t>(triangle.region)];
+    const double weight = -problem.pull.y() * soil.unit_weight - soil.seepage.y();
     for (std::size_t i = 0; i < 3; ++i) {
       const double stress = -surcharge - weight * (top - node_at(mesh, triangle.nodes[i]).y());
       field[t].col(static_cast<Eigen::Index>(i)) << stress, stress, 0.0;

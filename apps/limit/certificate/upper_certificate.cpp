@@ -137,8 +137,11 @@ class Flow {
       points_.push_back(corner);
       for (const Eigen::Index xy : {0, 1}) {
         const Eigen::Index at = velocity(t, 3 + i) + xy;
-        dead_.emplace_back(at, problem_.pull[xy] * soil_of(t).unit_weight * area / 3.0);
-        live_.emplace_back(at, problem_.live_pull[xy] * soil_of(t).live_unit_weight * area / 3.0);
+        const problem::Soil& soil = soil_of(t);
+        const double dead = problem_.pull[xy] * soil.unit_weight + soil.seepage[xy];
+        const double live = problem_.live_pull[xy] * soil.live_unit_weight + soil.live_seepage[xy];
+        dead_.emplace_back(at, dead * area / 3.0);
+        live_.emplace_back(at, live * area / 3.0);
       }
     }
   }

@@ -71,6 +71,16 @@ GroundTable load() {
       .build();
 }
 
+GroundTable water() {
+  return Builder<GroundWater>("water", &GroundScene::water,
+                              "pore water; cohesion and friction are then those of effective "
+                              "stresses, pressures on sides and footings in addition to water's")
+      .key("table", &GroundWater::table,
+           {.unit = "m", .doc = "its level from left to right, over all of the ground"})
+      .key("unit_weight", &GroundWater::unit_weight, {.unit = "N/m3", .range = tables::positive()})
+      .build();
+}
+
 GroundTable material() {
   return Builder<GroundMaterial>("material", &GroundScene::materials, "a soil")
       .required()
@@ -92,6 +102,12 @@ GroundTable material() {
       .in(degree)
       .key("unit_weight", [](auto& m) -> auto& { return m.soil.unit_weight; },
            {.unit = "N/m3", .range = at_least(0.0)})
+      .key("saturated_unit_weight", &GroundMaterial::saturated_unit_weight,
+           {.need = Need::optional,
+            .unit = "N/m3",
+            .range = at_least(0.0),
+            .doc = "below the water table",
+            .absent = "the unit_weight"})
       .key("grows", &GroundMaterial::grows,
            {.doc = "its weight is multiplied where gravity is sought, and shaken where an "
                    "earthquake is"})
@@ -130,7 +146,7 @@ GroundTable side() {
 }
 
 const std::vector<GroundTable>& ground_tables() {
-  static const std::vector<GroundTable> all{top_level(), units(),  load(),
+  static const std::vector<GroundTable> all{top_level(), units(),  load(), water(),
                                             material(),  region(), side()};
   return all;
 }
@@ -165,6 +181,7 @@ void check_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagno
 void find_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnosis) {
   GroundRegion& region = scene.regions[i];
   if (region.name.empty()) region.name = fmt::format("region {}", i);
+  region.number = i;
   const auto at = std::find_if(
       scene.materials.begin(), scene.materials.end(),
       [&](const GroundMaterial& material) { return material.name == region.material_name; });
@@ -272,7 +289,7 @@ std::string ground_scene_keys() {
       if (!notes.absent.empty()) text += fmt::format("; absent: {}", notes.absent);
       if (const auto value = field.read(scene, 0);
           value && notes.need == Need::defaulted && field.kind != tables::ValueKind::text) {
-        text += "; default " + tables::value_text(*value);
+        text += "; default " + tables::value_text(*value, field.kind);
       }
       text += '\n';
     }

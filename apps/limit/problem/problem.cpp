@@ -23,6 +23,8 @@ Problem in_units(const Problem& problem, const Units& units) {
     soil.centre /= units.length;
     soil.unit_weight /= units.stress / units.length;
     soil.live_unit_weight *= live * units.length;
+    soil.seepage /= units.stress / units.length;
+    soil.live_seepage *= live * units.length;
   }
   for (Boundary& boundary : scaled.boundaries) {
     boundary.normal_stress /= units.stress;

@@ -17,6 +17,9 @@ struct Soil {
   double live_unit_weight = 0.0;  // [N/m3] per unit of the multiplier, along Problem::live_pull
   mesh::Point cohesion_gradient{0.0, 0.0};  // [Pa/m]
   mesh::Point centre{0.0, 0.0};             // [m]
+  /// [N/m3] of the pore water on the grains, less the gradient of its pressure: stresses are then
+  /// effective ones. Per unit of the multiplier, too.
+  mesh::Point seepage{0.0, 0.0}, live_seepage{0.0, 0.0};
 
   [[nodiscard]] bool varies() const { return !cohesion_gradient.isZero(0.0); }
   [[nodiscard]] double cohesion_at(const mesh::Point& place) const {
@@ -72,6 +75,14 @@ struct Problem {
   /// Where the multiplier is not followed any further, in its unit: where more weight makes more
   /// strength than it takes, nothing limits it. Absent: wherever it ends.
   std::optional<double> most_multiplier;
+
+  /// Body force on a soil, [N/m3]; live, per unit of the multiplier.
+  [[nodiscard]] mesh::Point force(const Soil& soil) const {
+    return soil.unit_weight * pull + soil.seepage;
+  }
+  [[nodiscard]] mesh::Point live_force(const Soil& soil) const {
+    return soil.live_unit_weight * live_pull + soil.live_seepage;
+  }
 };
 
 /// What is made of order one before anything is solved.

@@ -147,8 +147,8 @@ class Builder {
       const double area2 = mesh::twice_area(mesh, triangle);
       const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(triangle.region)];
       for (int row = 0; row < 2; ++row) {
-        begin_equation(-problem_.pull[row] * soil.unit_weight);
-        add(multiplier(), problem_.live_pull[row] * soil.live_unit_weight);
+        begin_equation(-problem_.force(soil)[row]);
+        add(multiplier(), problem_.live_force(soil)[row]);
         for (int i = 0; i < 3; ++i) {
           const auto at = [&](int k) -> const mesh::Point& {
             return mesh.nodes[static_cast<std::size_t>(

@@ -60,8 +60,8 @@ struct Loads {
     const double third = mesh::twice_area(problem.mesh, triangle) / 6.0;
     for (std::size_t middle = 3; middle < 6; ++middle) {
       const auto row = static_cast<Eigen::Index>(2 * (6 * t + middle));
-      dead.segment<2>(row) += soil.unit_weight * third * problem.pull;
-      live.segment<2>(row) += soil.live_unit_weight * third * problem.live_pull;
+      dead.segment<2>(row) += third * problem.force(soil);
+      live.segment<2>(row) += third * problem.live_force(soil);
     }
   }
 
