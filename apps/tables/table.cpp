@@ -49,9 +49,13 @@ std::string FieldInfo::allowed_text() const {
     case ValueKind::points:
       text = "a list of points [x, y]";
       break;
+    case ValueKind::linear:
+      text = "a number";
+      break;
   }
   if (const std::string range = notes.range.text(); !range.empty()) text += " " + range;
   if (!notes.unit.empty()) text += fmt::format(" [{}]", notes.unit);
+  if (kind == ValueKind::linear) text += ", or { at = [x, y], value = v, gradient = [gx, gy] }";
   return text;
 }
 
@@ -115,6 +119,12 @@ std::string value_text(const Value& value) {
 
 std::string value_text(const Value& value, ValueKind kind) {
   const auto* coordinates = std::get_if<std::vector<double>>(&value);
+  if (kind == ValueKind::linear && coordinates != nullptr) {
+    const auto number = [&](std::size_t i) { return number_text((*coordinates)[i]); };
+    if ((*coordinates)[3] == 0.0 && (*coordinates)[4] == 0.0) return number(0);
+    return fmt::format("{{ at = [{}, {}], value = {}, gradient = [{}, {}] }}", number(1), number(2),
+                       number(0), number(3), number(4));
+  }
   if (kind != ValueKind::points || coordinates == nullptr) return value_text(value);
   std::string out;
   for (std::size_t i = 0; i + 1 < coordinates->size(); i += 2) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -11,11 +12,31 @@
 
 namespace tables {
 
-/// A value as it stands in TOML: numbers are double, choices their names, points x0 y0 x1 y1 ...
+/// A number that changes linearly from place to place: `value` at `at`, and `gradient` times the
+/// way from there elsewhere. In TOML a number, or { at = [x, y], value = v, gradient = [gx, gy] }.
+struct LinearField {
+  double value = 0.0;
+  std::array<double, 2> at{};
+  std::array<double, 2> gradient{};
+};
+
+/// A value as it stands in TOML: numbers are double, choices their names, points x0 y0 x1 y1 ..., a
+/// linear field its value, place and gradient.
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>,
                            std::vector<std::string>>;
 
-enum class ValueKind { boolean, integer, number, text, choice, numbers, texts, choices, points };
+enum class ValueKind {
+  boolean,
+  integer,
+  number,
+  text,
+  choice,
+  numbers,
+  texts,
+  choices,
+  points,
+  linear
+};
 
 /// Allowed interval of a number; an open end excludes its bound.
 struct Range {

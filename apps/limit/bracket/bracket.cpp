@@ -30,7 +30,9 @@ Bracket bracket(problem::Problem lower, problem::Problem upper, const BracketOpt
     if (sides.empty()) break;
     Side& next = **std::max_element(sides.begin(), sides.end(),
                                     [](Side* a, Side* b) { return a->promise() < b->promise(); });
-    next.refine();
+    // Where all flow is next to one point a mesh would else grow by a handful of triangles.
+    constexpr double growth = 1.1;
+    next.refine(growth);
     next.attempt(result, remaining(), watch);
   }
   result.reached = result.gap() <= options.gap;

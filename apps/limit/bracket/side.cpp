@@ -50,8 +50,8 @@ void Side::set_soils(const std::vector<problem::Soil>& soils) {
   if (triangles() != before) indicators_.clear();
 }
 
-void Side::refine() {
-  constexpr double share = 0.7, growth = 1.25;
+void Side::refine(double growth) {
+  constexpr double share = 0.7;
   problem_.mesh = mesh::refined(std::move(problem_.mesh), indicators_, share, growth);
 }
 

@@ -26,8 +26,9 @@ class Side {
   /// The same ground with other strengths, on the mesh as it is.
   void set_soils(const std::vector<problem::Soil>& soils);
 
-  /// Bisects where the last attempt says that most of the flow is.
-  void refine();
+  /// Bisects where the last attempt says that most of the flow is, until there are `growth` times
+  /// as many triangles.
+  void refine(double growth);
 
   /// Asks the solvers in turn until one has a good answer; what they certify is kept in the bracket
   /// if it is better than what is there, and each attempt is noted. A fall-back that has failed

@@ -95,8 +95,11 @@ class Flank {
     promise_ = std::abs(gain_) / seconds;
   }
 
-  void refine() {
-    side_.refine();
+  /// @param wide  by how much the bracket is wider than asked for
+  void refine(double wide) {
+    // More than where every mesh is solved once.
+    constexpr double least = 1.25, most = 2.0;
+    side_.refine(std::clamp(std::sqrt(wide), least, most));
     // As steep as the solver goes along with: the more strength there is, the more is carried.
     constexpr double steeper = 1.5;
     if (failures_ == 0) steepest_ *= steeper;
@@ -115,7 +118,7 @@ class Flank {
     BracketOptions once = options;
     // Another factor close by costs less than another solver, and mostly helps.
     once.fall_back = failures_ > 2;
-    constexpr int enough = 300;  // what takes more, ends nowhere
+    constexpr int enough = 120;  // what takes more, twice what most do, ends nowhere
     once.max_iterations = std::min(once.max_iterations, enough);
     side_.attempt(found, once, watch);
     attempts.insert(attempts.end(), found.attempts.begin(), found.attempts.end());
@@ -276,7 +279,7 @@ class Reduction {
       }
       Flank* next = next_to_refine();
       if (next == nullptr) break;
-      next->refine();
+      next->refine(gap() / options_.gap);
       settle(*next, later);
     }
     if (options_.wants_mechanism && !above_.factor()) begin_above(first);
@@ -347,7 +350,7 @@ class Reduction {
 Solution reduce_strength(const problem::Case& problem, const BracketOptions& options,
                          const std::function<void(const Attempt&)>& watch, const Means& means) {
   for (const problem::Soil& soil : problem.lower.soils) {
-    if (soil.unit_weight != 0.0 || !problem.lower.most_multiplier) {
+    if (soil.unit_weight != 0.0 || !soil.seepage.isZero(0.0) || !problem.lower.most_multiplier) {
       throw std::invalid_argument("strength reduction: not all loads are live, or without end");
     }
   }

@@ -77,7 +77,12 @@ class Examination {
 
   BlockCertificate certificate() {
     BlockCertificate result;
-    check_curve();
+    for (const problem::Soil& soil : problem_.soils) {
+      if (!soil.seepage.isZero(0.0) || !soil.live_seepage.isZero(0.0)) {
+        objection_ = "ground without pore water only";
+      }
+    }
+    if (objection_.empty()) check_curve();
     if (objection_.empty()) check_sight();
     if (objection_.empty()) check_held();
     if (objection_.empty()) dissipate();
@@ -246,6 +251,10 @@ class Examination {
       const double middle = (ends[i] + ends[i + 1]) / 2.0;
       const problem::Soil* soil = soil_at(radius_at(middle) * towards(middle));
       if (soil == nullptr) continue;  // outside of the ground nothing parts
+      if (soil->varies()) {
+        objection_ = "soil of one cohesion only";
+        return;
+      }
       const double growth = std::tan(soil->friction_angle);
       if (std::abs(arc_at(middle).growth - growth) > 1e-12 * (1.0 + growth)) {
         objection_ = "the curve is not at the friction angle of its soil";

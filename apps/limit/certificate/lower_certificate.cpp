@@ -63,9 +63,10 @@ class BalanceEquations {
       perimeter += (node_at(mesh, nodes.nodes[i]) - node_at(mesh, nodes.nodes[(i + 1) % 3])).norm();
     }
     const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(nodes.region)];
-    const mesh::Point force = (soil.unit_weight * problem_.pull +
-                               multiplier_ * soil.live_unit_weight * problem_.live_pull) *
-                              mesh::twice_area(mesh, nodes) / 2.0;
+    const mesh::Point force =
+        (soil.unit_weight * problem_.pull + soil.seepage +
+         multiplier_ * (soil.live_unit_weight * problem_.live_pull + soil.live_seepage)) *
+        mesh::twice_area(mesh, nodes) / 2.0;
     for (const mesh::Point& direction : {mesh::Point(1, 0), mesh::Point(0, 1)}) {
       equations_.begin(-direction.dot(force) / perimeter);
       for (std::size_t i = 0; i < 3; ++i) {
@@ -138,6 +139,7 @@ class BalanceEquations {
 struct Ceiling {
   Eigen::Index corner = 0;
   const problem::Soil* soil = nullptr;  // none: no tension
+  double cohesion = 0.0;                // there; linear, as the stress between corners is
   mesh::Point normal{0.0, 0.0};
 };
 
@@ -146,8 +148,11 @@ std::vector<Ceiling> ceilings_of(const problem::Problem& problem) {
   const mesh::Mesh& mesh = problem.mesh;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const problem::Soil& soil = problem.soils[static_cast<std::size_t>(mesh.triangles[t].region)];
-    for (int i = 0; i < 3; ++i)
-      ceilings.push_back({static_cast<Eigen::Index>(9 * t) + 3 * i, &soil});
+    for (int i = 0; i < 3; ++i) {
+      const int node = mesh.triangles[t].nodes[static_cast<std::size_t>(i)];
+      ceilings.push_back(
+          {static_cast<Eigen::Index>(9 * t) + 3 * i, &soil, soil.cohesion_at(node_at(mesh, node))});
+    }
   }
   for (const mesh::Edge& edge : mesh::edges_of(mesh)) {
     if (edge.boundary < 0) continue;
@@ -155,7 +160,7 @@ std::vector<Ceiling> ceilings_of(const problem::Problem& problem) {
     const mesh::Point along = (node_at(mesh, edge.second) - node_at(mesh, edge.first)).normalized();
     for (const int node : {edge.first, edge.second}) {
       ceilings.push_back(
-          {corner_index(mesh, edge.left, node), nullptr, mesh::Point(along.y(), -along.x())});
+          {corner_index(mesh, edge.left, node), nullptr, 0.0, mesh::Point(along.y(), -along.x())});
     }
   }
   return ceilings;
@@ -172,7 +177,7 @@ double excess(const Ceiling& ceiling, const Eigen::VectorXd& field) {
   const double radius = std::hypot((stress[0] - stress[1]) / 2.0, stress[2]);
   const problem::Soil& soil = *ceiling.soil;
   const double strength =
-      soil.cohesion * std::cos(soil.friction_angle) - mean * std::sin(soil.friction_angle);
+      ceiling.cohesion * std::cos(soil.friction_angle) - mean * std::sin(soil.friction_angle);
   return radius - strength;
 }
 
@@ -205,8 +210,8 @@ problem::StressField geostatic(const problem::Problem& problem) {
   problem::StressField field(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const mesh::Triangle& triangle = mesh.triangles[t];
-    const double weight =
-        -problem.pull.y() * problem.soils[static_cast<std::size_t>(triangle.region)].unit_weight;
+    const problem::Soil& soil = problem.soils[static_cast<std::size_t>(triangle.region)];
+    const double weight = -problem.pull.y() * soil.unit_weight - soil.seepage.y();
     for (std::size_t i = 0; i < 3; ++i) {
       const double stress = -surcharge - weight * (top - node_at(mesh, triangle.nodes[i]).y());
       field[t].col(static_cast<Eigen::Index>(i)) << stress, stress, 0.0;

@@ -71,10 +71,12 @@ class Flow {
     const int left = triangles[static_cast<std::size_t>(edge.left)].region;
     const int right =
         edge.right >= 0 ? triangles[static_cast<std::size_t>(edge.right)].region : left;
-    return problem_.soils[static_cast<std::size_t>(problem::softer(problem_, left, right))];
+    const mesh::Point middle =
+        (node_at(problem_.mesh, edge.first) + node_at(problem_.mesh, edge.second)) / 2.0;
+    return problem_.soils[static_cast<std::size_t>(problem::softer(problem_, left, right, middle))];
   }
 
-  FlowPoint point(std::size_t triangle, const problem::Soil& soil, double ratio,
+  FlowPoint point(std::size_t triangle, const problem::Soil& soil, double cohesion, double ratio,
                   double weight) const {
     FlowPoint point;
     point.ratio = ratio;
@@ -82,11 +84,25 @@ class Flow {
     point.triangle = triangle;
     point.may_dilate = soil.friction_angle > 0.0;
     if (point.may_dilate) {
-      point.per_dilation = soil.cohesion / std::tan(soil.friction_angle);
+      point.per_dilation = cohesion / std::tan(soil.friction_angle);
     } else {
-      point.per_shear = soil.cohesion;
+      point.per_shear = cohesion;
     }
     return point;
+  }
+
+  // Of a triangle, weighted by what is one in a corner and falls to nothing at the side across: the
+  // cohesion half way from the middle of the triangle to the corner's, by its moment, is
+  // (c_i + the mean of all three times three) / 4.
+  double mean_cohesion(std::size_t t, std::size_t corner) const {
+    const auto& nodes = problem_.mesh.triangles[t].nodes;
+    const problem::Soil& soil = soil_of(t);
+    const mesh::Point middle =
+        (node_at(problem_.mesh, nodes[0]) + node_at(problem_.mesh, nodes[1]) +
+         node_at(problem_.mesh, nodes[2])) /
+        3.0;
+    const mesh::Point& place = node_at(problem_.mesh, nodes[corner]);
+    return soil.cohesion_at(middle + (place - middle) / 4.0);
   }
 
   // Strain rates from the slopes of the two sides that meet in a corner: of a quadratic through
@@ -101,7 +117,8 @@ class Flow {
       sides.row(0) = (node_at(mesh, nodes[j]) - node_at(mesh, nodes[i])).transpose();
       sides.row(1) = (node_at(mesh, nodes[k]) - node_at(mesh, nodes[i])).transpose();
       const Eigen::Matrix2d back = sides.inverse();  // gradient = back x slopes along the sides
-      FlowPoint corner = point(t, soil_of(t), std::sin(soil_of(t).friction_angle), area / 3.0);
+      FlowPoint corner = point(t, soil_of(t), mean_cohesion(t, i),
+                               std::sin(soil_of(t).friction_angle), area / 3.0);
       for (const auto& [place, along_j, along_k] :
            {std::array<double, 3>{static_cast<double>(i), -3.0, -3.0},
             {static_cast<double>(3 + i), 4.0, 0.0},
@@ -120,8 +137,11 @@ class Flow {
       points_.push_back(corner);
       for (const Eigen::Index xy : {0, 1}) {
         const Eigen::Index at = velocity(t, 3 + i) + xy;
-        dead_.emplace_back(at, problem_.pull[xy] * soil_of(t).unit_weight * area / 3.0);
-        live_.emplace_back(at, problem_.live_pull[xy] * soil_of(t).live_unit_weight * area / 3.0);
+        const problem::Soil& soil = soil_of(t);
+        const double dead = problem_.pull[xy] * soil.unit_weight + soil.seepage[xy];
+        const double live = problem_.live_pull[xy] * soil.live_unit_weight + soil.live_seepage[xy];
+        dead_.emplace_back(at, dead * area / 3.0);
+        live_.emplace_back(at, live * area / 3.0);
       }
     }
   }
@@ -154,14 +174,18 @@ class Flow {
     const mesh::Point tangent = (b - a).normalized(), normal(tangent.y(), -tangent.x());
     // The quadratic is (1-s)^2 c0 + 2 s (1-s) c1 + s^2 c2.
     const std::array<std::array<double, 3>, 3> control{{{1, 0, 0}, {-0.5, 2, -0.5}, {0, 0, 1}}};
+    // Centres of gravity of the three Bernstein polynomials.
+    double centre = 0.0;
     for (const auto& weights : control) {
-      FlowPoint jump =
-          point(t, soil, slips_freely ? 0.0 : std::tan(soil.friction_angle), (b - a).norm() / 3.0);
+      centre += 0.25;
+      const double cohesion = soil.cohesion_at(a + centre * (b - a));
+      FlowPoint jump = point(t, soil, cohesion, slips_freely ? 0.0 : std::tan(soil.friction_angle),
+                             (b - a).norm() / 3.0);
       if (may_open) {
         // The largest power of a traction that yields and does not pull: that of the cohesion.
         jump.may_dilate = true;
         jump.per_dilation = 0.0;
-        jump.per_shear = soil.cohesion;
+        jump.per_shear = cohesion;
       }
       const auto add = [&](Eigen::Index x, const mesh::Point& unit, double factor) {
         jump.dilation.emplace_back(x, factor * unit.dot(normal));

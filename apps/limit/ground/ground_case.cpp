@@ -10,6 +10,7 @@
 #include "limit/ground/ground_mesh.hpp"
 #include "limit/ground/ground_outline.hpp"
 #include "limit/ground/ground_skins.hpp"
+#include "limit/ground/ground_water.hpp"
 
 namespace limit::ground {
 
@@ -52,6 +53,8 @@ void make_live(problem::Problem& problem) {
   for (problem::Soil& soil : problem.soils) {
     soil.live_unit_weight = soil.unit_weight;
     soil.unit_weight = 0.0;
+    soil.live_seepage = soil.seepage;
+    soil.seepage.setZero();
   }
   for (problem::Boundary& boundary : problem.boundaries) {
     boundary.live_normal_stress = boundary.normal_stress;
@@ -205,6 +208,11 @@ std::vector<std::string> assumptions_of(const GroundScene& scene, const problem:
   if (scene.load.kh != 0.0 || scene.load.kv != 0.0) {
     assumptions.emplace_back("an earthquake is a steady weight aslant (pseudo-static)");
   }
+  if (!scene.water.table.empty()) {
+    assumptions.emplace_back(
+        "pore water is at rest or seeps as its table tells, hydrostatic below it; loads and "
+        "pressures are in addition to the water's, stresses effective");
+  }
   if (scene.load.sought == Sought::strength) {
     assumptions.emplace_back(
         "cohesion and tan(friction angle) of all materials are divided by the factor");
@@ -221,10 +229,23 @@ bool is_unit_traction(const GroundScene& scene) {
 
 void describe(const GroundScene& scene, problem::Case& result) {
   for (const GroundMaterial& material : scene.materials) {
+    if (!material.soil.seepage.isZero(0.0)) continue;  // of another one, under water
+    std::string cohesion = fmt::format("c = {:g} {}", material.cohesion.value, scene.units.stress);
+    if (material.soil.varies()) {
+      cohesion +=
+          fmt::format(" at ({:g}, {:g}), growing by ({:g}, {:g}) {}/{}", material.cohesion.at[0],
+                      material.cohesion.at[1], material.cohesion.gradient[0],
+                      material.cohesion.gradient[1], scene.units.stress, scene.units.length);
+    }
     result.data.emplace_back(
-        material.name, fmt::format("c = {:g} {}, phi = {:g} deg, {:g} {}", material.soil.cohesion,
-                                   scene.units.stress, material.soil.friction_angle / degree,
-                                   material.soil.unit_weight, scene.units.unit_weight()));
+        material.name,
+        fmt::format("{}, phi = {:g} deg, {:g} {}", cohesion, material.soil.friction_angle / degree,
+                    material.soil.unit_weight, scene.units.unit_weight()));
+  }
+  if (!scene.water.table.empty()) {
+    result.data.emplace_back("water",
+                             fmt::format("{:g} {}, {} points of its table", scene.water.unit_weight,
+                                         scene.units.unit_weight(), scene.water.table.size()));
   }
   if (scene.load.kh != 0.0 || scene.load.kv != 0.0) {
     result.data.emplace_back("earthquake",
@@ -292,7 +313,7 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
     result.upper.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, false));
   } catch (const GroundTooFine& narrow) {
     diagnosis.error(
-        fmt::format("region.{}.outline", narrow.region),
+        fmt::format("region.{}.outline", scene.regions[narrow.region].number),
         fmt::format("so narrow at ({:.6g}, {:.6g}) that a mesh would begin with more than {} "
                     "triangles",
                     narrow.place.x(), narrow.place.y(), most_first_triangles),
@@ -304,15 +325,21 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
 
 }  // namespace
 
-std::optional<problem::Cases> ground_case(const GroundScene& scene, tables::Diagnosis& diagnosis) {
+std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagnosis& diagnosis) {
   if (!can_mesh_ground) {
     diagnosis.error("region", "ground of polygons",
                     "this fpm-limit was built without CGAL, which meshes such ground and is under "
                     "the GPL; `./fpmw build` builds one with it (cmake -DFPM_WITH_CGAL=ON)");
     return std::nullopt;
   }
-  const GroundOutline outline = ground_outline(scene, diagnosis);
+  GroundOutline outline = ground_outline(told, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
+  GroundScene scene = told;
+  if (!scene.water.table.empty()) {
+    wet(scene, diagnosis);
+    if (diagnosis.errors().empty()) outline = ground_outline(scene, diagnosis);
+    if (!diagnosis.errors().empty()) return std::nullopt;
+  }
   const std::optional<Base> base = find_base(scene, outline, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   problem::Cases result{case_of(scene, outline, base, false, diagnosis), std::nullopt};

@@ -39,11 +39,15 @@ class Reader {
            "give the [[side]] there kind = \"loaded\"");
     take_load();
     for (std::size_t m = 0; m < scene_.material.size(); ++m) take_material(m);
-    for (const scene::Region& region : scene_.region) {
-      found_.regions.push_back(
-          {region.name.empty() ? fmt::format("region {}", found_.regions.size()) : region.name,
-           region.material, scene::material_of(scene_, found_.regions.size()),
-           points_of(region.outline)});
+    for (std::size_t r = 0; r < scene_.region.size(); ++r) {
+      const scene::Region& region = scene_.region[r];
+      GroundRegion taken;
+      taken.name = region.name.empty() ? fmt::format("region {}", r) : region.name;
+      taken.material_name = region.material;
+      taken.material = scene::material_of(scene_, r);
+      taken.number = r;
+      taken.outline = points_of(region.outline);
+      found_.regions.push_back(std::move(taken));
     }
     for (const scene::OutlineSide& side : scene_.side) take_side(side);
     check_supports();

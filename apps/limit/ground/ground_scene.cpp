@@ -71,12 +71,25 @@ GroundTable load() {
       .build();
 }
 
+GroundTable water() {
+  return Builder<GroundWater>("water", &GroundScene::water,
+                              "pore water; cohesion and friction are then those of effective "
+                              "stresses, pressures on sides and footings in addition to water's")
+      .key("table", &GroundWater::table,
+           {.unit = "m", .doc = "its level from left to right, over all of the ground"})
+      .key("unit_weight", &GroundWater::unit_weight, {.unit = "N/m3", .range = tables::positive()})
+      .build();
+}
+
 GroundTable material() {
   return Builder<GroundMaterial>("material", &GroundScene::materials, "a soil")
       .required()
       .key("name", &GroundMaterial::name, {.need = Need::required})
-      .key("cohesion", [](auto& m) -> auto& { return m.soil.cohesion; },
-           {.unit = "Pa", .range = at_least(0.0)})
+      .key("cohesion", &GroundMaterial::cohesion,
+           {.unit = "Pa",
+            .range = at_least(0.0),
+            .doc = "with a gradient [Pa/m] it changes linearly and is more than zero wherever the "
+                   "material is"})
       .key("friction_angle", [](auto& m) -> auto& { return m.soil.friction_angle; },
            {.unit = "deg", .range = angles})
       .in(degree)
@@ -89,6 +102,12 @@ GroundTable material() {
       .in(degree)
       .key("unit_weight", [](auto& m) -> auto& { return m.soil.unit_weight; },
            {.unit = "N/m3", .range = at_least(0.0)})
+      .key("saturated_unit_weight", &GroundMaterial::saturated_unit_weight,
+           {.need = Need::optional,
+            .unit = "N/m3",
+            .range = at_least(0.0),
+            .doc = "below the water table",
+            .absent = "the unit_weight"})
       .key("grows", &GroundMaterial::grows,
            {.doc = "its weight is multiplied where gravity is sought, and shaken where an "
                    "earthquake is"})
@@ -127,7 +146,7 @@ GroundTable side() {
 }
 
 const std::vector<GroundTable>& ground_tables() {
-  static const std::vector<GroundTable> all{top_level(), units(),  load(),
+  static const std::vector<GroundTable> all{top_level(), units(),  load(), water(),
                                             material(),  region(), side()};
   return all;
 }
@@ -143,6 +162,9 @@ void check_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagno
                     "each material has a name of its own");
   }
   const double friction = material.soil.friction_angle;
+  material.soil.cohesion = material.cohesion.value;
+  material.soil.centre = {material.cohesion.at[0], material.cohesion.at[1]};
+  material.soil.cohesion_gradient = {material.cohesion.gradient[0], material.cohesion.gradient[1]};
   if (!diagnosis.given(path + "dilation_angle")) material.dilation_angle = friction;
   if (material.dilation_angle > friction &&
       diagnosis.good({path + "dilation_angle", path + "friction_angle"})) {
@@ -150,7 +172,7 @@ void check_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagno
                     fmt::format("found {:g}", material.dilation_angle / degree),
                     fmt::format("allowed is 0 .. friction_angle ({:g})", friction / degree));
   }
-  if (material.soil.cohesion == 0.0 && friction == 0.0 &&
+  if (material.soil.cohesion == 0.0 && !material.soil.varies() && friction == 0.0 &&
       diagnosis.good({path + "cohesion", path + "friction_angle"})) {
     diagnosis.error(path + "cohesion", "neither cohesion nor friction", "one must be positive");
   }
@@ -159,6 +181,7 @@ void check_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagno
 void find_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnosis) {
   GroundRegion& region = scene.regions[i];
   if (region.name.empty()) region.name = fmt::format("region {}", i);
+  region.number = i;
   const auto at = std::find_if(
       scene.materials.begin(), scene.materials.end(),
       [&](const GroundMaterial& material) { return material.name == region.material_name; });
@@ -172,6 +195,33 @@ void find_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnos
                     "materials are " + tables::joined(names),
                     tables::nearest_name(region.material_name, names));
   }
+}
+
+// A linear cohesion is least in a corner of a region. From here on it is told from the middle of
+// the corners, so that its value there is typical of the material.
+void check_cohesion(GroundScene& scene, std::size_t m, tables::Diagnosis& diagnosis) {
+  problem::Soil& soil = scene.materials[m].soil;
+  if (!soil.varies()) return;
+  mesh::Point sum(0.0, 0.0);
+  double corners = 0.0;
+  for (const GroundRegion& region : scene.regions) {
+    if (region.material != m) continue;
+    for (const mesh::Point& place : region.outline) {
+      sum += place;
+      corners += 1.0;
+      const double here = soil.cohesion_at(place);
+      if (here > 0.0) continue;
+      diagnosis.error(fmt::format("material.{}.cohesion", m),
+                      fmt::format("{:g} at ({:g}, {:g}), in region {}", here, place.x(), place.y(),
+                                  region.name),
+                      "allowed is a cohesion of more than zero wherever the material is");
+      return;
+    }
+  }
+  if (corners == 0.0) return;
+  const mesh::Point middle = sum / corners;
+  soil.cohesion = soil.cohesion_at(middle);
+  soil.centre = middle;
 }
 
 void check_side(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnosis) {
@@ -213,6 +263,9 @@ std::optional<GroundScene> read_ground_scene(std::string_view text,
   if (unreadable) return std::nullopt;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) check_material(scene, i, diagnosis);
   for (std::size_t i = 0; i < scene.regions.size(); ++i) find_material(scene, i, diagnosis);
+  if (diagnosis.errors().empty()) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) check_cohesion(scene, i, diagnosis);
+  }
   for (std::size_t i = 0; i < scene.sides.size(); ++i) check_side(scene, i, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   return scene;
@@ -236,7 +289,7 @@ std::string ground_scene_keys() {
       if (!notes.absent.empty()) text += fmt::format("; absent: {}", notes.absent);
       if (const auto value = field.read(scene, 0);
           value && notes.need == Need::defaulted && field.kind != tables::ValueKind::text) {
-        text += "; default " + tables::value_text(*value);
+        text += "; default " + tables::value_text(*value, field.kind);
       }
       text += '\n';
     }

@@ -10,15 +10,18 @@
 #include "limit/problem/case.hpp"
 #include "limit/problem/problem.hpp"
 #include "tables/diagnosis.hpp"
+#include "tables/table.hpp"
 
 namespace limit::ground {
 
 /// A soil by its name.
 struct GroundMaterial {
   std::string name;
-  problem::Soil soil;           // live_unit_weight unused
-  double dilation_angle = 0.0;  // [rad] 0 .. friction angle
-  bool grows = true;            // its weight is multiplied where gravity is sought
+  problem::Soil soil;                           // live_unit_weight unused
+  tables::LinearField cohesion;                 // as it is told
+  double dilation_angle = 0.0;                  // [rad] 0 .. friction angle
+  std::optional<double> saturated_unit_weight;  // [N/m3] below the water table
+  bool grows = true;                            // its weight is multiplied where gravity is sought
 };
 
 /// A simple polygon of one soil.
@@ -26,6 +29,7 @@ struct GroundRegion {
   std::string name;
   std::string material_name;
   std::size_t material = 0;          // its index
+  std::size_t number = 0;            // in the scene, of which it may be a part
   std::vector<mesh::Point> outline;  // [m] either way around
 };
 
@@ -78,10 +82,17 @@ struct GroundLoad {
                                // roller, whose mirror image completes it
 };
 
+/// Pore water, hydrostatic below its table.
+struct GroundWater {
+  std::vector<mesh::Point> table;  // [m] from left to right; none: no water
+  double unit_weight = 9810.0;     // [N/m3]
+};
+
 /// Ground of polygons, its sides and its load, as a scene of fpm-limit's own describes it.
 struct GroundScene {
   std::string title;
   problem::UnitNames units;
+  GroundWater water;
   std::vector<GroundMaterial> materials;
   std::vector<GroundRegion> regions;
   std::vector<GroundSide> sides;

@@ -48,8 +48,12 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
     if (std::find(said.begin(), said.end(), note) == said.end()) said.push_back(note);
     // The weight, aslant in an earthquake, along the skin and across it.
     const mesh::Point way = (outline.at(segment.second) - outline.at(segment.first)).normalized();
-    const double along = std::abs(way.dot(soils.live_pull));
-    const double across = std::abs(way.x() * soils.live_pull.y() - way.y() * soils.live_pull.x());
+    const mesh::Point force = soils.live_force(soil);
+    const double along = std::abs(way.dot(force));
+    const double presses_on = way.x() * force.y() - way.y() * force.x();
+    // What water lifts off the face has no strength at all.
+    const double across =
+        scene.water.table.empty() ? std::abs(presses_on) : std::max(0.0, presses_on);
     if (along <= level * across) continue;
     const double slides = std::tan(soil.friction_angle) * across / along;
     result.known_upper = std::min(result.known_upper.value_or(INFINITY), slides);
@@ -64,7 +68,7 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
         *result.known_upper));
   }
   const bool is_dry_sand =
-      !is_shaken && gentlest == steepest && steepest > 0.0 &&
+      !is_shaken && scene.water.table.empty() && gentlest == steepest && steepest > 0.0 &&
       std::none_of(
           scene.sides.begin(), scene.sides.end(),
           [](const GroundSide& side) { return presses(side) || side.kind == SideKind::footing; }) &&

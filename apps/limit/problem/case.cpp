@@ -54,6 +54,7 @@ Soil davis_reduced(const Soil& soil, double dilation_angle) {
       std::cos(dilation_angle) * std::cos(phi) / (1.0 - std::sin(dilation_angle) * std::sin(phi));
   Soil reduced = soil;
   reduced.cohesion *= factor;
+  reduced.cohesion_gradient *= factor;
   reduced.friction_angle = std::atan(factor * std::tan(phi));
   return reduced;
 }

@@ -4,10 +4,10 @@
 
 namespace limit::problem {
 
-int softer(const Problem& problem, int one, int other) {
+int softer(const Problem& problem, int one, int other, const mesh::Point& place) {
   const auto strength = [&](int region) {
     const Soil& soil = problem.soils[static_cast<std::size_t>(region)];
-    return soil.cohesion * std::cos(soil.friction_angle) + std::sin(soil.friction_angle);
+    return soil.cohesion_at(place) * std::cos(soil.friction_angle) + std::sin(soil.friction_angle);
   };
   return strength(other) < strength(one) ? other : one;
 }
@@ -19,8 +19,12 @@ Problem in_units(const Problem& problem, const Units& units) {
   const double live = units.multiplier_per_stress;
   for (Soil& soil : scaled.soils) {
     soil.cohesion /= units.stress;
+    soil.cohesion_gradient /= units.stress / units.length;
+    soil.centre /= units.length;
     soil.unit_weight /= units.stress / units.length;
     soil.live_unit_weight *= live * units.length;
+    soil.seepage /= units.stress / units.length;
+    soil.live_seepage *= live * units.length;
   }
   for (Boundary& boundary : scaled.boundaries) {
     boundary.normal_stress /= units.stress;

@@ -11,10 +11,27 @@ namespace limit::problem {
 
 /// A rigid-perfectly-plastic Mohr-Coulomb soil (Tresca if the friction angle is 0), associated.
 struct Soil {
-  double cohesion = 0.0;          // [Pa]
+  double cohesion = 0.0;          // [Pa] where it changes from place to place, that at `centre`
   double friction_angle = 0.0;    // [rad] 0 <= phi < pi/2
   double unit_weight = 0.0;       // [N/m3] acts along Problem::pull
   double live_unit_weight = 0.0;  // [N/m3] per unit of the multiplier, along Problem::live_pull
+  mesh::Point cohesion_gradient{0.0, 0.0};  // [Pa/m]
+  mesh::Point centre{0.0, 0.0};             // [m]
+  /// [N/m3] of the pore water on the grains, less the gradient of its pressure: stresses are then
+  /// effective ones. Per unit of the multiplier, too.
+  mesh::Point seepage{0.0, 0.0}, live_seepage{0.0, 0.0};
+
+  [[nodiscard]] bool varies() const { return !cohesion_gradient.isZero(0.0); }
+  [[nodiscard]] double cohesion_at(const mesh::Point& place) const {
+    return cohesion + cohesion_gradient.dot(place - centre);
+  }
+  /// The same soil with this cohesion everywhere.
+  [[nodiscard]] Soil with_cohesion(double value) const {
+    Soil even = *this;
+    even.cohesion = value;
+    even.cohesion_gradient.setZero();
+    return even;
+  }
 };
 
 /// What is known on a boundary in one direction (normal or tangential to it).
@@ -58,6 +75,14 @@ struct Problem {
   /// Where the multiplier is not followed any further, in its unit: where more weight makes more
   /// strength than it takes, nothing limits it. Absent: wherever it ends.
   std::optional<double> most_multiplier;
+
+  /// Body force on a soil, [N/m3]; live, per unit of the multiplier.
+  [[nodiscard]] mesh::Point force(const Soil& soil) const {
+    return soil.unit_weight * pull + soil.seepage;
+  }
+  [[nodiscard]] mesh::Point live_force(const Soil& soil) const {
+    return soil.live_unit_weight * live_pull + soil.live_seepage;
+  }
 };
 
 /// What is made of order one before anything is solved.
@@ -73,7 +98,8 @@ struct Units {
 /// The soil in which the velocity jumps where two meet: a bound either way, and the better one in
 /// the softer of them, under a mean pressure of one. Of one soil, that one.
 /// @param one, other  regions of the two sides
-[[nodiscard]] int softer(const Problem& problem, int one, int other);
+/// @param place  where they meet
+[[nodiscard]] int softer(const Problem& problem, int one, int other, const mesh::Point& place);
 
 /// The same problem in other units; its multiplier is the old one over `units.multiplier()`.
 [[nodiscard]] Problem in_units(const Problem& problem, const Units& units);

@@ -89,7 +89,9 @@ class Builder {
   Eigen::Index multiplier() const { return 3 * static_cast<Eigen::Index>(cones_.size()); }
 
   void add_cone(int region, const mesh::Point& place) {
-    const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(region)];
+    // Linear, as the stress is, so that the corners decide.
+    const problem::Soil& varying = problem_.soils[static_cast<std::size_t>(region)];
+    const problem::Soil soil = varying.with_cohesion(varying.cohesion_at(place));
     const double load = overburden_.at(soil, place);
     cones_.push_back(yield_cone(soil, load, reserve));
     starts_.push_back(inner_point(cones_.back(), load));
@@ -145,8 +147,8 @@ class Builder {
       const double area2 = mesh::twice_area(mesh, triangle);
       const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(triangle.region)];
       for (int row = 0; row < 2; ++row) {
-        begin_equation(-problem_.pull[row] * soil.unit_weight);
-        add(multiplier(), problem_.live_pull[row] * soil.live_unit_weight);
+        begin_equation(-problem_.force(soil)[row]);
+        add(multiplier(), problem_.live_force(soil)[row]);
         for (int i = 0; i < 3; ++i) {
           const auto at = [&](int k) -> const mesh::Point& {
             return mesh.nodes[static_cast<std::size_t>(

@@ -60,8 +60,8 @@ struct Loads {
     const double third = mesh::twice_area(problem.mesh, triangle) / 6.0;
     for (std::size_t middle = 3; middle < 6; ++middle) {
       const auto row = static_cast<Eigen::Index>(2 * (6 * t + middle));
-      dead.segment<2>(row) += soil.unit_weight * third * problem.pull;
-      live.segment<2>(row) += soil.live_unit_weight * third * problem.live_pull;
+      dead.segment<2>(row) += third * problem.force(soil);
+      live.segment<2>(row) += third * problem.live_force(soil);
     }
   }
 
@@ -125,8 +125,9 @@ class Builder {
 
  private:
   // First variable of a new cone.
-  int add_cone(int region, const mesh::Point& place) {
-    const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(region)];
+  int add_cone(int region, const mesh::Point& place, double cohesion) {
+    const problem::Soil soil =
+        problem_.soils[static_cast<std::size_t>(region)].with_cohesion(cohesion);
     const double load = overburden_.at(soil, place);
     cones_.push_back(yield_cone(soil, load, 0.0));
     starts_.push_back(inner_point(cones_.back(), load));
@@ -152,8 +153,14 @@ class Builder {
     const mesh::Triangle& triangle = mesh.triangles[t];
     const VelocityTriangle shapes = velocity_triangle(mesh, triangle);
     const double weight = shapes.area / 3.0;
+    const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(triangle.region)];
+    double sum = 0.0;
+    for (const int node : triangle.nodes) sum += soil.cohesion_at(node_at(mesh, node));
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      const int column = add_cone(triangle.region, node_at(mesh, triangle.nodes[corner]));
+      // The integral of a linear cohesion times a linear rate.
+      const mesh::Point& place = node_at(mesh, triangle.nodes[corner]);
+      const double cohesion = (sum + soil.cohesion_at(place)) / 4.0;
+      const int column = add_cone(triangle.region, place, cohesion);
       for (std::size_t i = 0; i < 6; ++i) {
         const auto row = static_cast<int>(2 * (6 * t + i));
         const mesh::Point slope = weight * shapes.slopes[corner][i];
@@ -188,10 +195,12 @@ class Builder {
     const auto region_of = [&](int triangle) {
       return mesh.triangles[static_cast<std::size_t>(triangle)].region;
     };
-    const int region = problem::softer(problem_, region_of(edge.left),
-                                       region_of(edge.right >= 0 ? edge.right : edge.left));
-    const double cosine = std::cos(problem_.soils[static_cast<std::size_t>(region)].friction_angle);
     const mesh::Point along = node_at(mesh, edge.second) - node_at(mesh, edge.first);
+    const int region = problem::softer(problem_, region_of(edge.left),
+                                       region_of(edge.right >= 0 ? edge.right : edge.left),
+                                       node_at(mesh, edge.first) + along / 2);
+    const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(region)];
+    const double cosine = std::cos(soil.friction_angle);
     const double length = along.norm();
     const mesh::Point tangent = along / length, normal(tangent.y(), -tangent.x());
     const std::array<mesh::Point, 3> at{node_at(mesh, edge.first),
@@ -201,7 +210,11 @@ class Builder {
     constexpr std::array<std::array<double, 3>, 3> control{
         {{1.0, 0.0, 0.0}, {-0.5, 2.0, -0.5}, {0.0, 0.0, 1.0}}};
     for (std::size_t c = 0; c < 3; ++c) {
-      const int column = add_cone(region, at[c]);
+      // The mean of a linear cohesion over the control point's share of a jump lies between.
+      const double share = 0.25 + 0.25 * static_cast<double>(c);
+      const double cohesion =
+          (1.0 - share) * soil.cohesion_at(at[0]) + share * soil.cohesion_at(at[2]);
+      const int column = add_cone(region, at[c], cohesion);
       if (may_open) add_contact(column);
       for (std::size_t i = 0; i < 3; ++i) {
         const double factor = control[c][i] * length / 3.0;

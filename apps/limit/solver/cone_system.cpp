@@ -24,6 +24,9 @@ constexpr double little = 1e-8;
 // lost.
 constexpr double least = 1e-10, least_share = 1e-15;
 
+// What may be left of the equations: less than the 1e-8 that end an interior point's descent.
+constexpr double enough = 3e-9;
+
 // Sine of a few degrees: below, the mean stress has hardly any curvature of its own.
 constexpr double little_friction = 0.1;
 
@@ -57,7 +60,7 @@ void ConeSystem::gather_blocks() {
   const auto cones = static_cast<Index>(program_.cones.size());
   for (Index first = 0; first < by_column.cols();) {
     const Index width = first < 3 * cones ? 3 : 1;
-    Block block;
+    ConeBlock block;
     block.first = first;
     for (Index j = first; j < first + width; ++j) {
       for (Eigen::SparseMatrix<double>::InnerIterator entry(by_column, j); entry; ++entry) {
@@ -82,7 +85,7 @@ void ConeSystem::set_border_apart() {
   constexpr double few = 100.0, small_share = 0.02;  // of the equations
   const double most = std::max(few, small_share * static_cast<double>(program_.equations.rows()));
   const auto free = blocks_.begin() + static_cast<std::ptrdiff_t>(program_.cones.size());
-  const auto border = std::stable_partition(free, blocks_.end(), [&](const Block& block) {
+  const auto border = std::stable_partition(free, blocks_.end(), [&](const ConeBlock& block) {
     return static_cast<double>(block.rows.size()) <= most;
   });
   border_columns_.setZero(program_.equations.rows(), blocks_.end() - border);
@@ -99,7 +102,7 @@ void ConeSystem::set_border_apart() {
 void ConeSystem::find_entries() {
   const auto size = static_cast<int>(program_.equations.rows());
   std::vector<std::pair<int, int>> pattern;
-  const auto for_pairs = [&](const Block& block, const auto& what) {
+  const auto for_pairs = [&](const ConeBlock& block, const auto& what) {
     for (std::size_t i = 0; i < block.rows.size(); ++i) {
       for (std::size_t j = 0; j <= i; ++j) {
         what(std::pair(static_cast<int>(block.rows[i]), static_cast<int>(block.rows[j])));
@@ -107,7 +110,7 @@ void ConeSystem::find_entries() {
     }
   };
   for (int i = 0; i < size; ++i) pattern.emplace_back(i, i);
-  for (const Block& block : blocks_) {
+  for (const ConeBlock& block : blocks_) {
     for_pairs(block, [&](const auto& pair) { pattern.push_back(pair); });
   }
   std::sort(pattern.begin(), pattern.end());
@@ -117,7 +120,7 @@ void ConeSystem::find_entries() {
                                     pattern.begin());
   };
   for (int i = 0; i < size; ++i) diagonal_.push_back(entry({i, i}));
-  for (Block& block : blocks_) {
+  for (ConeBlock& block : blocks_) {
     for_pairs(block, [&](const auto& pair) { block.entries.push_back(entry(pair)); });
   }
   std::vector<int> rows, columns;
@@ -126,10 +129,25 @@ void ConeSystem::find_entries() {
     columns.push_back(column);
   }
   values_.resize(pattern.size());
-  factors_ = std::make_unique<SparseCholesky>(size, rows, columns);
+  factors_ =
+      std::make_unique<SparseFactors>(SparseFactors::Kind::positive_definite, size, rows, columns);
 }
 
 bool ConeSystem::factorise(const std::vector<Scaling>& scalings) {
+  scalings_ = &scalings;
+  if (!condense(scalings)) return augmented_ == nullptr && switch_to_augmented();
+  solve_border();
+  return true;
+}
+
+bool ConeSystem::switch_to_augmented() {
+  augmented_ = std::make_unique<AugmentedSystem>(program_, blocks_);
+  if (!augmented_->factorise(*scalings_)) return false;
+  solve_border();
+  return true;
+}
+
+bool ConeSystem::condense(const std::vector<Scaling>& scalings) {
   for (std::size_t k = 0; k < scalings.size(); ++k) {
     Matrix3d& inverse = inverse_[k];
     const Vector3d form = slack_form(program_.cones[k]);
@@ -150,10 +168,11 @@ bool ConeSystem::factorise(const std::vector<Scaling>& scalings) {
       inverse.bottomRightCorner<2, 2>() = scalings[k].disc_inverse();
     }
   }
+  if (augmented_) return augmented_->factorise(scalings);
   std::fill(values_.begin(), values_.end(), 0.0);
   Eigen::MatrixXd softened;
   for (std::size_t q = 0; q < blocks_.size(); ++q) {
-    const Block& block = blocks_[q];
+    const ConeBlock& block = blocks_[q];
     if (q < inverse_.size()) {
       softened.noalias() = block.coefficients * inverse_[q];
     } else {
@@ -167,15 +186,16 @@ bool ConeSystem::factorise(const std::vector<Scaling>& scalings) {
     }
   }
   for (const std::size_t entry : diagonal_) values_[entry] += least + least_share * values_[entry];
-  if (!factors_->factorise(values_)) return false;
-  border_solved_ = border_columns_;
+  return factors_->factorise(values_);
+}
+
+void ConeSystem::solve_border() {
+  const VectorXd none = VectorXd::Zero(program_.equations.cols());
+  border_solved_.resizeLike(border_columns_);
   for (Index j = 0; j < border_solved_.cols(); ++j) {
-    VectorXd column = border_columns_.col(j);
-    factors_->solve(column);
-    border_solved_.col(j) = column;
+    border_solved_.col(j) = multipliers(none, -border_columns_.col(j));
   }
   if (!border_.empty()) border_part_.compute(border_columns_.transpose() * border_solved_);
-  return true;
 }
 
 VectorXd ConeSystem::curve(const VectorXd& x) const {
@@ -197,30 +217,56 @@ VectorXd ConeSystem::uncurve(const VectorXd& x) const {
   return result;
 }
 
-ConeSystem::Solution ConeSystem::solve_once(const VectorXd& first, const VectorXd& second) const {
-  const auto& equations = program_.equations;
-  VectorXd y = equations * uncurve(first) - second;
+VectorXd ConeSystem::multipliers(const VectorXd& first, const VectorXd& second) const {
+  if (augmented_) return augmented_->solve(first, second).y;
+  VectorXd y = program_.equations * uncurve(first) - second;
   factors_->solve(y);
+  return y;
+}
+
+ConeSystem::Solution ConeSystem::solve_once(const VectorXd& first, const VectorXd& second) const {
+  VectorXd y = multipliers(first, second);
   VectorXd border(static_cast<Index>(border_.size()));
   for (Index j = 0; j < border.size(); ++j) border[j] = first[border_[static_cast<std::size_t>(j)]];
   if (border.size() > 0) {
     border = border_part_.solve(border - border_columns_.transpose() * y);
     y += border_solved_ * border;
   }
-  VectorXd x = uncurve(first - equations.transpose() * y);
-  for (Index j = 0; j < border.size(); ++j) x[border_[static_cast<std::size_t>(j)]] = border[j];
-  return {std::move(x), std::move(y)};
+  Solution solution;
+  if (augmented_) {
+    solution = augmented_->solve(first, second - border_columns_ * border);
+  } else {
+    solution.x = uncurve(first - program_.equations.transpose() * y);
+    solution.y = std::move(y);
+  }
+  for (Index j = 0; j < border.size(); ++j) {
+    solution.x[border_[static_cast<std::size_t>(j)]] = border[j];
+  }
+  return solution;
 }
 
-ConeSystem::Solution ConeSystem::solve(const VectorXd& first, const VectorXd& second) {
-  const auto& equations = program_.equations;
+ConeSystem::Solution ConeSystem::left(const VectorXd& first, const VectorXd& second,
+                                      const Solution& at) const {
+  return {first - curve(at.x) - program_.equations.transpose() * at.y,
+          second - program_.equations * at.x};
+}
+
+ConeSystem::Solution ConeSystem::solve_refined(const VectorXd& first,
+                                               const VectorXd& second) const {
   return refined(
       first, second,
       [&](const VectorXd& rest, const VectorXd& other) { return solve_once(rest, other); },
-      [&](const Solution& at) {
-        return Solution{first - curve(at.x) - equations.transpose() * at.y,
-                        second - equations * at.x};
-      });
+      [&](const Solution& at) { return left(first, second, at); });
+}
+
+ConeSystem::Solution ConeSystem::solve(const VectorXd& first, const VectorXd& second,
+                                       bool must_hold) {
+  Solution solution = solve_refined(first, second);
+  if (augmented_ || !must_hold) return solution;
+  const double off = left(first, second, solution).y.lpNorm<Eigen::Infinity>();
+  if (off < enough) return solution;
+  if (switch_to_augmented()) return solve_refined(first, second);
+  return solution;
 }
 
 }  // namespace limit::solver

@@ -4,17 +4,13 @@
 #include <memory>
 #include <vector>
 
+#include "limit/solver/augmented_system.hpp"
 #include "limit/solver/refinement.hpp"
 #include "limit/solver/scaled_program.hpp"
 #include "limit/solver/second_order_cone.hpp"
-#include "limit/solver/sparse_cholesky.hpp"
+#include "limit/solver/sparse_factors.hpp"
 
 namespace limit::solver {
-
-/// Diagonal of G, where (strength, 0, 0) - G (p, d, t) must lie in the second-order cone.
-[[nodiscard]] inline Eigen::Vector3d slack_form(const programme::YieldCone& cone) {
-  return {cone.slope, 1.0, 1.0};
-}
 
 /// The Newton systems of an interior-point method on a cone program,
 ///   H x + A' y = first,  A x = second,
@@ -24,37 +20,43 @@ namespace limit::solver {
 /// pivoting. The free variables, and the mean stress of soil of little friction, whose curvature
 /// falls with the friction squared, get a little curvature, which iterative refinement takes out
 /// again. A free variable in very many equations, such as the multiplier of a weight, would fill
-/// that matrix: it stays outside, as a border.
+/// that matrix: it stays outside, as a border. Once that matrix has lost the digits that the
+/// equations need, the system is factorised as it is (AugmentedSystem).
 class ConeSystem {
  public:
   explicit ConeSystem(const ScaledProgram& program);
 
-  /// One scaling per cone. False if there are no factors.
+  /// One scaling per cone, which must live as long as the factors are used. False if there are no
+  /// factors.
   [[nodiscard]] bool factorise(const std::vector<second_order_cone::Scaling>& scalings);
 
   using Solution = NewtonSolution;
-  [[nodiscard]] Solution solve(const Eigen::VectorXd& first, const Eigen::VectorXd& second);
+  /// @param must_hold  the equations, to rounding, whatever it costs
+  [[nodiscard]] Solution solve(const Eigen::VectorXd& first, const Eigen::VectorXd& second,
+                               bool must_hold);
 
  private:
-  // The equations of one cone's variables (or of one free variable), dense.
-  struct Block {
-    Eigen::Index first = 0;
-    std::vector<Eigen::Index> rows;
-    Eigen::MatrixXd coefficients;
-    std::vector<std::size_t> entries;  // where their products go, lower triangle row by row
-  };
-
+  [[nodiscard]] bool condense(const std::vector<second_order_cone::Scaling>& scalings);
+  [[nodiscard]] bool switch_to_augmented();
+  void solve_border();
   void gather_blocks();
   void set_border_apart();
   void find_entries();
+  [[nodiscard]] Solution solve_refined(const Eigen::VectorXd& first,
+                                       const Eigen::VectorXd& second) const;
+  // Without the border.
+  [[nodiscard]] Eigen::VectorXd multipliers(const Eigen::VectorXd& first,
+                                            const Eigen::VectorXd& second) const;
   [[nodiscard]] Solution solve_once(const Eigen::VectorXd& first,
                                     const Eigen::VectorXd& second) const;
+  [[nodiscard]] Solution left(const Eigen::VectorXd& first, const Eigen::VectorXd& second,
+                              const Solution& at) const;
   [[nodiscard]] Eigen::VectorXd curve(const Eigen::VectorXd& x) const;  // H x
   // (H + little)^-1 x, 0 in the border.
   [[nodiscard]] Eigen::VectorXd uncurve(const Eigen::VectorXd& x) const;
 
   const ScaledProgram& program_;
-  std::vector<Block> blocks_;
+  std::vector<ConeBlock> blocks_;
   // The border: its variables, their columns D, M^-1 D with the matrix M within, and D' M^-1 D.
   std::vector<Eigen::Index> border_;
   Eigen::MatrixXd border_columns_, border_solved_;
@@ -62,7 +64,9 @@ class ConeSystem {
   std::vector<Eigen::Matrix3d> curvature_, inverse_;
   std::vector<std::size_t> diagonal_;
   std::vector<double> values_;
-  std::unique_ptr<SparseCholesky> factors_;
+  std::unique_ptr<SparseFactors> factors_;
+  const std::vector<second_order_cone::Scaling>* scalings_ = nullptr;
+  std::unique_ptr<AugmentedSystem> augmented_;
 };
 
 }  // namespace limit::solver

@@ -51,7 +51,9 @@ double damped(double largest, bool centres) {
 /// of the cones: cost + equations' y + G' z = 0, u and z in their cones, u'z = 0 in the end.
 class InteriorPoint {
  public:
-  explicit InteriorPoint(const ScaledProgram& program) : program_(program), system_(program) {
+  /// @param acceptable  duality gap, as a share of the objective, to end at if it must
+  InteriorPoint(const ScaledProgram& program, double acceptable)
+      : program_(program), system_(program), acceptable_(acceptable) {
     begin(1.0);
   }
 
@@ -174,7 +176,8 @@ class InteriorPoint {
           scalings_[k].inverse_times(second_order_cone::quotient(wanted[k], scalings_[k].point));
       first.segment<3>(static_cast<Index>(3 * k)) -= form(k).cwiseProduct(fixed[k]);
     }
-    ConeSystem::Solution solution = system_.solve(first, -share * off_equations_);
+    // While centring, what a direction lacks is left to the next.
+    ConeSystem::Solution solution = system_.solve(first, -share * off_equations_, is_feasible());
     Direction way{std::move(solution.x), std::move(solution.y), Cones(cones), Cones(cones)};
     const VectorXd strain = share * off_multipliers_ + program_.equations.transpose() * way.y;
     for (std::size_t k = 0; k < cones; ++k) {
@@ -209,6 +212,7 @@ class InteriorPoint {
 
   const ScaledProgram& program_;
   ConeSystem system_;
+  double acceptable_;
   VectorXd x_, y_;
   Cones z_, slacks_;
   VectorXd off_equations_, off_multipliers_;
@@ -223,7 +227,8 @@ class InteriorPoint {
 ConeSolution solve_by_interior_point(const programme::ConeProgram& program,
                                      const SolverOptions& options) {
   const ScaledProgram scaled(program);
-  InteriorPoint point(scaled);
+  constexpr double loosely = 100.0;
+  InteriorPoint point(scaled, loosely * options.cone_gap);
   ConeSolution solution;
   const std::clock_t began = std::clock();
   const auto seconds = [&] { return static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC; };
@@ -246,7 +251,6 @@ ConeSolution solve_by_interior_point(const programme::ConeProgram& program,
     } else if (point.advance()) {
       continue;
     } else {
-      constexpr double loosely = 100.0;
       const bool is_close = is_within(loosely * options.cone_gap);
       solution.status = is_close ? SolverStatus::acceptable : SolverStatus::failed;
       solution.message =

@@ -86,4 +86,11 @@ Eigen::Matrix2d Scaling::disc_inverse() const {
           2.0 / (1.0 + 2.0 * radial.squaredNorm()) * radial * radial.transpose());
 }
 
+Eigen::Matrix2d Scaling::disc_root() const {
+  const Eigen::Vector2d radial = axis_.tail<2>();
+  const double stretch = std::sqrt(1.0 + 2.0 * radial.squaredNorm());
+  return size_ * (Eigen::Matrix2d::Identity() -
+                  2.0 / (stretch * (stretch + 1.0)) * radial * radial.transpose());
+}
+
 }  // namespace limit::solver::second_order_cone

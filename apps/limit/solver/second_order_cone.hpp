@@ -31,6 +31,8 @@ struct Scaling {
   [[nodiscard]] Eigen::Matrix3d inverse_squared() const;                        // W^-2
   /// Inverse of the lower right 2 x 2 block of W^-2.
   [[nodiscard]] Eigen::Matrix2d disc_inverse() const;
+  /// The symmetric root of that.
+  [[nodiscard]] Eigen::Matrix2d disc_root() const;
 
   Eigen::Vector3d point;  // W z = W^-1 u
 

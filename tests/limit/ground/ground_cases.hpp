@@ -51,6 +51,8 @@ inline std::vector<KnownGround> known_grounds() {
       // Circle about (1.2067, 0.2917) B off the edge: 2 R^2 (c1 t1 + c2 t2) / (B (x - B/2)), t the
       // half angles in crust and clay.
       {"two_layers", prandtl, 7.79860e3, "the soft clay alone; the best slip circle (Button 1953)"},
+      {"strength_with_depth", (2.0 + pi) * 10e3 + 20e3 * 2.0 / 4.0, 12.4942 * 10e3,
+       "F >= 1 in F ((2 + pi) c + k B / 4), Davis & Booker 1973; the best slip circle"},
       {"inclined", green * (1.0 - digits), green * (1.0 + digits), "Green 1954"},
       {"eccentric", 0.75 * prandtl, prandtl, "Meyerhof's effective width; centric load"},
       {"eccentric_lift_off", 0.5 * prandtl, 0.5 * 5.52e3,

@@ -1,4 +1,4 @@
-#include "limit/solver/sparse_cholesky.hpp"
+#include "limit/solver/sparse_factors.hpp"
 
 #include <dmumps_c.h>
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ constexpr int world = -987654;
 
 }  // namespace
 
-struct SparseCholesky::Mumps {
+struct SparseFactors::Mumps {
   DMUMPS_STRUC_C data{};
   std::vector<int> rows, columns;  // from 1
 
@@ -27,19 +27,21 @@ struct SparseCholesky::Mumps {
   int& control(int i) { return data.icntl[i - 1]; }
 };
 
-SparseCholesky::SparseCholesky(int size, const std::vector<int>& rows,
-                               const std::vector<int>& columns)
+SparseFactors::SparseFactors(Kind kind, int size, const std::vector<int>& rows,
+                             const std::vector<int>& columns)
     : mumps_(std::make_unique<Mumps>()) {
   Mumps& mumps = *mumps_;
   for (const int row : rows) mumps.rows.push_back(row + 1);
   for (const int column : columns) mumps.columns.push_back(column + 1);
   mumps.data.par = 1;
-  mumps.data.sym = 1;  // positive definite: no pivoting
+  mumps.data.sym = kind == Kind::positive_definite ? 1 : 2;
   mumps.data.comm_fortran = world;
   mumps.run(begin);
   for (const int messages : {1, 2, 3}) mumps.control(messages) = -1;
   mumps.control(4) = 0;
-  mumps.control(14) = 50;  // percent of memory beyond the estimate
+  mumps.control(14) = 50;        // percent of memory beyond the estimate
+  constexpr int least_fill = 2;  // the better order where pivots are put off
+  if (kind == Kind::indefinite) mumps.control(7) = least_fill;
   mumps.data.n = size;
   mumps.data.nz = static_cast<int>(rows.size());
   mumps.data.irn = mumps.rows.data();
@@ -52,17 +54,23 @@ SparseCholesky::SparseCholesky(int size, const std::vector<int>& rows,
   }
 }
 
-SparseCholesky::~SparseCholesky() {
+SparseFactors::~SparseFactors() {
   mumps_->run(end);
 }
 
-bool SparseCholesky::factorise(std::vector<double>& entries) {
+bool SparseFactors::factorise(std::vector<double>& entries) {
   mumps_->data.a = entries.data();
   mumps_->run(factorise_job);
+  // Pivots that are put off need more room than is foreseen.
+  constexpr int too_small = -9, most = 3200;
+  for (int more = 100; mumps_->data.infog[0] == too_small && more <= most; more *= 2) {
+    mumps_->control(14) = more;
+    mumps_->run(factorise_job);
+  }
   return mumps_->data.infog[0] >= 0;
 }
 
-void SparseCholesky::solve(Eigen::VectorXd& right_side) {
+void SparseFactors::solve(Eigen::VectorXd& right_side) {
   mumps_->data.rhs = right_side.data();
   mumps_->run(solve_job);
 }

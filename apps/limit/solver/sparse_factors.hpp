@@ -6,20 +6,22 @@
 
 namespace limit::solver {
 
-/// Cholesky factors of sparse symmetric positive definite matrices of one pattern, by the
-/// sequential MUMPS that Ipopt brings along.
-class SparseCholesky {
+/// Factors of sparse symmetric matrices of one pattern, by the sequential MUMPS that Ipopt brings
+/// along: Cholesky's of positive definite ones, or those of indefinite ones, with pivoting.
+class SparseFactors {
  public:
+  enum class Kind { positive_definite, indefinite };
+
   /// Orders the unknowns of the pattern.
   /// @param rows, columns  of the entries of the lower triangle, from 0, each once
   /// @throws std::runtime_error if MUMPS cannot, with its error code.
-  SparseCholesky(int size, const std::vector<int>& rows, const std::vector<int>& columns);
-  ~SparseCholesky();
-  SparseCholesky(const SparseCholesky&) = delete;
-  SparseCholesky& operator=(const SparseCholesky&) = delete;
+  SparseFactors(Kind kind, int size, const std::vector<int>& rows, const std::vector<int>& columns);
+  ~SparseFactors();
+  SparseFactors(const SparseFactors&) = delete;
+  SparseFactors& operator=(const SparseFactors&) = delete;
 
   /// Factorises the matrix with these entries, in the order of the pattern; false if it is not
-  /// positive definite or there is no memory for it.
+  /// as its kind is, or singular, or there is no memory for it.
   [[nodiscard]] bool factorise(std::vector<double>& entries);
 
   /// Overwrites the right side with the solution. After a `factorise` that held.

@@ -1,0 +1,157 @@
+// Pore water: effective stresses under a table.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "limit/ground/ground_cases.hpp"
+
+namespace {
+
+using namespace limit;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double of_water = 10e3;
+
+std::string water(const std::string& table) {
+  return "[water]\nunit_weight = 10e3\ntable = " + table + "\n";
+}
+
+// A strip on level ground, one half.
+std::string footing(double unit_weight, const std::string& more) {
+  return more +
+         fmt::format(
+             "[load]\nsought = \"footing\"\n[[material]]\nname = \"soil\"\n"
+             "cohesion = 2e3\nfriction_angle = 25\nunit_weight = {}\n",
+             unit_weight) +
+         R"([[region]]
+material = "soil"
+outline = [[0, -2], [5, -2], [5, 0], [1, 0], [0, 0]]
+[[side]]
+name = "base"
+kind = "footing"
+along = [[0, 0], [1, 0]]
+[[side]]
+name = "surface"
+kind = "free"
+along = [[1, 0], [5, 0]]
+[[side]]
+name = "axis"
+kind = "symmetry"
+along = [[0, 0], [0, -2]]
+[[side]]
+name = "rigid"
+kind = "fixed"
+along = [[0, -2], [5, -2], [5, 0]]
+)";
+}
+
+bracket::Solution solution(const std::string& text) {
+  const auto problem = case_of(text);
+  EXPECT_TRUE(problem);
+  bracket::BracketOptions options;
+  options.gap = 0.07;
+  return problem ? bracket::solution_of(problem->associated, options, {}) : bracket::Solution{};
+}
+
+// Level ground under water, however deep, is ground of the buoyant weight.
+TEST(Water, MakesLevelGroundAsLightAsItIsUnderWater) {
+  const bracket::Solution dry = solution(footing(20e3 - of_water, ""));
+  for (const char* table : {"[[0, 0], [5, 0]]", "[[-1, 7], [2.5, 7], [9, 7]]"}) {
+    const bracket::Solution wet = solution(footing(20e3, water(table)));
+    ASSERT_TRUE(dry.lower && dry.upper && wet.lower && wet.upper);
+    EXPECT_LE(*dry.lower, *wet.upper) << table;
+    EXPECT_LE(*wet.lower, *dry.upper) << table;
+    EXPECT_TRUE(wet.bracket.reached);
+  }
+}
+
+// Below the base of the ground it is as if there were none.
+TEST(Water, ThatIsBelowTheGroundDoesNotMatter) {
+  const bracket::Solution dry = solution(footing(20e3, ""));
+  const bracket::Solution wet = solution(footing(20e3, water("[[0, -3], [5, -2.5]]")));
+  ASSERT_TRUE(dry.lower && dry.upper && wet.lower && wet.upper);
+  constexpr double solver = 1e-4;
+  EXPECT_NEAR(*wet.lower / *dry.lower, 1.0, solver);
+  EXPECT_NEAR(*wet.upper / *dry.upper, 1.0, solver);
+}
+
+// A face of 20 degrees in sand with the table along it: a skin slides at tan(phi) / tan(beta)
+// (1 - r_u / cos(beta)^2), r_u being the weight of water over the soil's.
+std::string slope(double cohesion, const std::string& more) {
+  const double run = 10.0 / std::tan(20.0 * degree);
+  return more + fmt::format(R"([load]
+sought = "strength"
+[[material]]
+name = "sand"
+cohesion = {0}
+friction_angle = 35
+unit_weight = 20e3
+[[region]]
+material = "sand"
+outline = [[-10, -3], [{2}, -3], [{2}, 0], [{1}, 0], [0, 10], [-10, 10]]
+[[side]]
+name = "surface"
+kind = "free"
+along = [[-10, 10], [0, 10], [{1}, 0], [{2}, 0]]
+[[side]]
+name = "rigid"
+kind = "fixed"
+along = [[-10, 10], [-10, -3], [{2}, -3], [{2}, 0]]
+)",
+                            cohesion, run, run + 10.0);
+}
+
+std::string along_the_face() {
+  const double run = 10.0 / std::tan(20.0 * degree);
+  return water(fmt::format("[[-10, 10], [0, 10], [{}, 0], [{}, 0]]", run, run + 10.0));
+}
+
+TEST(Water, ThatSeepsAlongAFaceLetsItsSkinSlide) {
+  const auto problem = case_of(slope(0.0, along_the_face()));
+  ASSERT_TRUE(problem && problem->associated.known_upper);
+  const double tangent = std::tan(35 * degree) / std::tan(20 * degree);
+  const double ratio = of_water / 20e3, cosine = std::cos(20 * degree);
+  EXPECT_NEAR(*problem->associated.known_upper, tangent * (1.0 - ratio / (cosine * cosine)), 1e-9);
+  EXPECT_FALSE(problem->associated.known_lower);
+}
+
+// With a little cohesion both bounds are there: above the skin's factor, and below that of dry
+// ground by about what the water takes.
+TEST(Water, WeakensASlope) {
+  const bracket::Solution wet = solution(slope(1e3, along_the_face()));
+  const bracket::Solution dry = solution(slope(1e3, ""));
+  const bracket::Solution flooded = solution(slope(1e3, water("[[-10, 12], [60, 12]]")));
+  ASSERT_TRUE(wet.lower && wet.upper && dry.lower && dry.upper && flooded.lower && flooded.upper);
+  const double ratio = of_water / 20e3, cosine = std::cos(20 * degree);
+  const double skin =
+      std::tan(35 * degree) / std::tan(20 * degree) * (1.0 - ratio / (cosine * cosine));
+  EXPECT_GT(*wet.upper, skin);
+  EXPECT_LT(*wet.upper, *dry.lower);
+  // Half the weight, the same cohesion: stronger than dry.
+  EXPECT_GT(*flooded.lower, *dry.upper);
+}
+
+std::string complaint(const std::string& table) {
+  tables::Diagnosis diagnosis("scene");
+  std::optional<tables::Complaint> unreadable;
+  const auto scene =
+      ground::read_ground_scene(footing(20e3, water(table)), {}, diagnosis, unreadable);
+  if (scene) static_cast<void>(ground::ground_case(*scene, diagnosis));
+  return diagnosis.errors().empty() ? "" : diagnosis.errors().front().text();
+}
+
+TEST(Water, WhoseTableIsNoneIsRefusedInWords) {
+  EXPECT_THAT(
+      complaint("[[0, 0], [4, 0]]"),
+      AllOf(HasSubstr("water.table"), HasSubstr("from x = 0 to 4"), HasSubstr("5 or more")));
+  EXPECT_THAT(complaint("[[0, 0], [3, 0], [3, -1], [5, 0]]"), HasSubstr("x = 3 after 3"));
+  EXPECT_THAT(complaint("[[0, 0]]"), HasSubstr("over all of the ground"));
+}
+
+}  // namespace
