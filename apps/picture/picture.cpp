@@ -207,8 +207,11 @@ std::vector<double> ticks_of(double low, double high, bool logarithmic) {
   for (const double factor : {5.0, 2.0, 1.0}) {
     if (raw <= factor * power) stride = factor * power;
   }
-  for (double k = std::ceil(low / stride); k * stride <= high; k += 1.0) {
-    ticks.push_back(k == 0.0 ? 0.0 : k * stride);
+  // Of a range that is nothing beside its place, numbers cannot tell the ends apart.
+  const double first = std::ceil(low / stride);
+  constexpr double most = 20.0;
+  for (double i = 0.0; i < most && (first + i) * stride <= high; i += 1.0) {
+    ticks.push_back(first + i == 0.0 ? 0.0 : (first + i) * stride);
   }
   return ticks;
 }

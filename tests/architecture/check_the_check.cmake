@@ -130,6 +130,8 @@ plant_include(picture/picture.hpp study/report.hpp picture)
 plant_include(campaign/campaign.cpp study/grid.hpp campaign)
 plant_include(campaign/campaign.cpp run/run_scene.hpp campaign)
 plant_include(study/study.cpp model/model.hpp study)
+plant_include(material/path.cpp scene/scene.hpp material)
+plant_include(material/element_test.cpp fpm/kernel.hpp material)
 plant(apps/wiring/helpers.hpp "int f();" "lies in no room")
 
 # And each package has its places.

@@ -89,5 +89,12 @@ TEST(Ticks, AreDecadesOrRoundSteps) {
                           DoubleNear(0.6, 1e-12), DoubleNear(0.8, 1e-12), DoubleNear(1.0, 1e-12)));
 }
 
+// A range of a few units in the last place: counting on would never come to its end.
+TEST(Ticks, OfARangeAtTheRoundOffOfItsPlaceAreFew) {
+  EXPECT_LE(ticks_of(1e20, 1e20 * (1.0 + 4e-16), false).size(), 20U);
+  EXPECT_LE(marks_in(svg_text(of({1e20, 1e20 * (1.0 + 4e-16)}, {1e300, -1e300}, false))).size(),
+            2U);
+}
+
 }  // namespace
 }  // namespace picture
