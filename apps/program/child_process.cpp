@@ -34,6 +34,21 @@ ResourceUse use_of(const struct rusage& use) {
   return {seconds(use.ru_utime) + seconds(use.ru_stime), kibi * use.ru_maxrss};
 }
 
+std::vector<std::string> words_of(const std::filesystem::path& program,
+                                  const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{program.string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
+
+/// As the system takes a command line: the words, which must outlive it, and a null.
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 /// Standard output and error of a program to be started.
 class Redirection {
  public:
@@ -61,11 +76,8 @@ class Redirection {
 ChildProcess::ChildProcess(const std::filesystem::path& program,
                            const std::vector<std::string>& arguments,
                            const std::filesystem::path& output) {
-  std::vector<std::string> words{program.string()};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
+  std::vector<std::string> words = words_of(program, arguments);
+  const std::vector<char*> pointers = pointers_to(words);
   const Redirection redirection(output);
   const int failure = ::posix_spawn(&process_, program.c_str(), redirection.actions(), nullptr,
                                     pointers.data(), environ);
@@ -94,6 +106,13 @@ std::optional<int> ChildProcess::exit_code() {
 
 void ChildProcess::ask_to_stop() {
   if (!exit_code()) ::kill(process_, SIGTERM);
+}
+
+void become(const std::filesystem::path& program, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = words_of(program, arguments);
+  const std::vector<char*> pointers = pointers_to(words);
+  ::execv(program.c_str(), pointers.data());
+  throw files::system_error(program, "cannot be started", errno);
 }
 
 std::filesystem::path folder_of_this_program() {

@@ -40,6 +40,11 @@ class ChildProcess {
   ResourceUse use_;
 };
 
+/// Runs another program in this one's place.
+/// @throws FileError if it cannot be started.
+[[noreturn]] void become(const std::filesystem::path& program,
+                         const std::vector<std::string>& arguments);
+
 /// The folder of the program that runs, where the others of this project are as well.
 [[nodiscard]] std::filesystem::path folder_of_this_program();
 

@@ -13,6 +13,7 @@
 #include "program/child_process.hpp"
 #include "program/command_line.hpp"
 #include "program/version.hpp"
+#include "study/accuracy.hpp"
 #include "study/study.hpp"
 
 namespace {
@@ -25,12 +26,18 @@ using Texts = std::vector<std::string>;
 
 constexpr std::string_view usage =
     "Usage: fpm-study SCENE --vary KEY=V1,V2,... --quantity QUANTITY [options]\n"
+    "       fpm-study SCENE --accuracy 2% [--budget 10min] [--quantity QUANTITY] [options]\n"
     "\n"
     "Runs a scene of fpm-run with every combination of the values of some keys, and says how far\n"
     "each is from a reference and what it cost: a table, study.csv, study.json, and study.svg,\n"
     "error over processor time with the front of those runs that none surpasses in both. What is\n"
     "finished is kept in the output folder and never run again, what was interrupted or killed\n"
-    "goes on.\n";
+    "goes on.\n"
+    "\n"
+    "With --accuracy, as fpm-run has it, a ladder of cheap runs of the scene finds the coarsest\n"
+    "setting whose quantity is that accurate, and says the answer with its error bar and its "
+    "parts:\n"
+    "spacing, steps, tolerance.\n";
 
 constexpr std::string_view notes =
     "QUANTITY is one of\n"
@@ -67,6 +74,14 @@ po::options_description options() {
        "what errors are taken against: a number, a CSV file that has the quantity's columns, "
        "richardson (extrapolated along the first key of numbers, or along KEY by "
        "richardson:KEY), or limit (the bracket of fpm-limit)")  //
+      ("accuracy", po::value<std::string>()->value_name("PART"),
+       "how far the quantity may be off, as 2% or 0.02; without --quantity it is the mean "
+       "pressure, "
+       "the reaction or the largest displacement")  //
+      ("budget", po::value<std::string>()->value_name("TIME"),
+       "of --accuracy: processor time of the ladder, as 10min, 5h, 90s; default: none")  //
+      ("only-say", po::bool_switch(),
+       "with --accuracy: no run in the output folder in the end")  //
       ("set", po::value<Texts>()->value_name("KEY=VALUE")->composing(),
        "override a key of the scene in all runs; may be repeated")  //
       ("out", po::value<std::string>()->value_name("DIR"),
@@ -132,6 +147,30 @@ study::Request request_of(const po::variables_map& values) {
   return request;
 }
 
+study::AccuracyRequest accuracy_of(const po::variables_map& values) {
+  const Texts scenes = texts(values, "scene");
+  if (scenes.empty()) throw UsageError("SCENE is missing");
+  if (scenes.size() > 1) throw UsageError(fmt::format("{}: one SCENE at a time", scenes[1]));
+  if (values.count("vary") != 0) throw UsageError("--vary: --accuracy says itself what it varies");
+  study::AccuracyRequest request;
+  request.scene_file = scenes.front();
+  request.settings = texts(values, "set");
+  request.accuracy = study::parse_accuracy(values["accuracy"].as<std::string>());
+  if (values.count("budget") != 0) {
+    request.budget = study::parse_budget(values["budget"].as<std::string>());
+  }
+  if (values.count("quantity") != 0) {
+    request.quantity = study::parse_quantity(values["quantity"].as<std::string>());
+  }
+  if (values.count("out") != 0) request.folder = values["out"].as<std::string>();
+  request.threads = count_of(values, "threads", 1);
+  request.jobs = count_of(values, "jobs", 1);
+  request.quiet = values["quiet"].as<bool>();
+  request.only_say = values["only-say"].as<bool>();
+  request.programs = program::folder_of_this_program();
+  return request;
+}
+
 ExitCode run(const Texts& arguments) {
   const po::variables_map values = program::parse(arguments, options(), "scene");
   if (values["help"].as<bool>()) {
@@ -141,6 +180,9 @@ ExitCode run(const Texts& arguments) {
   if (values["version"].as<bool>()) {
     std::cout << "fpm-study " << program::version << '\n';
     return ExitCode::done;
+  }
+  if (values.count("accuracy") != 0) {
+    return study::find_accuracy(accuracy_of(values), std::cout, std::cerr);
   }
   return study::make_study(request_of(values), std::cout, std::cerr);
 }
