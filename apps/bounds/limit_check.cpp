@@ -31,20 +31,6 @@ std::optional<LimitBracket> kept_bracket(const std::filesystem::path& record,
   return std::nullopt;
 }
 
-/// What a program said last, its error if there was one.
-std::string last_word(const std::filesystem::path& output) {
-  std::string word = "it said nothing";
-  const std::string text = files::read_text(output);
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::string line = text.substr(at, end - at);
-    if (line.starts_with("error: ") || line.starts_with("internal error: ")) return line;
-    if (!line.empty()) word = line;
-    at = end + 1;
-  }
-  return word;
-}
-
 }  // namespace
 
 LimitCheck::LimitCheck(const scene::Scene& scene, const record::RunFolder& folder,
@@ -95,7 +81,7 @@ void LimitCheck::collect(int exit_code) {
     news_.push_back("collapse load: " + bracket_line(read_limit_bracket(record())));
   } catch (const files::FileError&) {
     news_.push_back(fmt::format("limit.check: fpm-limit ended with code {}: {}", exit_code,
-                                last_word(output())));
+                                program::last_word(output())));
   }
 }
 

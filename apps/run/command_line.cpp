@@ -33,6 +33,7 @@ constexpr std::string_view examples =
     "Examples:\n"
     "  fpm-run share/scenes/footing.toml\n"
     "  fpm-run share/scenes/footing.toml --check\n"
+    "  fpm-run share/scenes/prandtl_phi0.toml --accuracy 2% --budget 10min\n"
     "  fpm-run share/scenes/footing.toml --set geometry.spacing=0.005 --out out/fine\n"
     "  fpm-run share/scenes/footing.toml --resume --set re_search.enabled=true\n"
     "  fpm-run share/scenes/footing.toml --resume out/footing/checkpoints/step-000120.hdf \\\n"
@@ -54,6 +55,14 @@ po::options_description options() {
        "print the scene with every key and the settings applied, do not run")  //
       ("resume", po::value<std::string>()->value_name("[CKPT]")->implicit_value(""),
        "go on from a checkpoint file, or from the newest one in the output folder")  //
+      ("accuracy", po::value<std::string>()->value_name("PART"),
+       "how far the answer may be off, as 2% or 0.02: a ladder of cheap runs (fpm-study) finds the "
+       "coarsest setting that is as good, says the answer with its error bar, and that runs")  //
+      ("budget", po::value<std::string>()->value_name("TIME"),
+       "of --accuracy: processor time of the ladder, as 10min, 5h, 90s")  //
+      ("quantity", po::value<std::string>()->value_name("QUANTITY"),
+       "of --accuracy: what the answer is, as fpm-study --help says; default: the mean pressure, "
+       "the reaction or the largest displacement")  //
       ("threads", po::value<int>()->value_name("N"),
        "threads, at least 1; results do not depend on it; default: OpenMP's choice")  //
       ("max-wall", po::value<std::string>()->value_name("TIME"),
@@ -94,6 +103,24 @@ std::filesystem::path output_folder(const po::variables_map& values, const scene
   return std::filesystem::path("out") / file.stem();
 }
 
+std::optional<AccuracyWish> accuracy_of(const po::variables_map& values) {
+  const auto text = [&](const char* name) {
+    return values.count(name) != 0 ? std::optional(values[name].as<std::string>()) : std::nullopt;
+  };
+  const auto accuracy = text("accuracy");
+  for (const char* name : {"budget", "quantity"}) {
+    if (accuracy || values.count(name) == 0) continue;
+    throw program::UsageError(fmt::format("--{}: it is one of --accuracy", name));
+  }
+  if (!accuracy) return std::nullopt;
+  if (values.count("resume") != 0 || values.count("max-wall") != 0 || values["check"].as<bool>()) {
+    throw program::UsageError(
+        "--accuracy: it goes with neither --resume, --max-wall nor --check; interrupted, the same "
+        "command goes on");
+  }
+  return AccuracyWish{*accuracy, text("budget"), text("quantity")};
+}
+
 RunRequest request_of(const po::variables_map& values) {
   RunRequest request;
   const auto scenes = program::texts(values, "scene");
@@ -103,6 +130,7 @@ RunRequest request_of(const po::variables_map& values) {
   request.scene_file = scenes.front();
   request.settings = program::texts(values, "set");
   if (values.count("resume") != 0) request.resume = ResumeFrom{values["resume"].as<std::string>()};
+  request.accuracy = accuracy_of(values);
   request.check_only = values["check"].as<bool>();
   if (values.count("draw") != 0) {
     request.drawing = values["draw"].as<std::string>();

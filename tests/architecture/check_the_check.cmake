@@ -125,6 +125,13 @@ plant_include(limit/ground/ground_mesh.hpp limit/bracket/bracket.hpp limit/groun
 plant_include(limit/footing/scene_case.cpp model/model.hpp limit/footing)
 plant_include(limit/report.hpp run/report.hpp limit)
 plant_include(limit/report.hpp fpm/kernel.hpp limit)
+plant_include(convergence/convergence.hpp campaign/campaign.hpp convergence)
+plant_include(picture/picture.hpp study/report.hpp picture)
+plant_include(campaign/campaign.cpp study/grid.hpp campaign)
+plant_include(campaign/campaign.cpp run/run_scene.hpp campaign)
+plant_include(study/study.cpp model/model.hpp study)
+plant_include(material/path.cpp scene/scene.hpp material)
+plant_include(material/element_test.cpp fpm/kernel.hpp material)
 plant(apps/wiring/helpers.hpp "int f();" "lies in no room")
 
 # And each package has its places.

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "constitutive/parameters.hpp"
+#include "tables/diagnosis.hpp"
+
+namespace material {
+
+/// What is prescribed of a component in a stage.
+enum class Control { strain, stress };
+
+/// Tests by name; `mixed` says itself what it prescribes.
+enum class TestKind {
+  isotropic,
+  triaxial_compression,
+  triaxial_extension,
+  plane_strain,
+  oedometer,
+  simple_shear,
+  mixed,
+};
+
+std::span<const std::string_view> names_of(Control);
+std::span<const std::string_view> names_of(TestKind);
+
+/// A part of the path: how far, in how many equal steps.
+struct Stage {
+  std::string name;
+  TestKind test = TestKind::mixed;
+  std::optional<double> amount;  // strain, or stress [Pa] of an isotropic one
+  std::vector<Control> control;  // of mixed: rows xx yy zz xy yz zx
+  std::vector<double> change;    // of mixed: strain (engineering shear) or stress [Pa]
+  int steps = 100;
+};
+
+/// The material as the user writes it down; see constitutive::MaterialParameters.
+struct Soil {
+  std::string model = "elastic";  // a family of models of libconstitutive
+  std::string match = "plane_strain";
+  double youngs_modulus = 0.0;
+  double poissons_ratio = 0.0;
+  std::optional<double> cohesion, friction_angle, dilation_angle, dilation_cutoff;
+};
+
+/// An element test as its file describes it.
+struct Path {
+  std::string title;
+  Soil material;
+  std::vector<double>
+      initial_stress;  // [Pa] rows xx yy zz xy yz zx, or the first three; empty: none
+  std::vector<Stage> stage;
+};
+
+/// What a stage prescribes of each row, whatever its test.
+struct Prescription {
+  std::array<Control, 6> control{};
+  std::array<double, 6> change{};
+};
+[[nodiscard]] Prescription prescription_of(const Stage& stage);
+
+/// The parameters of a checked path.
+[[nodiscard]] constitutive::MaterialParameters parameters_of(const Path& path);
+
+/// A path, if it is without a fault, and every complaint.
+struct PathReading {
+  std::optional<Path> path;
+  std::vector<tables::Complaint> errors;
+};
+/// Reads a path's text, settings (`material.cohesion=5e3`) applied. Never throws for what the user
+/// wrote.
+[[nodiscard]] PathReading read_path(std::string_view text, const std::string& source,
+                                    std::span<const std::string> settings = {});
+
+/// All keys as Markdown.
+[[nodiscard]] std::string path_reference();
+
+}  // namespace material

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/exit_code.hpp"
+#include "study/quantity.hpp"
+
+namespace scene {
+struct Scene;
+}
+
+namespace study {
+
+/// A wish for an accuracy as the command line has it.
+struct AccuracyRequest {
+  std::filesystem::path scene_file;
+  std::vector<std::string> settings;  // --set
+  double accuracy = 0.02;             // of the quantity
+  std::optional<double> budget;       // [s] of processor time
+  std::optional<Quantity> quantity;   // absent: see quantity_of
+  std::filesystem::path folder;       // of the output; empty: the scene's own, as fpm-run has it
+  int jobs = 1;
+  int threads = 1;
+  bool quiet = false;
+  bool only_say = false;           // the ladder only, no run in the output folder
+  std::filesystem::path programs;  // folder of fpm-run
+};
+
+/// A part or a percentage: 0.02, 2%.
+/// @throws UsageError unless it is in (0, 1).
+[[nodiscard]] double parse_accuracy(const std::string& text);
+
+/// A time such as 10min, 5h, 30m, 90s, 1h30m [s].
+/// @throws UsageError if it is none.
+[[nodiscard]] double parse_budget(const std::string& text);
+
+/// What a scene is run for: the mean pressure of a footing, the reaction of another displacement,
+/// the largest displacement of a load.
+/// @throws UsageError if the scene measures something else: then the user must say.
+[[nodiscard]] Quantity quantity_of(const scene::Scene& scene);
+
+/// Finds the cheapest setting that meets the wish, says the answer with its error bar and the parts
+/// of it, writes accuracy.json, and becomes the run of that setting in the output folder.
+/// @throws UsageError for what cannot be asked for, FileError for files that cannot be used.
+[[nodiscard]] program::ExitCode find_accuracy(const AccuracyRequest& request, std::ostream& out,
+                                              std::ostream& err);
+
+}  // namespace study

@@ -1,0 +1,182 @@
+#include "study/ladder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace study {
+
+namespace {
+
+constexpr double share = 0.25;           // of the wish that steps, and the tolerance, may take each
+constexpr std::size_t first_levels = 3;  // spacings without which nothing is known of an order
+
+class Climb {
+ public:
+  Climb(const Wish& wish, const Ask& ask) : wish_(wish), ask_(ask) {}
+
+  Answer operator()() {
+    // Of three levels the middle one is fine enough to behave as finer ones do.
+    fineness_.level = 1;
+    const bool known = settle_steps() && settle_tolerance() && look_at_control();
+    if (known) descend();
+    answer_.seconds = spent_;
+    return answer_;
+  }
+
+ private:
+  std::optional<double> value(const Fineness& fineness) {
+    const auto reply = ask_({fineness}).front();
+    if (!reply) {
+      answer_.obstacle = "a run of the ladder has no such value";
+      return std::nullopt;
+    }
+    note(fineness, *reply);
+    return reply->value;
+  }
+
+  void note(const Fineness& fineness, const Reply& reply) {
+    if (std::ranges::find(seen_, fineness) != seen_.end()) return;
+    seen_.push_back(fineness);
+    spent_ += reply.seconds;
+  }
+
+  bool within_budget(double seconds) {
+    if (!wish_.budget || spent_ + seconds <= *wish_.budget) return true;
+    answer_.obstacle = fmt::format(
+        "the budget of {:.3g} s does not allow a finer run, which takes some {:.3g} s "
+        "after {:.3g} s spent",
+        *wish_.budget, seconds, spent_);
+    return false;
+  }
+
+  /// Doubles the steps until what they leave is small: the error of implicit steps is of first
+  /// order.
+  bool settle_steps() {
+    constexpr double most = 64.0;
+    while (true) {
+      Fineness twice = fineness_, four = fineness_;
+      twice.steps *= 2.0;
+      four.steps *= 4.0;
+      const auto now = value(fineness_), finer = value(twice), finest = value(four);
+      if (!now || !finer || !finest) return false;
+      const convergence::Extrapolation found =
+          convergence::extrapolate({{4.0, *now}, {2.0, *finer}, {1.0, *finest}}, 1.0);
+      // It speaks of the finest of the three; this run's is farther by what lies between.
+      const Part part{"steps", found.uncertainty + std::abs(*now - *finest),
+                      fmt::format("{}, twice and four times as many", name_of(found.course))};
+      steps_ = {part, *now};
+      if (part.error <= share * wish_.accuracy * std::abs(*now) || fineness_.steps >= most) {
+        return true;
+      }
+      fineness_.steps *= 2.0;
+      if (!within_budget(0.0)) return false;
+    }
+  }
+
+  /// Tightens the tolerance until what it leaves is small.
+  bool settle_tolerance() {
+    constexpr double tighter = 0.1, least = 1e-5;
+    while (true) {
+      Fineness finer = fineness_;
+      finer.tolerance *= tighter;
+      const auto now = value(fineness_), then = value(finer);
+      if (!now || !then) return false;
+      // An error in proportion to the tolerance is 1 / (1 - 0.1) of the change; three times that
+      // for one that is not quite.
+      tolerance_ = {{"tolerance", 3.0 / (1.0 - tighter) * std::abs(*now - *then),
+                     "three times what a tenth of it changes"},
+                    *now};
+      const bool good = tolerance_.part.error <= share * wish_.accuracy * std::abs(*now);
+      if (good || fineness_.tolerance <= least) return true;
+      fineness_.tolerance *= tighter;
+      if (!within_budget(0.0)) return false;
+    }
+  }
+
+  bool look_at_control() {
+    Fineness half = fineness_;
+    half.control = 0.5;
+    const auto now = value(fineness_);
+    if (!now) return false;
+    const auto other = ask_({half}).front();
+    if (!other) return true;  // a control without a stiffness
+    note(half, *other);
+    control_ = {{"control", 2.0 * std::abs(*now - other->value), "twice what half of it changes"},
+                *now};
+    return true;
+  }
+
+  /// Falling spacings until the wish is met.
+  void descend() {
+    std::vector<convergence::Sample> samples;
+    double last_seconds = 0.0;
+    for (std::size_t level = 0; level < wish_.spacings.size(); ++level) {
+      Fineness fineness = fineness_;
+      fineness.level = level;
+      if (level >= first_levels) {
+        const double ratio = wish_.spacings[level - 1] / wish_.spacings[level];
+        if (!within_budget(last_seconds * std::pow(ratio, wish_.growth))) return;
+      }
+      const auto reply = ask_({fineness}).front();
+      if (!reply) {
+        answer_.obstacle =
+            fmt::format("the run with spacing {} has no such value", wish_.spacings[level]);
+        return;
+      }
+      note(fineness, *reply);
+      last_seconds = reply->seconds;
+      samples.push_back({wish_.spacings[level], reply->value});
+      if (level + 1 < first_levels) continue;
+      judge(fineness, samples);
+      if (answer_.reached) return;
+    }
+    answer_.obstacle = fmt::format("the finest spacing on offer is {}", wish_.spacings.back());
+  }
+
+  /// What the runs so far say of the last of them.
+  void judge(const Fineness& fineness, const std::vector<convergence::Sample>& samples) {
+    constexpr std::size_t most = 4;  // coarser ones belong to another regime
+    const auto from = samples.end() - static_cast<std::ptrdiff_t>(std::min(most, samples.size()));
+    const convergence::Extrapolation found =
+        convergence::extrapolate({from, samples.end()}, wish_.formal);
+    answer_.fineness = fineness;
+    answer_.value = samples.back().value;
+    std::string words = std::string(name_of(found.course));
+    if (found.order) words += fmt::format(", order {:.2f}", *found.order);
+    answer_.parts = {{"spacing", found.uncertainty, words}, scaled(steps_), scaled(tolerance_)};
+    answer_.bar = 0.0;
+    for (const Part& part : answer_.parts) answer_.bar += part.error;
+    if (control_) answer_.control = scaled(*control_);
+    answer_.reached = answer_.bar <= wish_.accuracy * std::abs(answer_.value);
+  }
+
+  /// A part known at the coarse level, of the answer's size.
+  struct Known {
+    Part part;
+    double of = 1.0;  // the value there
+  };
+  [[nodiscard]] Part scaled(const Known& known) const {
+    Part part = known.part;
+    if (known.of != 0.0) part.error *= std::abs(answer_.value / known.of);
+    return part;
+  }
+
+  const Wish& wish_;
+  const Ask& ask_;
+  Answer answer_;
+  Fineness fineness_;
+  Known steps_, tolerance_;
+  std::optional<Known> control_;
+  std::vector<Fineness> seen_;
+  double spent_ = 0.0;  // [s]
+};
+
+}  // namespace
+
+Answer climb(const Wish& wish, const Ask& ask) {
+  return Climb(wish, ask)();
+}
+
+}  // namespace study

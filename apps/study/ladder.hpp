@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "convergence/convergence.hpp"
+
+namespace study {
+
+/// How fine a run is, beside the scene's own settings.
+struct Fineness {
+  std::size_t level = 0;   // of the spacings on offer, coarsest first
+  double steps = 1.0;      // times the scene's at that spacing
+  double tolerance = 1.0;  // times the scene's
+  double control = 1.0;    // times the scene's stiffness of the zero-energy control
+  bool operator==(const Fineness&) const = default;
+};
+
+/// What a run says; nothing if it has no such value.
+struct Reply {
+  double value = 0.0;
+  double seconds = 0.0;  // of processor time
+};
+
+/// Makes runs, all of a list at a time; each is made once, however often it is asked for.
+using Ask = std::function<std::vector<std::optional<Reply>>(const std::vector<Fineness>&)>;
+
+struct Wish {
+  double accuracy = 0.02;        // of the value
+  std::optional<double> budget;  // [s] of processor time in all
+  std::vector<double> spacings;  // [m] on offer, falling
+  double formal = 2.0;           // the order that a spacing's error can be trusted with
+  double growth = 3.0;           // a run costs (coarse / fine)^growth times as much
+};
+
+/// One source of error and what it leaves.
+struct Part {
+  std::string source;
+  double error = 0.0;  // in the value's unit, on both sides
+  std::string words;   // how it is known
+};
+
+struct Answer {
+  bool reached = false;
+  Fineness fineness;  // of the run that is the answer
+  double value = 0.0;
+  double bar = 0.0;             // sum of the parts, on both sides
+  std::vector<Part> parts;      // that add up to it
+  std::optional<Part> control;  // of what the spacing leaves: what the control's stiffness decides
+  double seconds = 0.0;         // spent
+  std::string obstacle;         // why it was not reached
+};
+
+/// Climbs the ladder: first the steps and the tolerance are made fine enough, by runs at a coarse
+/// spacing, each to a quarter of what is wished at most; then spacings fall until the rest of it is
+/// not exceeded by what Richardson's safeguarded extrapolation leaves of them.
+[[nodiscard]] Answer climb(const Wish& wish, const Ask& ask);
+
+}  // namespace study

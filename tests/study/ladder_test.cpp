@@ -1,0 +1,201 @@
+#include "study/ladder.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <sstream>
+
+#include "program/command_line.hpp"
+#include "scene/reader.hpp"
+#include "scene/scene.hpp"
+#include "study/accuracy.hpp"
+#include "study/levels.hpp"
+
+namespace study {
+namespace {
+
+using ::testing::DoubleNear;
+using ::testing::HasSubstr;
+
+const std::vector<double> spacings{0.25,       1.0 / 6.0,  1.0 / 9.0, 1.0 / 14.0,
+                                   1.0 / 21.0, 1.0 / 32.0, 1.0 / 48.0};
+
+/// A made problem: exact value 1, an error of each source.
+struct Problem {
+  double of_spacing = 0.3, order = 1.0;  // a h^p
+  double of_steps = 0.0;                 // over how many times as many steps
+  double of_tolerance = 0.0;             // times how many times the tolerance
+  std::size_t finest = 0;                // asked for so far
+  double seconds = 0.0;
+
+  double value(const Fineness& f) const {
+    return 1.0 + of_spacing * std::pow(spacings[f.level], order) + of_steps / f.steps +
+           of_tolerance * f.tolerance;
+  }
+  Answer climbed(double accuracy, std::optional<double> budget = std::nullopt) {
+    std::vector<Fineness> asked;
+    const Wish wish{accuracy, budget, spacings, 2.0, 3.0};
+    return climb(wish, [&](const std::vector<Fineness>& all) {
+      std::vector<std::optional<Reply>> replies;
+      for (const Fineness& one : all) {
+        const double cost = 0.01 * std::pow(spacings[one.level], -3.0) * one.steps;
+        replies.push_back(Reply{value(one), cost});
+        finest = std::max(finest, one.level);
+        if (std::ranges::find(asked, one) == asked.end()) seconds += cost;
+        asked.push_back(one);
+      }
+      return replies;
+    });
+  }
+};
+
+TEST(TheLadder, EndsAtTheCoarsestSpacingThatIsGoodEnough) {
+  Problem problem;
+  // 1.25 a h is what is left of an error of first order: 2 % of 1 + a h from h = 1/21 on.
+  const Answer answer = problem.climbed(0.02);
+  EXPECT_TRUE(answer.reached);
+  EXPECT_EQ(answer.fineness.level, 4U);
+  EXPECT_EQ(problem.finest, 4U) << "nothing finer is run";
+  EXPECT_NEAR(answer.bar, 1.25 * 0.3 / 21.0, 1e-6);
+  EXPECT_DOUBLE_EQ(answer.value, problem.value(answer.fineness));
+  EXPECT_NEAR(answer.seconds, problem.seconds, 1e-9) << "each run is paid once";
+}
+
+TEST(TheLadder, MakesStepsAndToleranceFineEnoughFirst) {
+  Problem problem;
+  problem.of_steps = 0.04;
+  problem.of_tolerance = 0.03;
+  const Answer answer = problem.climbed(0.02);
+  ASSERT_TRUE(answer.reached);
+  EXPECT_GT(answer.fineness.steps, 1.0);
+  EXPECT_LT(answer.fineness.tolerance, 1.0);
+  EXPECT_LE(std::abs(answer.value - 1.0), answer.bar);
+  double sum = 0.0;
+  for (const Part& part : answer.parts) sum += part.error;
+  EXPECT_DOUBLE_EQ(sum, answer.bar);
+}
+
+// Honest on what it is made for: errors that are powers of each source, of any size and sign; and
+// the bar is not much wider than it must be.
+TEST(TheLadder, HasTheTrueErrorWithinItsBar) {
+  std::mt19937_64 engine(11);
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  for (int trial = 0; trial < 300; ++trial) {
+    Problem problem;
+    problem.order = 1.25 + 0.75 * share(engine);
+    problem.of_spacing = 0.5 * share(engine);
+    problem.of_steps = 0.02 * share(engine);
+    problem.of_tolerance = 0.005 * share(engine);
+    const Answer answer = problem.climbed(0.02);
+    const double error = std::abs(answer.value - 1.0);
+    ASSERT_LE(error, answer.bar) << "order " << problem.order << " of spacing "
+                                 << problem.of_spacing;
+    EXPECT_TRUE(!answer.reached || answer.bar <= 0.02 * std::abs(answer.value));
+  }
+}
+
+TEST(TheLadder, SaysWhatTheBudgetDoesNotAllow) {
+  Problem problem;
+  Problem free = problem;
+  (void)free.climbed(0.001);
+  const Answer answer = problem.climbed(0.001, 0.02 * free.seconds);
+  EXPECT_FALSE(answer.reached);
+  EXPECT_LE(problem.seconds, 0.02 * free.seconds);
+  EXPECT_THAT(answer.obstacle, HasSubstr("the budget of"));
+  EXPECT_GT(answer.bar, 0.001) << "with what was reached";
+  EXPECT_LE(std::abs(answer.value - 1.0), answer.bar);
+}
+
+TEST(TheLadder, TrustsNoSpacingsThatOscillate) {
+  const Wish wish{0.02, std::nullopt, spacings, 2.0, 3.0};
+  const Answer answer = climb(wish, [&](const std::vector<Fineness>& all) {
+    std::vector<std::optional<Reply>> replies;
+    for (const Fineness& one : all) {
+      const double sign = one.level % 2 == 0 ? 1.0 : -1.0;
+      replies.push_back(Reply{1.0 + sign * 0.05 * spacings[one.level], 1.0});
+    }
+    return replies;
+  });
+  ASSERT_TRUE(answer.reached);
+  EXPECT_LE(std::abs(answer.value - 1.0), answer.bar);
+  EXPECT_THAT(answer.parts[0].words, HasSubstr("oscillating"));
+}
+
+TEST(TheLadder, EndsWhereARunHasNoValue) {
+  const Wish wish{0.02, std::nullopt, spacings, 2.0, 3.0};
+  const Answer answer = climb(wish, [&](const std::vector<Fineness>& all) {
+    return std::vector<std::optional<Reply>>(all.size());
+  });
+  EXPECT_FALSE(answer.reached);
+  EXPECT_THAT(answer.obstacle, HasSubstr("no such value"));
+}
+
+std::vector<double> offered(const std::string& name) {
+  const auto file = std::filesystem::path(FPM_SHARE_DIR) / "scenes" / name;
+  return spacings_on_offer(*scene::read_scene(file).scene);
+}
+
+// B/spacing = 16 of 64 x 32 cells: B keeps whole numbers of cells, from 6 on.
+TEST(SpacingsOnOffer, KeepTheFootingAWholeNumberOfCells) {
+  const auto all = offered("prandtl_phi0.toml");
+  ASSERT_GE(all.size(), 5U);
+  for (const double spacing : all) {
+    EXPECT_THAT(1.0 / spacing, DoubleNear(std::round(1.0 / spacing), 1e-9));
+  }
+  EXPECT_DOUBLE_EQ(all[0], 1.0 / 6.0);
+  EXPECT_DOUBLE_EQ(all[1], 1.0 / 9.0);
+  EXPECT_DOUBLE_EQ(all[2], 1.0 / 14.0);
+}
+
+// Its radii are 1 and 2 m: the box is whole, the bore is resolved by six cells.
+TEST(SpacingsOnOffer, ResolveACircleFromTheFirst) {
+  EXPECT_DOUBLE_EQ(offered("cylinder.toml")[0], 1.0 / 6.0);
+}
+
+TEST(SpacingsOnOffer, MakeScenesThatAreAccepted) {
+  for (const char* name : {"beam.toml", "block3d.toml", "compression.toml", "cylinder.toml",
+                           "footing.toml", "prandtl_phi20.toml"}) {
+    const auto file = std::filesystem::path(FPM_SHARE_DIR) / "scenes" / name;
+    const auto all = offered(name);
+    ASSERT_GE(all.size(), 3U) << name;
+    for (const double spacing : {all[0], all[1], all[2]}) {
+      std::ostringstream setting;
+      setting.precision(17);
+      setting << "geometry.spacing=" << spacing;
+      const auto one = scene::read_scene(file, std::vector<std::string>{setting.str()});
+      EXPECT_TRUE(one.errors.empty()) << name << ": " << one.errors.front().text();
+    }
+  }
+}
+
+TEST(AnAccuracy, IsAPartOrAPercentage) {
+  EXPECT_DOUBLE_EQ(parse_accuracy("2%"), 0.02);
+  EXPECT_DOUBLE_EQ(parse_accuracy("0.005"), 0.005);
+  for (const char* text : {"", "0", "2", "-1%", "100%", "2 %", "x", "nan"}) {
+    EXPECT_THROW((void)parse_accuracy(text), program::UsageError) << text;
+  }
+}
+
+TEST(ABudget, IsATime) {
+  EXPECT_DOUBLE_EQ(parse_budget("10min"), 600.0);
+  EXPECT_DOUBLE_EQ(parse_budget("1h30m"), 5400.0);
+  EXPECT_DOUBLE_EQ(parse_budget("2.5s"), 2.5);
+  for (const char* text : {"", "10", "min", "30m1h", "0s", "-5s", "10 min", "infs"}) {
+    EXPECT_THROW((void)parse_budget(text), program::UsageError) << text;
+  }
+}
+
+TEST(TheQuantity, OfASceneIsWhatItIsRunFor) {
+  const auto of = [](const char* name) {
+    const auto file = std::filesystem::path(FPM_SHARE_DIR) / "scenes" / name;
+    return quantity_of(*scene::read_scene(file).scene).column;
+  };
+  EXPECT_EQ(of("footing.toml"), "mean_pressure_Pa");
+  EXPECT_EQ(of("beam.toml"), "body_max_displacement_m");
+  EXPECT_THROW((void)of("cylinder.toml"), program::UsageError) << "it measures the bore";
+}
+
+}  // namespace
+}  // namespace study
