@@ -186,6 +186,8 @@ Status status_of(Ending ending, const Report& report) {
       return Status::stopped;
     case Ending::limit:
       return Status::evaluation_limit;
+    case Ending::stationary:
+      return Status::local_minimum;
     case Ending::noise_floor:
       return Status::noise_floor;
   }
