@@ -4,4 +4,4 @@
 
 #define JFNK_TARGET_CLONES
 #define detail KERNEL_SET
-#include "../../libjfnk/src/block_kernels.cpp"
+#include "block_kernels.cpp"
