@@ -73,7 +73,11 @@ void add_sides(GroundScene& scene, Pen& pen) {
 GroundScene drawn(Pen pen) {
   GroundScene scene;
   scene.load.sought = limit::ground::Sought::gravity;
-  scene.materials.push_back({"soil", {1.0, 0.2, 1.0}, 0.2, true});
+  limit::ground::GroundMaterial& soil = scene.materials.emplace_back();
+  soil.name = "soil";
+  soil.soil.cohesion = 1.0;
+  soil.soil.friction_angle = soil.dilation_angle = 0.2;
+  soil.soil.unit_weight = 1.0;
   const int regions = 1 + pen.byte() % 3;
   for (int r = 0; r < regions; ++r) {
     limit::ground::GroundRegion& region = scene.regions.emplace_back();
