@@ -130,10 +130,10 @@ TEST(GroundScene, ThatIsNoGroundIsRefused) {
        "s.toml:15:12: region.0.material: found \"rocks\"; materials are clay, rock; did you mean "
        "\"rock\"?"},
       {replaced(good, "[1.2, 1], [0, 1]]", "[0, 1], [1.2, 1]]"),
-       "s.toml:19:11: region.1.outline: the polygon crosses itself at (0.757396, 0.584615); an "
+       "s.toml:19:11: region.1.outline: the polygon crosses itself at (0.846192, 0.793612); an "
        "outline passes no place twice"},
       {replaced(good, "[2.05, 0.5], [0, 0.3]]", "[2.05, 0.5], [0, 0.6]]"),
-       "s.toml:19:11: region.1.outline: \"region 0\" and \"region 1\" overlap at (0, 0.45); "
+       "s.toml:19:11: region.1.outline: \"region 0\" and \"region 1\" overlap at (1.025, 0.55); "
        "regions share sides at most"},
       {replaced(good, "[[2.05, 0.5], [1.2, 1], [0.5, 1]]", "[[2.05, 0.5], [1.2, 1]]"),
        "s.toml:19:11: region.1.outline: no [[side]] names the outline (1.2, 1) - (0.5, 1); every "
