@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "model/memory.hpp"
 #include "record/curve.hpp"
 #include "record/run_folder.hpp"
 
@@ -16,9 +15,9 @@ struct Scene;
 namespace run {
 
 /// Particles, ghosts, memory and steps of a run that is not made, for --check.
-/// @param parts  of the memory of a long run, the state's first
+/// @param bytes  of the state and of all that works on it
 std::string check_report(const scene::Scene& scene, std::size_t particles, std::size_t ghosts,
-                         const std::vector<model::MemoryPart>& parts);
+                         std::size_t bytes, std::size_t state_bytes);
 
 /// What a run came to, and where its files are.
 /// @param measures  columns of the curve that the scene asks for

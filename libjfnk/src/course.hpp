@@ -19,8 +19,7 @@ enum class Ending {
   transient_failed,      ///< pseudo-transient only
   stopped,
   limit,
-  noise_floor,  ///< ||F|| is at its noise, above the tolerance
-  stationary    ///< Newton only: ||F|| is stationary, but no root
+  noise_floor  ///< ||F|| is at its noise, above the tolerance
 };
 
 /// Whether nothing more may be evaluated after such an ending.
