@@ -89,18 +89,6 @@ bool holds_by_images(const Scene& scene) {
 
 }  // namespace
 
-bool loads_plate(const Drive& drive) {
-  return drive.kind == DriveKind::load && std::ranges::count(drive.scales, LoadKind::plate) > 0;
-}
-
-bool is_mirror(const Scene& scene, Side side) {
-  return std::ranges::any_of(scene.symmetry, [&](const Symmetry& symmetry) {
-    return static_cast<int>(symmetry.axis) == axis_of(side) &&
-           std::abs(symmetry.position - side_position(scene.geometry, side)) <=
-               same_place(scene.geometry);
-  });
-}
-
 SupportMethod resolve_method(const Scene& scene, const Support& support) {
   if (support.method != SupportMethod::automatic) return support.method;
   const bool free_side = support.side && may_have_images(scene) &&
@@ -178,11 +166,6 @@ std::int64_t nominal_steps(const Scene& scene) {
       1, static_cast<std::int64_t>(std::ceil(scene.drive.target / increment - round_off)));
 }
 
-double side_position(const Geometry& geometry, Side side) {
-  const auto axis = static_cast<std::size_t>(axis_of(side));
-  return is_upper(side) ? geometry.max[axis] : geometry.min[axis];
-}
-
 std::vector<Measure> resolve_measures(const Scene& scene) {
   if (!scene.measure.empty() || scene.drive.kind == DriveKind::displacement) return scene.measure;
   std::vector<Measure> all{{.name = "body", .kind = MeasureKind::max_displacement}};
@@ -200,20 +183,6 @@ std::vector<Measure> resolve_measures(const Scene& scene) {
     all.push_back({.name = name, .kind = MeasureKind::reaction, .support = supports[i]});
   }
   return all;
-}
-
-double coordinate_round_off(const Geometry& geometry) {
-  double largest = 0.0;
-  for (const Point& corner : {geometry.min, geometry.max}) {
-    for (const double x : corner) largest = std::max(largest, std::abs(x));
-  }
-  return std::numeric_limits<double>::epsilon() * largest;
-}
-
-double same_place(const Geometry& geometry) {
-  constexpr double of_spacing = 1e-9;
-  constexpr double roundings = 8.0;  // on the way from what was typed to a difference
-  return of_spacing * geometry.spacing + roundings * coordinate_round_off(geometry);
 }
 
 std::size_t material_at(const Scene& scene, std::span<const double> place) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/box.hpp"
 #include "scene/choices.hpp"
 
 namespace constitutive {
@@ -24,13 +25,6 @@ struct Measure;
 struct Scene;
 struct Solver;
 struct Support;
-
-/// Places less than this apart are one [m]: decimal input and the round-off of coordinates leave
-/// them that far from where they are meant to be.
-[[nodiscard]] double same_place(const Geometry& geometry);
-
-/// Round-off of a difference of two coordinates of the body [m].
-[[nodiscard]] double coordinate_round_off(const Geometry& geometry);
 
 /// The model of a material, by its family and match.
 [[nodiscard]] const constitutive::ModelInfo& model_of(const Material& material);
@@ -56,12 +50,6 @@ struct Support;
 
 /// How a displacement is imposed: likewise.
 [[nodiscard]] DriveMethod resolve_drive_method(const Scene& scene);
-
-/// Whether a drive is a plate whose load grows.
-[[nodiscard]] bool loads_plate(const Drive& drive);
-
-/// Whether there is a plane of symmetry at a side.
-[[nodiscard]] bool is_mirror(const Scene& scene, Side side);
 
 /// Whether the body is not the whole box: it has cutouts or is one of regions.
 [[nodiscard]] bool is_cut(const Scene& scene);
@@ -117,18 +105,5 @@ struct SolverSettings {
 
 /// Whether every soil dilates by its friction angle.
 [[nodiscard]] bool is_associated(const Scene& scene);
-
-/// Index of the coordinate axis of a side's normal: 0 x, 1 y, 2 z.
-[[nodiscard]] constexpr int axis_of(Side side) {
-  return static_cast<int>(side) / 2;
-}
-
-/// Whether a side is at the upper end of its axis (right, top, back).
-[[nodiscard]] constexpr bool is_upper(Side side) {
-  return static_cast<int>(side) % 2 == 1;
-}
-
-/// Coordinate of a side of the box [m].
-[[nodiscard]] double side_position(const Geometry& geometry, Side side);
 
 }  // namespace scene

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "scene/derived.hpp"
+#include "scene/box.hpp"
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
 #include "tables/nearest_name.hpp"

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 #include <string>
 #include <vector>
 
-namespace shape {
+#include "shape/point.hpp"
 
-using Point = Eigen::Vector2d;
-using Ring = std::vector<Point>;  ///< corners of a polygon, either way around, not closed
+namespace shape {
 
 /// What is taken from a box: what is inside a ring, or outside it.
 struct Cut {

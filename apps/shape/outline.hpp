@@ -1,11 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "shape/body.hpp"
+#include "shape/point.hpp"
 #include "tables/diagnosis.hpp"
 
 namespace shape {
