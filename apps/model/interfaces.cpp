@@ -13,6 +13,7 @@
 #include "scene/cutouts.hpp"
 #include "scene/derived.hpp"
 #include "scene/ground.hpp"
+#include "scene/outline_faces.hpp"
 #include "scene/scene.hpp"
 
 namespace model {

@@ -9,6 +9,7 @@
 #include "model/surface.hpp"
 #include "scene/derived.hpp"
 #include "scene/ground.hpp"
+#include "scene/outline_faces.hpp"
 #include "scene/scene.hpp"
 
 namespace model {

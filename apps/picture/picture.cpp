@@ -20,24 +20,6 @@ constexpr std::array<std::string_view, 6> colours{"#1b4f8a", "#b3401e", "#3b7d3b
                                                   "#7a4fa3", "#8a6d1b", "#444444"};
 constexpr std::array<std::string_view, 6> dashes{"", "6 3", "2 3", "8 3 2 3", "10 4", "1 2"};
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 /// One axis: which values it shows, and where.
 class Scale {
  public:
@@ -184,6 +166,24 @@ class Drawing {
 };
 
 }  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
 
 std::vector<double> ticks_of(double low, double high, bool logarithmic) {
   std::vector<double> ticks;

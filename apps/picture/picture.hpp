@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace picture {
@@ -31,6 +32,9 @@ struct Picture {
 /// What is not finite is left out.
 /// @throws std::invalid_argument if x and y of a series differ in length.
 [[nodiscard]] std::string svg_text(const Picture& picture);
+
+/// A text as SVG takes it.
+[[nodiscard]] std::string escaped(std::string_view text);
 
 /// Where an axis from `low` to `high` has its numbers: decades, or steps of 1, 2 or 5.
 [[nodiscard]] std::vector<double> ticks_of(double low, double high, bool logarithmic);

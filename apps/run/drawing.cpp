@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "picture/picture.hpp"
 #include "scene/derived.hpp"
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
@@ -24,20 +25,6 @@ constexpr double line_height = 18.0;
 constexpr std::array<std::string_view, 8> colours{"#d9b382", "#8fb0c9", "#a8c98f", "#c99bb8",
                                                   "#c9c38f", "#9f9fd0", "#d09f8f", "#8fc9c0"};
 constexpr std::string_view held = "#202020", loaded = "#c03020", moved = "#2050c0";
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
 
 class Drawing {
  public:
@@ -90,7 +77,7 @@ class Drawing {
     fmt::format_to(std::back_inserter(out_),
                    "<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"{}\" text-anchor=\"middle\" "
                    "paint-order=\"stroke\" stroke=\"white\" stroke-width=\"3\">{}</text>\n",
-                   x(at), y(at) + 4.0, colour, escaped(text));
+                   x(at), y(at) + 4.0, colour, picture::escaped(text));
   }
 
   void written_line(const Place& from, const Place& to, std::string_view colour,
@@ -209,7 +196,7 @@ class Drawing {
     fmt::format_to(std::back_inserter(out_),
                    "<rect x=\"{0:.0f}\" y=\"{1:.0f}\" width=\"10\" height=\"10\" fill=\"{2}\"/>"
                    "<text x=\"{3:.0f}\" y=\"{4:.0f}\">{5}</text>\n",
-                   margin, below_ - 10.0, colour, margin + 16.0, below_, escaped(text));
+                   margin, below_ - 10.0, colour, margin + 16.0, below_, picture::escaped(text));
   }
 
   void add_legend() {

@@ -138,7 +138,17 @@ void check_initial_stress(const Scene& scene, tables::Diagnosis& diagnosis) {
                     "geostatic stress is carried weight: give gravity.acceleration");
     return;
   }
-  if (initial.kind == InitialStressKind::gravity) return;
+  if (initial.kind == InitialStressKind::gravity) {
+    const auto refuse = [&](bool given, const char* key) {
+      if (!given || !diagnosis.good({key})) return;
+      diagnosis.error(key, "found with kind = \"gravity\"",
+                      "it belongs to geostatic: what gravity leaves is what it is");
+    };
+    refuse(initial.surface.has_value(), "initial_stress.surface");
+    refuse(initial.K0.has_value(), "initial_stress.K0");
+    refuse(initial.surcharge != 0.0, "initial_stress.surcharge");
+    return;
+  }
   const Point& g = scene.gravity.acceleration;
   bool down = g[1] < 0.0;
   for (std::size_t i = 0; i < g.size(); ++i) down = down && (i == 1 || g[i] == 0.0);

@@ -3,105 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
 
 #include "scene/box.hpp"
-#include "scene/names.hpp"
+#include "scene/outline_faces.hpp"
 #include "scene/scene.hpp"
-#include "tables/nearest_name.hpp"
-#include "tables/table.hpp"
 
 namespace scene {
 namespace {
-
-constexpr double earth = 9.81;  // [m/s2]
-
-double size_of(const Point& vector) {
-  double square = 0.0;
-  for (const double x : vector) square += x * x;
-  return std::sqrt(square);
-}
-
-// Unit weights are densities, and without [gravity] gravity is the earth's, aslant in an
-// earthquake.
-void complete_weights(Scene& scene, tables::Diagnosis& diagnosis) {
-  const bool weighs = std::ranges::any_of(scene.material, [](const Material& material) {
-    return material.unit_weight.value_or(0.0) > 0.0;
-  });
-  if (!weighs || !diagnosis.good({"material", "gravity", "gravity.acceleration", "load.kh",
-                                  "load.kv", "geometry.dimension"})) {
-    return;
-  }
-  const bool shaken = scene.load.sought != Sought::earthquake;
-  Point& acceleration = scene.gravity.acceleration;
-  if (acceleration.empty()) {
-    acceleration.assign(static_cast<std::size_t>(scene.geometry.dimension), 0.0);
-    acceleration[0] = shaken ? earth * scene.load.kh : 0.0;
-    acceleration[1] = earth * (scene.load.kv - 1.0);
-  }
-  // Of the ground at rest: the weight aslant is more.
-  const double kh = shaken ? scene.load.kh : 0.0;
-  const double still = size_of(acceleration) / std::hypot(kh, scene.load.kv - 1.0);
-  for (std::size_t i = 0; i < scene.material.size(); ++i) {
-    Material& material = scene.material[i];
-    const std::string key = fmt::format("material.{}.unit_weight", i);
-    if (!material.unit_weight || !diagnosis.good({key, fmt::format("material.{}.density", i)})) {
-      continue;
-    }
-    const double density = still > 0.0 ? *material.unit_weight / still : 0.0;
-    constexpr double round_off = 1e-9;
-    if (material.density > 0.0 && std::abs(density - material.density) > round_off * density) {
-      diagnosis.error(
-          key,
-          fmt::format("found {}, and a density of {}", *material.unit_weight, material.density),
-          fmt::format("it would be {:.6g} with gravity's {:.6g} m/s2: give one of them",
-                      material.density * still, still));
-      continue;
-    }
-    if (material.density == 0.0) material.density = density;
-  }
-}
-
-// What only a body of regions has or has not.
-bool is_ground(const Scene& scene, tables::Diagnosis& diagnosis) {
-  if (scene.region.empty()) {
-    if (!scene.side.empty()) {
-      diagnosis.error("side.0", "found without a [[region]]",
-                      "sides are parts of the outline of regions; the faces of a box are left, "
-                      "right, bottom, top");
-    }
-    for (const char* key : {"geometry.min", "geometry.max"}) {
-      const Point& corner = key[10] == 'i' ? scene.geometry.min : scene.geometry.max;
-      if (corner.empty() && diagnosis.good({key, "geometry"})) {
-        diagnosis.error(key, "is missing",
-                        "needed is a list of numbers [m], unless [[region]]s are the body");
-      }
-    }
-    return false;
-  }
-  const auto refuse = [&](bool refused, const std::string& key, const std::string& found,
-                          const std::string& allowed) {
-    if (refused && diagnosis.good({key})) diagnosis.error(key, found, allowed);
-  };
-  refuse(scene.geometry.dimension != 2, "geometry.dimension", "found 3 with a [[region]]",
-         "only plane bodies have regions");
-  refuse(scene.geometry.layout != Layout::cell, "geometry.layout", "found vertex with a [[region]]",
-         "particles of regions are those of cells: layout = \"cell\"");
-  refuse(scene.initial_stress.kind == InitialStressKind::geostatic, "initial_stress.kind",
-         "found geostatic in a body of regions",
-         "it is the stress under a level surface: under any other it is kind = \"gravity\"");
-  for (std::size_t i = 0; i < scene.material.size(); ++i) {
-    const Material& material = scene.material[i];
-    refuse(
-        !material.region_min.empty() || !material.region_max.empty(),
-        fmt::format("material.{}.{}", i, material.region_min.empty() ? "region_max" : "region_min"),
-        "found in a body of regions", "a [[region]] says where its material is");
-  }
-  return diagnosis.good({"geometry.dimension", "geometry.layout", "region", "side"});
-}
 
 std::vector<shape::Point> points_of(const std::vector<PlanePoint>& places) {
   std::vector<shape::Point> points;
@@ -109,7 +19,9 @@ std::vector<shape::Point> points_of(const std::vector<PlanePoint>& places) {
   return points;
 }
 
-shape::Outline joined(const Scene& scene, tables::Diagnosis& diagnosis) {
+}  // namespace
+
+shape::Outline join_regions(const Scene& scene, tables::Diagnosis& diagnosis) {
   std::vector<shape::NamedRing> regions;
   for (std::size_t r = 0; r < scene.region.size(); ++r) {
     const Region& region = scene.region[r];
@@ -121,245 +33,9 @@ shape::Outline joined(const Scene& scene, tables::Diagnosis& diagnosis) {
   return shape::join_regions(regions, sides, diagnosis);
 }
 
-void check_regions(const Scene& scene, tables::Diagnosis& diagnosis) {
-  std::vector<std::string_view> names;
-  for (const Material& material : scene.material) names.push_back(material.name);
-  for (std::size_t r = 0; r < scene.region.size(); ++r) {
-    const std::string key = fmt::format("region.{}.material", r);
-    const std::string& name = scene.region[r].material;
-    if (!diagnosis.good({key}) || std::ranges::count(names, std::string_view(name)) > 0) continue;
-    diagnosis.error(key, fmt::format("found \"{}\"", name),
-                    "materials are " + tables::joined(names), tables::nearest_name(name, names));
-  }
-}
-
-void check_sides(const Scene& scene, tables::Diagnosis& diagnosis) {
-  for (std::size_t i = 0; i < scene.side.size(); ++i) {
-    const OutlineSide& side = scene.side[i];
-    const auto key = [&](const char* name) { return fmt::format("side.{}.{}", i, name); };
-    const auto belongs = [&](const char* name, bool is_given, bool allowed, const char* to) {
-      if (!is_given || allowed || !diagnosis.good({key("kind"), key(name)})) return;
-      diagnosis.error(key(name), fmt::format("given for a side of kind {}", name_of(side.kind)),
-                      fmt::format("it belongs to {}", to));
-    };
-    const bool loaded = side.kind == OutlineKind::loaded;
-    const bool footing = side.kind == OutlineKind::footing;
-    belongs("pressure", side.pressure != 0.0, loaded, "kind loaded");
-    belongs("shear", side.shear != 0.0, loaded, "kind loaded");
-    belongs("live_pressure", side.live_pressure != 0.0, loaded, "kind loaded");
-    belongs("live_shear", side.live_shear != 0.0, loaded, "kind loaded");
-    belongs("base", side.base != Base::rough, footing, "kind footing");
-    belongs("tension", !side.tension, footing, "kind footing");
-    if (side.along.size() == 1) {
-      diagnosis.error(key("along"), "found one point", "allowed are 2 or more");
-    }
-    const bool grows = scene.drive.kind == DriveKind::load &&
-                       std::ranges::count(scene.drive.scales, LoadKind::traction) > 0;
-    for (const auto& [name, value] : {std::pair("live_pressure", side.live_pressure),
-                                      std::pair("live_shear", side.live_shear)}) {
-      if (value == 0.0 || grows || !diagnosis.good({key(name), "drive.kind", "drive.scales"}))
-        continue;
-      diagnosis.error(key(name), fmt::format("found {}, which nothing lets grow", value),
-                      "it grows in a drive of kind load with traction among its scales; what is "
-                      "there from the start is pressure or shear");
-    }
-  }
-}
-
-// The box around regions: their lower corner, and a whole number of spacings to their upper one.
-void complete_box(Scene& scene, tables::Diagnosis& diagnosis) {
-  if (!diagnosis.good({"geometry.spacing", "geometry.min", "geometry.max"})) return;
-  Point low(2, std::numeric_limits<double>::infinity()), high(2, -low[0]);
-  for (const Region& region : scene.region) {
-    for (const PlanePoint& place : region.outline) {
-      low = {std::min(low[0], place.x()), std::min(low[1], place.y())};
-      high = {std::max(high[0], place.x()), std::max(high[1], place.y())};
-    }
-  }
-  Geometry& geometry = scene.geometry;
-  if (geometry.min.empty()) geometry.min = low;
-  if (geometry.min.size() != 2) return;
-  if (geometry.max.empty()) {
-    constexpr double round_off = 1e-9;
-    constexpr double most_cells = 1e9;
-    for (std::size_t i = 0; i < 2; ++i) {
-      const double cells = (high[i] - geometry.min[i]) / geometry.spacing;
-      const bool is_whole = std::abs(cells - std::round(cells)) <= round_off * cells;
-      geometry.max.push_back(is_whole || cells > most_cells
-                                 ? high[i]
-                                 : geometry.min[i] + std::ceil(cells) * geometry.spacing);
-    }
-  }
-  if (geometry.max.size() != 2) return;
-  const double slack = same_place(geometry);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const bool below = geometry.min[i] > low[i] + slack;
-    if (!below && geometry.max[i] >= high[i] - slack) continue;
-    diagnosis.error(below ? "geometry.min" : "geometry.max",
-                    fmt::format("regions reach beyond it, to {} along {}", below ? low[i] : high[i],
-                                name_of(static_cast<Axis>(i))),
-                    "the box holds all regions: leave it out");
-    return;
-  }
-}
-
-// The outline's sides on the faces of the box.
-class Faces {
- public:
-  Faces(const Scene& scene, const shape::Outline& outline) : scene_(scene), outline_(outline) {}
-
-  // The face that a piece of the outline is on.
-  [[nodiscard]] std::optional<Side> face_of(const shape::OutlineSegment& segment) const {
-    for (const Side face : {Side::left, Side::right, Side::bottom, Side::top}) {
-      const int axis = axis_of(face);
-      const double at = side_position(scene_.geometry, face);
-      const double slack = 1e-9 * outline_.size;
-      if (std::abs(outline_.at(segment.first)[axis] - at) <= slack &&
-          std::abs(outline_.at(segment.second)[axis] - at) <= slack) {
-        return face;
-      }
-    }
-    return std::nullopt;
-  }
-
-  // The sides that hold all there is on a face in one way; none, if they do not.
-  [[nodiscard]] std::vector<std::size_t> holders_of(Side face) const {
-    std::vector<std::size_t> sides;
-    for (const shape::OutlineSegment& segment : outline_.segments) {
-      if (segment.right >= 0 || face_of(segment) != face) continue;
-      const auto side = static_cast<std::size_t>(segment.side);
-      if (std::ranges::count(sides, side) == 0) sides.push_back(side);
-    }
-    if (sides.empty()) return {};
-    const OutlineKind kind = scene_.side[sides.front()].kind;
-    const bool alike =
-        std::ranges::all_of(sides, [&](std::size_t s) { return scene_.side[s].kind == kind; });
-    return alike && holds(kind) ? sides : std::vector<std::size_t>{};
-  }
-
-  [[nodiscard]] std::size_t faces_of(std::size_t side) const {
-    std::vector<std::optional<Side>> faces;
-    for (const shape::OutlineSegment& segment : outline_.segments) {
-      if (segment.right >= 0 || segment.side != static_cast<int>(side)) continue;
-      const auto face = face_of(segment);
-      if (std::ranges::count(faces, face) == 0) faces.push_back(face);
-    }
-    return faces.size();
-  }
-
-  // Of a face's holders: theirs, with the face where one of them holds others, too.
-  [[nodiscard]] std::string name_of_holders(const std::vector<std::size_t>& sides,
-                                            Side face) const {
-    std::string name;
-    for (const std::size_t s : sides) {
-      name += (name.empty() ? "" : " and ") + scene_.side[s].name;
-      if (faces_of(s) > 1) name += fmt::format(" {}", name_of(face));
-    }
-    return name;
-  }
-
- private:
-  const Scene& scene_;
-  const shape::Outline& outline_;
-};
-
-void complete_supports(Scene& scene, const shape::Outline& outline) {
-  const Faces faces(scene, outline);
-  for (const Side face : {Side::left, Side::right, Side::bottom, Side::top}) {
-    const auto holders = faces.holders_of(face);
-    if (holders.empty()) continue;
-    const OutlineKind kind = scene.side[holders.front()].kind;
-    const auto across = static_cast<Axis>(axis_of(face));
-    if (kind == OutlineKind::symmetry) {
-      if (!is_mirror(scene, face)) {
-        scene.symmetry.push_back({across, side_position(scene.geometry, face)});
-      }
-      continue;
-    }
-    Support support;
-    support.name = faces.name_of_holders(holders, face);
-    support.side = face;
-    support.directions = kind == OutlineKind::fixed ? std::vector<Axis>{Axis::x, Axis::y}
-                                                    : std::vector<Axis>{across};
-    const bool is_known = std::ranges::any_of(scene.support, [&](const Support& known) {
-      return known.name == support.name && known.side == face;
-    });
-    if (!is_known) scene.support.push_back(std::move(support));
-  }
-}
-
-// The one footing of a scene is where its drive acts.
-void complete_drive(Scene& scene, const shape::Outline& outline, tables::Diagnosis& diagnosis) {
-  const auto is_footing = [](const OutlineSide& side) { return side.kind == OutlineKind::footing; };
-  const auto footing = std::ranges::find_if(scene.side, is_footing);
-  if (footing == scene.side.end()) return;
-  const auto s = static_cast<std::size_t>(footing - scene.side.begin());
-  const auto key = [&](const char* name) { return fmt::format("side.{}.{}", s, name); };
-  if (std::ranges::count_if(scene.side, is_footing) > 1) {
-    diagnosis.error(key("kind"), "a footing among several", "one footing at most");
-    return;
-  }
-  Drive& drive = scene.drive;
-  if (drive.kind != DriveKind::displacement && !loads_plate(drive)) {
-    diagnosis.error(key("kind"), "found a footing that nothing moves or loads",
-                    "a footing wants [drive] kind = \"displacement\", or \"load\" with plate among "
-                    "its scales");
-    return;
-  }
-  const Faces faces(scene, outline);
-  std::optional<Side> face;
-  for (const shape::OutlineSegment& segment : outline.segments) {
-    if (segment.right >= 0 || segment.side != static_cast<int>(s)) continue;
-    const auto here = faces.face_of(segment);
-    if (here && (!face || face == here)) {
-      face = here;
-      continue;
-    }
-    const shape::Point& at = outline.at(segment.first);
-    diagnosis.error(
-        key("along"),
-        fmt::format("the base at ({:.6g}, {:.6g}) is not on a face of the box", at.x(), at.y()),
-        "a footing of fpm-run has one straight base at the highest, lowest, leftmost or "
-        "rightmost of the ground");
-    return;
-  }
-  const int axis = 1 - axis_of(*face);
-  const auto along = [&](const PlanePoint& place) { return axis == 0 ? place.x() : place.y(); };
-  const auto [low, high] = std::ranges::minmax(footing->along, {}, along);
-  drive.side = *face;
-  drive.range_min = {along(low)};
-  drive.range_max = {along(high)};
-  if (drive.kind == DriveKind::displacement && drive.direction.empty()) {
-    drive.direction = {0.0, 0.0};
-    drive.direction[static_cast<std::size_t>(axis_of(*face))] = is_upper(*face) ? -1.0 : 1.0;
-  }
-  if (!drive.width) drive.width = along(high) - along(low);
-  drive.lateral = footing->base == Base::rough ? Lateral::fixed : Lateral::free;
-  if (!footing->tension && drive.method == DriveMethod::automatic) {
-    drive.method = DriveMethod::contact;
-    drive.contact.tension = false;
-  }
-}
-
-}  // namespace
-
-void complete(Scene& scene, tables::Diagnosis& diagnosis) {
-  complete_weights(scene, diagnosis);
-  if (!is_ground(scene, diagnosis)) return;
-  check_regions(scene, diagnosis);
-  check_sides(scene, diagnosis);
-  if (!diagnosis.errors().empty()) return;
-  const shape::Outline outline = joined(scene, diagnosis);
-  if (!diagnosis.errors().empty()) return;
-  complete_box(scene, diagnosis);
-  if (!diagnosis.errors().empty()) return;
-  complete_supports(scene, outline);
-  complete_drive(scene, outline, diagnosis);
-}
-
 shape::Outline outline_of(const Scene& scene) {
   tables::Diagnosis ignored("");
-  return joined(scene, ignored);
+  return join_regions(scene, ignored);
 }
 
 std::size_t material_of(const Scene& scene, std::size_t region) {
@@ -396,7 +72,7 @@ std::vector<std::string> tied_surfaces(const Scene& scene) {
   }
   if (scene.region.empty()) return names;
   const shape::Outline outline = outline_of(scene);
-  const Faces faces(scene, outline);
+  const OutlineFaces faces(scene, outline);
   for (const shape::OutlineSegment& segment : outline.segments) {
     if (segment.right >= 0 || segment.side < 0) continue;
     const OutlineSide& side = scene.side[static_cast<std::size_t>(segment.side)];
@@ -437,10 +113,6 @@ bool is_held(const Scene& scene, Side face) {
   return is_mirror(scene, face) || std::ranges::any_of(scene.support, [&](const Support& support) {
            return support.side == face;
          });
-}
-
-bool holds(OutlineKind kind) {
-  return kind == OutlineKind::fixed || kind == OutlineKind::roller || kind == OutlineKind::symmetry;
 }
 
 }  // namespace scene

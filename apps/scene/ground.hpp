@@ -13,10 +13,8 @@ namespace scene {
 
 struct Scene;
 
-/// Completes a scene that has been read by what its other keys say: densities and gravity by unit
-/// weights; the box of a body of regions; supports, mirrors and the drive's place by its sides. A
-/// scene that was completed stays as it is.
-void complete(Scene& scene, tables::Diagnosis& diagnosis);
+/// The regions of a scene, joined, with its sides; what is no ground is an error of the diagnosis.
+[[nodiscard]] shape::Outline join_regions(const Scene& scene, tables::Diagnosis& diagnosis);
 
 /// The regions of a completed scene, joined, with its sides.
 [[nodiscard]] shape::Outline outline_of(const Scene& scene);
@@ -37,8 +35,5 @@ void complete(Scene& scene, tables::Diagnosis& diagnosis);
 
 /// Corners of the outline where stress is singular: re-entrant ones, and ends of pressures.
 [[nodiscard]] std::vector<shape::Point> singular_corners(const Scene& scene);
-
-/// Whether a side holds the body: particles are tied to it, where no support or mirror holds it.
-[[nodiscard]] bool holds(OutlineKind kind);
 
 }  // namespace scene

@@ -4,7 +4,7 @@
 
 #include "files/durable_file.hpp"
 #include "scene/check.hpp"
-#include "scene/ground.hpp"
+#include "scene/complete.hpp"
 #include "scene/scene.hpp"
 #include "scene/tables.hpp"
 #include "tables/nearest_name.hpp"

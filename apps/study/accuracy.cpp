@@ -21,23 +21,13 @@
 #include "study/ladder.hpp"
 #include "study/levels.hpp"
 #include "study/results.hpp"
+#include "study/varied_scene.hpp"
 
 namespace study {
 
 namespace {
 
 struct Interrupted {};
-
-std::shared_ptr<const scene::Scene> read(const AccuracyRequest& request,
-                                         const std::vector<std::string>& more, std::ostream& err) {
-  std::vector<std::string> settings = request.settings;
-  settings.insert(settings.end(), more.begin(), more.end());
-  const scene::SceneReading reading = scene::read_scene(request.scene_file, settings);
-  for (const tables::Complaint& complaint : reading.errors) {
-    err << "error: " << complaint.text() << '\n';
-  }
-  return reading.scene;
-}
 
 /// Makes the runs of the ladder and remembers what they said.
 class Runs {
@@ -55,7 +45,7 @@ class Runs {
   [[nodiscard]] std::vector<std::string> settings_of(const Fineness& fineness) const {
     std::vector<std::string> settings{
         fmt::format("geometry.spacing={}", spacings_[fineness.level])};
-    const auto plain = read(request_, settings, err_);
+    const auto plain = read_varied(request_.scene_file, request_.settings, settings, err_);
     if (!plain) throw program::UsageError("no run with such a spacing");
     const auto steps = static_cast<double>(scene::nominal_steps(*plain)) * fineness.steps;
     settings.push_back(fmt::format("programme.steps={}", std::llround(steps)));
@@ -76,7 +66,8 @@ class Runs {
   std::vector<std::optional<Reply>> operator()(const std::vector<Fineness>& asked) {
     std::vector<campaign::Task> tasks;
     for (const Fineness& one : asked) {
-      const auto scene = read(request_, settings_of(one), err_);
+      const auto scene =
+          read_varied(request_.scene_file, request_.settings, settings_of(one), err_);
       if (!scene) throw program::UsageError("a run of the ladder is refused");
       tasks.push_back({fmt::format("spacing {}, steps x {}, tolerance x {}, control x {}",
                                    spacings_[one.level], one.steps, one.tolerance, one.control),
@@ -239,7 +230,7 @@ Quantity quantity_of(const scene::Scene& scene) {
 
 program::ExitCode find_accuracy(const AccuracyRequest& request, std::ostream& out,
                                 std::ostream& err) {
-  const auto base = read(request, {}, err);
+  const auto base = read_varied(request.scene_file, request.settings, {}, err);
   if (!base) return program::ExitCode::input_refused;
   const Quantity quantity = request.quantity ? *request.quantity : quantity_of(*base);
   Wish wish;

@@ -16,6 +16,7 @@
 #include "study/reference.hpp"
 #include "study/report.hpp"
 #include "study/results.hpp"
+#include "study/varied_scene.hpp"
 
 namespace study {
 
@@ -23,18 +24,6 @@ namespace {
 
 using campaign::Status;
 using Stage = Status::Stage;
-
-/// Reads the scene with settings; nothing, with every complaint said, if it is refused.
-std::shared_ptr<const scene::Scene> read(const Request& request,
-                                         const std::vector<std::string>& more, std::ostream& err) {
-  std::vector<std::string> settings = request.settings;
-  settings.insert(settings.end(), more.begin(), more.end());
-  const scene::SceneReading reading = scene::read_scene(request.scene_file, settings);
-  for (const tables::Complaint& complaint : reading.errors) {
-    err << "error: " << complaint.text() << '\n';
-  }
-  return reading.scene;
-}
 
 /// Says how the campaign goes: each end in a line, and now and then what is under way.
 class Watch {
@@ -147,7 +136,8 @@ std::optional<std::vector<campaign::Task>> tasks_of(const Request& request,
                                                     std::ostream& err) {
   std::vector<campaign::Task> tasks;
   for (const Combination& combination : all) {
-    const auto scene = read(request, settings_of(request.varied, combination), err);
+    const auto scene = read_varied(request.scene_file, request.settings,
+                                   settings_of(request.varied, combination), err);
     if (!scene) return std::nullopt;
     tasks.push_back({words_for(request.varied, combination),
                      campaign::task_scene(with_measure(*scene, request.quantity))});
@@ -176,7 +166,8 @@ program::ExitCode make_study(const Request& request, std::ostream& out, std::ost
   const std::size_t key =
       wish.kind == ReferenceWish::Kind::richardson ? richardson_key(request, wish.key) : 0;
   const std::vector<Combination> all = all_combinations(request.varied);
-  const auto base = read(request, settings_of(request.varied, all.back()), err);
+  const auto base = read_varied(request.scene_file, request.settings,
+                                settings_of(request.varied, all.back()), err);
   if (!base) return program::ExitCode::input_refused;
   const auto tasks = tasks_of(request, all, err);
   if (!tasks) return program::ExitCode::input_refused;

@@ -46,6 +46,31 @@ TEST(Bodies, ThinOnesGoWithTheirNeighbours) {
             labels({"aaa", "aaa", "aaa", "bbb", "bbb", "ccc", "ccc", "ccc"}));
 }
 
+// A wedge is a body for all its tip.
+TEST(Bodies, ThinInPartStayBodies) {
+  const std::vector<Index> wedge =
+      labels({"aaaaaaaa", "aaaaaaaa", "aaaaaaaa", "bbbbbbbb", "bbbbbbcc", "bbbbcccc", "bbbccccc",
+              "cccccccc", "cccccccc", "cccccccc"});
+  EXPECT_EQ(fpm::bodies_of<2>(Cells<2>(lattice<2>({8, 10})), wedge, never, 3), wedge);
+}
+
+// Two particles of their own have no row; such rows see all bodies, and no others see them for it.
+TEST(Bodies, RowsWithoutNeighbourhoodOfTheirOwnSeeAll) {
+  ParticleSet<2> set = make_lattice(lattice<2>({8, 8}));
+  set.body.assign(64, 0);
+  set.body[0] = set.body[1] = 1;
+  const Ghosts<2> none;
+  const Rows<2> rows(set, none, row_options<2>());
+  const auto sees = [&](Index row, Index other) {
+    const auto neighbours = rows.neighbours(row);
+    return std::find(neighbours.begin(), neighbours.end(), other) != neighbours.end();
+  };
+  EXPECT_TRUE(sees(0, 1));
+  EXPECT_TRUE(sees(0, 8));
+  EXPECT_FALSE(sees(8, 0));
+  EXPECT_TRUE(sees(8, 9));
+}
+
 template <int Dim>
 void expect_closed_surfaces(const Cells<Dim>& cells) {
   // A block in the upper corner is of another body.
