@@ -48,6 +48,7 @@ void BackgroundGrid<Dim>::build(const model::Model<Dim>& model, const Mesh& mesh
   factor_ = factorisation.matrixL().nestedExpression().template cast<float>();
   permutation_ = factorisation.permutationP();
   coarse_.resize(mesh.nodes() * Dim);
+  index_by_nodes(mesh.nodes());
   coarse_single_.resize(size);
   mesh.for_each_dependence([&](fpm::Index node, fpm::Index parent, double share) {
     dependences_.push_back({node, parent, share});
@@ -160,19 +161,43 @@ std::vector<Eigen::Triplet<double>> BackgroundGrid<Dim>::grid_stiffness(
 }
 
 template <int Dim>
-void BackgroundGrid<Dim>::add_solution(const Eigen::VectorXd& r, Eigen::VectorXd& z) {
+void BackgroundGrid<Dim>::index_by_nodes(fpm::Index nodes) {
+  begin_.assign(static_cast<std::size_t>(nodes) + 1, 0);
+  for (Eigen::Index k = 0; k < corner_.size(); ++k) {
+    ++begin_[static_cast<std::size_t>(corner_.data()[k]) + 1];
+  }
+  for (std::size_t k = 1; k < begin_.size(); ++k) begin_[k] += begin_[k - 1];
+  place_.resize(static_cast<std::size_t>(corner_.size()));
+  std::vector<std::size_t> at(begin_.begin(), begin_.end() - 1);
+  for (Eigen::Index k = 0; k < corner_.size(); ++k) {
+    place_[at[static_cast<std::size_t>(corner_.data()[k])]++] = static_cast<std::uint32_t>(k);
+  }
+}
+
+// coarse_ = P^T r. Each node adds up its loads in the order of the particles, whatever the threads.
+template <int Dim>
+void BackgroundGrid<Dim>::restrict_loads(const Eigen::VectorXd& r) {
   const Eigen::Index n = corner_.cols();
-  constexpr int corners = 1 << Dim;
-  coarse_.setZero();
-  for (Eigen::Index a = 0; a < n; ++a) {
-    for (int i = 0; i < Dim; ++i) {
-      const double load =
-          prescribed_[static_cast<std::size_t>(i * n + a)] != 0 ? 0.0 : r[i * n + a];
-      for (int p = 0; p < corners; ++p) {
-        coarse_[corner_(p, a) * Dim + i] += static_cast<double>(weight_(p, a)) * load;
+  const auto nodes = static_cast<fpm::Index>(begin_.size()) - 1;
+#pragma omp parallel for schedule(static)
+  for (fpm::Index node = 0; node < nodes; ++node) {
+    fpm::Vector<Dim> sum = fpm::Vector<Dim>::Zero();
+    const auto end = begin_[static_cast<std::size_t>(node) + 1];
+    for (auto k = begin_[static_cast<std::size_t>(node)]; k < end; ++k) {
+      const double weight = weight_.data()[place_[k]];
+      const Eigen::Index a = place_[k] >> Dim;
+      for (int i = 0; i < Dim; ++i) {
+        const bool given = prescribed_[static_cast<std::size_t>(i * n + a)] != 0;
+        sum[i] += weight * (given ? 0.0 : r[i * n + a]);
       }
     }
+    coarse_.template segment<Dim>(node * Dim) = sum;
   }
+}
+
+template <int Dim>
+void BackgroundGrid<Dim>::solve(const Eigen::VectorXd& r) {
+  restrict_loads(r);
   for (const Dependence& each : dependences_) {
     for (int i = 0; i < Dim; ++i) {
       coarse_[each.parent * Dim + i] += each.share * coarse_[each.node * Dim + i];
@@ -181,7 +206,10 @@ void BackgroundGrid<Dim>::add_solution(const Eigen::VectorXd& r, Eigen::VectorXd
   const auto free = coarse_.head(coarse_single_.size());
   // Scaled, so that the range of single precision is never left whatever the units.
   const double scale = free.cwiseAbs().maxCoeff();
-  if (!(scale > 0.0) || !std::isfinite(scale)) return;
+  if (!(scale > 0.0) || !std::isfinite(scale)) {
+    coarse_.setZero();
+    return;
+  }
   coarse_single_.noalias() = permutation_ * (free / scale).template cast<float>();
   factor_.template triangularView<Eigen::Lower>().solveInPlace(coarse_single_);
   factor_.transpose().template triangularView<Eigen::Upper>().solveInPlace(coarse_single_);
@@ -194,12 +222,6 @@ void BackgroundGrid<Dim>::add_solution(const Eigen::VectorXd& r, Eigen::VectorXd
       coarse_[each.node * Dim + i] += each.share * coarse_[each.parent * Dim + i];
     }
   }
-  for (Eigen::Index a = 0; a < n; ++a) {
-    for (int p = 0; p < corners; ++p) {
-      const double w = weight_(p, a);
-      for (int i = 0; i < Dim; ++i) z[i * n + a] += w * coarse_[corner_(p, a) * Dim + i];
-    }
-  }
 }
 
 template <int Dim>
@@ -207,9 +229,10 @@ std::size_t BackgroundGrid<Dim>::bytes() const {
   const auto bytes_of = [](const auto& m) {
     return static_cast<std::size_t>(m.size()) * sizeof(*m.data());
   };
-  return bytes_of(corner_) + dependences_.size() * sizeof(Dependence) + bytes_of(weight_) +
-         bytes_of(coarse_) + bytes_of(coarse_single_) + bytes_of(permutation_.indices()) +
-         prescribed_.size() +
+  return bytes_of(corner_) + begin_.size() * sizeof(std::size_t) +
+         place_.size() * sizeof(std::uint32_t) + dependences_.size() * sizeof(Dependence) +
+         bytes_of(weight_) + bytes_of(coarse_) + bytes_of(coarse_single_) +
+         bytes_of(permutation_.indices()) + prescribed_.size() +
          static_cast<std::size_t>(factor_.nonZeros()) * (sizeof(float) + sizeof(int)) +
          static_cast<std::size_t>(factor_.outerSize()) * sizeof(int);
 }

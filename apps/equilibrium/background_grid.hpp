@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+#include <cstdint>
 #include <vector>
 
 #include "model/model.hpp"
@@ -15,7 +16,7 @@ namespace equilibrium {
 template <int Dim>
 class BackgroundGrid {
  public:
-  /// No grid: `add_solution` must not be called.
+  /// No grid: nothing but `empty` and `bytes` may be called.
   BackgroundGrid() = default;
   /// @param grid_over_spacing  width of an element over the spacing of the particles in it, rounded
   ///   so that whole elements fill the box, or down to a power of two, but 2, where they are graded
@@ -24,8 +25,18 @@ class BackgroundGrid {
 
   bool empty() const { return free_nodes_ == 0; }
 
-  /// z += P A_c^-1 P^T r, with r taken as 0 at prescribed unknowns; in single precision.
-  void add_solution(const Eigen::VectorXd& r, Eigen::VectorXd& z);
+  /// A_c^-1 P^T r, with r taken as 0 at prescribed unknowns; in single precision.
+  void solve(const Eigen::VectorXd& r);
+  /// Adds P times the last solution to z at one particle.
+  void add_solution(Eigen::Index particle, Eigen::VectorXd& z) const {
+    const Eigen::Index n = corner_.cols();
+    for (int p = 0; p < 1 << Dim; ++p) {
+      const double w = weight_(p, particle);
+      for (int i = 0; i < Dim; ++i) {
+        z[i * n + particle] += w * coarse_[corner_(p, particle) * Dim + i];
+      }
+    }
+  }
 
   std::size_t bytes() const;
 
@@ -36,6 +47,8 @@ class BackgroundGrid {
     double share;
   };
   using FloatMatrix = Eigen::SparseMatrix<float>;
+  void index_by_nodes(fpm::Index nodes);
+  void restrict_loads(const Eigen::VectorXd& r);
   template <class Mesh>
   void build(const model::Model<Dim>& model, const Mesh& mesh);
   template <class Mesh>
@@ -51,7 +64,11 @@ class BackgroundGrid {
   std::vector<Dependence> dependences_;
   Eigen::Matrix<fpm::Index, 1 << Dim, Eigen::Dynamic> corner_;  // of each particle's cell
   Eigen::Matrix<float, 1 << Dim, Eigen::Dynamic> weight_;       // interpolation
-  FloatMatrix factor_;                                          // lower, single precision
+  // The same by nodes, particles ascending: the loads of node k are those of the places
+  // [begin_[k], begin_[k + 1]), each (particle << Dim) + corner.
+  std::vector<std::size_t> begin_;
+  std::vector<std::uint32_t> place_;
+  FloatMatrix factor_;  // lower, single precision
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation_;
   Eigen::VectorXd coarse_;
   Eigen::VectorXf coarse_single_;

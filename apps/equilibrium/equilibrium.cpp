@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "equilibrium/given_unknowns.hpp"
 #include "equilibrium/hourglass_work.hpp"
 #include "equilibrium/local_response.hpp"
 #include "equilibrium/tangent_layout.hpp"
@@ -58,7 +59,12 @@ ArraySizes array_sizes(const model::Model<Dim>& model, const fpm::MomentOperator
 
 template <int Dim>
 Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>& state)
-    : model_(model), state_(state), loops_(choose_loops<Dim>(model.layout)), interfaces_(model) {
+    : model_(model),
+      state_(state),
+      given_(given_unknowns(model.prescribed)),
+      loops_(choose_loops<Dim>(model.layout)),
+      interfaces_(model),
+      vectors_(model.size()) {
   if (model_.consistency) {
     // The correction belongs to the initial configuration, whatever was re-searched since.
     const fpm::Rows<Dim> initial(model_.particles, model_.ghosts, model_.row_options);
@@ -103,6 +109,7 @@ void Equilibrium<Dim>::begin_step(double load) {
   interfaces_.begin_step(state_);
   step_.external = model_.constant_load + load * model_.scaled_load;
   if (balance_.load.size() > 0) step_.external += balance_.load;
+  external_norm_ = step_.external.norm();
   step_.start_position = model_.particles.position + state_.displacement;
   place_particles();
   if (!model_.plane_drive.empty()) {
@@ -191,19 +198,25 @@ void Equilibrium<Dim>::remember_pairs(Eigen::Index a, const Eigen::VectorXd& pos
       model_.pair_control.stiffness_ratio * modulus * state_.rows.reference_volume()[a];
 }
 
+// Threads meet once for all of this.
 template <int Dim>
-void Equilibrium<Dim>::assemble(const double* field, double* force) {
+void Equilibrium<Dim>::assemble(const double* field, double* force, const double* load,
+                                double* copy) {
   operator_.scatter(evaluation_.stress.data(), field, step_.position.data(),
                     evaluation_.force.data());
   const Eigen::Index n = model_.size();
-  for (int i = 0; i < Dim; ++i) {
-    const double* component = evaluation_.force.data() + i * operator_.stride();
-    const double* own = evaluation_.own_force.data() + i * n;
-    double* out = force + i * n;
-    if (model_.channels.pair) {
-      for (Eigen::Index a = 0; a < n; ++a) out[a] = component[a] + own[a];
-    } else {
-      std::copy_n(component, n, out);
+  const auto stride = operator_.stride();
+  const double* const sum = evaluation_.force.data();
+  const double* const own = model_.channels.pair ? evaluation_.own_force.data() : nullptr;
+#pragma omp parallel for schedule(static)
+  for (Eigen::Index a = 0; a < n; ++a) {
+    for (int i = 0; i < Dim; ++i) {
+      const Eigen::Index k = i * n + a;
+      double component = sum[i * stride + a];
+      if (own != nullptr) component += own[k];
+      if (load != nullptr) component -= load[k];
+      force[k] = component;
+      if (copy != nullptr) copy[k] = component;
     }
   }
 }
@@ -215,22 +228,23 @@ jfnk::Evaluation Equilibrium<Dim>::operator()(const Eigen::VectorXd& increment,
   const LoopOutcome outcome = loops_.respond(loop_data());
   failure_ = {.particle = outcome.failed};
   if (!outcome.ok()) return jfnk::Evaluation::out_of_domain;
-  assemble(evaluation_.extended.data(), evaluation_.unmasked.data());
-  evaluation_.unmasked -= step_.external;
+  const bool plain = !has_boundary_terms();
+  assemble(evaluation_.extended.data(), evaluation_.unmasked.data(), step_.external.data(),
+           plain ? residual.data() : nullptr);
   double reaction_square = take_plane_reactions();
   add_boundary_terms(increment);
   if (failure_.any()) return jfnk::Evaluation::out_of_domain;
   for (const fpm::Vector<Dim>& held : interfaces_.rigid_force()) {
     reaction_square += held.squaredNorm();
   }
-  for (Eigen::Index k = 0; k < evaluation_.unmasked.size(); ++k) {
-    const bool given = model_.prescribed[static_cast<std::size_t>(k)] != 0;
-    if (given) reaction_square += evaluation_.unmasked[k] * evaluation_.unmasked[k];
-    residual[k] = given ? 0.0 : evaluation_.unmasked[k];
+  if (!plain) residual = evaluation_.unmasked;
+  for (const Eigen::Index k : given_) {
+    reaction_square += evaluation_.unmasked[k] * evaluation_.unmasked[k];
+    residual[k] = 0.0;
   }
   const double loads = evaluation_.following.size() > 0
                            ? (step_.external + evaluation_.following).norm()
-                           : step_.external.norm();
+                           : external_norm_;
   reference_norm_ = std::max(std::sqrt(reaction_square), loads);
   return jfnk::Evaluation::ok;
 }
@@ -301,11 +315,9 @@ void Equilibrium<Dim>::apply_motion(const Eigen::VectorXd& prescribed, Eigen::Ve
 template <int Dim>
 void Equilibrium<Dim>::act(const Eigen::VectorXd& v, double load_change, Eigen::VectorXd& jv) {
   loops_.apply(loop_data());
-  assemble(evaluation_.extended.data(), jv.data());
+  assemble(evaluation_.extended.data(), jv.data(), nullptr, nullptr);
   add_boundary_actions(v, load_change, jv);
-  for (Eigen::Index k = 0; k < jv.size(); ++k) {
-    if (model_.prescribed[static_cast<std::size_t>(k)] != 0) jv[k] = 0.0;
-  }
+  for (const Eigen::Index k : given_) jv[k] = 0.0;
 }
 
 template <int Dim>
@@ -319,9 +331,17 @@ fpm::Index Equilibrium<Dim>::nearest_particle(
   return static_cast<fpm::Index>(nearest);
 }
 
+template <int Dim>
+bool Equilibrium<Dim>::has_boundary_terms() const {
+  return model_.control == scene::HourglassControl::viscosity ||
+         !model_.following_pressures.empty() || !model_.penalty_supports.empty() ||
+         !interfaces_.empty();
+}
+
 // Terms that scenes seldom have: following pressures, penalty supports, the paper's viscosity.
 template <int Dim>
 void Equilibrium<Dim>::add_boundary_terms(const Eigen::VectorXd& increment) {
+  if (!has_boundary_terms()) return;
   using View = Eigen::Map<const fpm::Field<Dim>>;
   const Eigen::Index n = model_.size();
   Eigen::Map<fpm::Field<Dim>> force(evaluation_.unmasked.data(), n, Dim);
@@ -401,10 +421,10 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
   if (evaluation_.following.size() > 0) {
     forces.external_work += evaluation_.following.dot(increment);
   }
-  for (Eigen::Index k = 0; k < increment.size(); ++k) {
-    const bool given = model_.prescribed[static_cast<std::size_t>(k)] != 0;
-    state_.reaction.data()[k] = given ? evaluation_.unmasked[k] : 0.0;
-    if (given) forces.external_work += evaluation_.unmasked[k] * increment[k];
+  state_.reaction.setZero();
+  for (const Eigen::Index k : given_) {
+    state_.reaction.data()[k] = evaluation_.unmasked[k];
+    forces.external_work += evaluation_.unmasked[k] * increment[k];
   }
   if (evaluation_.plane_reaction.rows() > 0) state_.reaction += evaluation_.plane_reaction;
   if (balance_.reaction.rows() > 0) state_.reaction += balance_.reaction;
@@ -424,9 +444,18 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
 }
 
 template <int Dim>
-std::size_t Equilibrium<Dim>::bytes() const {
-  return operator_.bytes() + viscosity_.bytes() + bytes_of(step_) + bytes_of(evaluation_) +
-         bytes_of(tangents_) + correction_.bytes() + interfaces_.bytes();
+std::vector<model::MemoryPart> Equilibrium<Dim>::memory(bool to_come) const {
+  const ArraySizes& sizes = step_.sizes;
+  const std::size_t tangents =
+      to_come ? static_cast<std::size_t>(sizes.tangent_entries + sizes.rotation_entries) *
+                    sizeof(double)
+              : bytes_of(tangents_);
+  return {{"stencils", operator_.bytes() + correction_.bytes()},
+          {"arrays of a step", bytes_of(step_)},
+          {"arrays of an evaluation",
+           bytes_of(evaluation_) + vectors_.bytes() + given_.capacity() * sizeof(Eigen::Index)},
+          {"tangents", tangents},
+          {"viscosity, interfaces", viscosity_.bytes() + interfaces_.bytes()}};
 }
 
 template class Equilibrium<2>;

@@ -3,9 +3,11 @@
 #include "equilibrium/initial_balance.hpp"
 #include "equilibrium/interface_forces.hpp"
 #include "equilibrium/law_loops.hpp"
+#include "equilibrium/threaded_vectors.hpp"
 #include "fpm/moment_operator.hpp"
 #include "fpm/viscosity.hpp"
 #include "jfnk/residual.hpp"
+#include "model/memory.hpp"
 #include "model/model.hpp"
 #include "model/state.hpp"
 
@@ -63,6 +65,22 @@ class Equilibrium {
   /// included: what a residual is small against.
   double reference_norm() const { return reference_norm_; }
 
+  // The vector operations of libjfnk, on all threads.
+  double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
+    return vectors_.dot(a, b);
+  }
+  void dots(jfnk::Vectors columns, const Eigen::VectorXd& w, std::span<double> sums) const {
+    vectors_.dots(columns, w, sums);
+  }
+  void combine(double own, jfnk::Vectors columns, std::span<const double> factors,
+               Eigen::VectorXd& w) const {
+    vectors_.combine(own, columns, factors, w);
+  }
+  void rotate(std::span<Eigen::VectorXd* const> columns, std::span<const double> cosines,
+              std::span<const double> sines) const {
+    vectors_.rotate(columns, cosines, sines);
+  }
+
   /// Takes the increment into the state. Call right after an evaluation that converged at it.
   /// @throws std::logic_error naming a particle that cannot be evaluated there: the state is void
   StepForces commit(const Eigen::VectorXd& increment);
@@ -74,7 +92,10 @@ class Equilibrium {
   const EvaluationFailure& failure() const { return failure_; }
   const fpm::MomentOperator<Dim>& moment_operator() const { return operator_; }
   /// Memory of the operator, the viscosity and all arrays [bytes].
-  std::size_t bytes() const;
+  std::size_t bytes() const { return model::total(memory(false)); }
+  /// The same part by part.
+  /// @param to_come  with the tangents, which the first linearisation allocates
+  std::vector<model::MemoryPart> memory(bool to_come) const;
 
  private:
   fpm::MomentOperator<Dim> initial_operator() const;
@@ -85,7 +106,8 @@ class Equilibrium {
   void act(const Eigen::VectorXd& v, double load_change, Eigen::VectorXd& jv);
   void place_particles();
   void remember_pairs(Eigen::Index a, const Eigen::VectorXd& position_moments);
-  void assemble(const double* field, double* force);
+  void assemble(const double* field, double* force, const double* load, double* copy);
+  [[nodiscard]] bool has_boundary_terms() const;
   void add_boundary_terms(const Eigen::VectorXd& increment);
   [[nodiscard]] fpm::Index nearest_particle(
       const Eigen::Matrix<double, 1, Dim>& reference_place) const;
@@ -93,6 +115,7 @@ class Equilibrium {
 
   const model::Model<Dim>& model_;
   model::State<Dim>& state_;
+  std::vector<Eigen::Index> given_;  // the prescribed unknowns
   fpm::MomentOperator<Dim> operator_;
   fpm::ConsistencyCorrection<Dim> correction_;  // of the first rows, kept for rebuilds
   InitialBalance<Dim> balance_;                 // of the initial stress, if there is one
@@ -102,8 +125,10 @@ class Equilibrium {
   StepArrays<Dim> step_;
   EvaluationArrays<Dim> evaluation_;
   TangentArrays tangents_;
+  ThreadedVectors vectors_;
   std::vector<fpm::Vector<Dim>> plane_force_;  // by which each plane holds the body
   double rigid_load_ = 0.0;                    // load parameter to which rigid bodies have moved
+  double external_norm_ = 0.0;                 // of the dead loads of the step
   double reference_norm_ = 0.0;
   EvaluationFailure failure_;
 };

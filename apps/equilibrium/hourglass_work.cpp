@@ -31,7 +31,9 @@ double hourglass_work(const LoopData<Dim>& data) {
     for (int i = 0; i < Dim; ++i) d[i] = field[i * stride + b] - field[i * stride + a];
     return d;
   };
-  double work = 0.0;
+  // Added up in the order of the rows, whatever the threads.
+  Eigen::VectorXd work_of(op.size());
+#pragma omp parallel for schedule(static)
   for (fpm::Index a = 0; a < op.size(); ++a) {
     Tensor gradient = Tensor::Zero();
     op.for_each_entry(a, [&](fpm::Index b, const double* w) {
@@ -51,8 +53,10 @@ double hourglass_work(const LoopData<Dim>& data) {
       const Vector memory = difference(data.step.position, a, b) - begin * x;
       row += kappa * (change + defect * memory).dot(change);
     });
-    work += data.step.pair_stiffness[a] * row;
+    work_of[a] = data.step.pair_stiffness[a] * row;
   }
+  double work = 0.0;
+  for (const double each : work_of) work += each;
   return work;
 }
 

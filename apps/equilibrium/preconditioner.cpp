@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include "equilibrium/elastic_block.hpp"
+#include "equilibrium/given_unknowns.hpp"
 #include "fpm/subpoints.hpp"
 
 namespace equilibrium {
@@ -11,7 +12,7 @@ template <int Dim>
 TwoLevelPreconditioner<Dim>::TwoLevelPreconditioner(const model::Model<Dim>& model,
                                                     const fpm::MomentOperator<Dim>& op,
                                                     double coarse_over_spacing)
-    : size_(model.size()), prescribed_(model.prescribed) {
+    : size_(model.size()), prescribed_(model.prescribed), given_(given_unknowns(model.prescribed)) {
   build_blocks(model, op);
   if (!model.interfaces.empty()) springs_ = InterfaceSprings<Dim>(model, block_inverse_);
   if (coarse_over_spacing > 0.0) {
@@ -111,26 +112,37 @@ void TwoLevelPreconditioner<Dim>::invert_blocks(const Blocks& sum) {
 }
 
 template <int Dim>
-void TwoLevelPreconditioner<Dim>::apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) {
+void TwoLevelPreconditioner<Dim>::apply_block(Eigen::Index a, const Eigen::VectorXd& r,
+                                              Eigen::VectorXd& z) const {
   const Eigen::Index n = size_;
-  for (Eigen::Index a = 0; a < n; ++a) {
-    const Eigen::Map<const fpm::Tensor<Dim>> inverse(block_inverse_.col(a).data());
-    fpm::Vector<Dim> local;
-    for (int i = 0; i < Dim; ++i) local[i] = r[i * n + a];
-    const fpm::Vector<Dim> result = inverse * local;
-    for (int i = 0; i < Dim; ++i) z[i * n + a] = result[i];
+  const Eigen::Map<const fpm::Tensor<Dim>> inverse(block_inverse_.col(a).data());
+  fpm::Vector<Dim> local;
+  for (int i = 0; i < Dim; ++i) local[i] = r[i * n + a];
+  const fpm::Vector<Dim> result = inverse * local;
+  for (int i = 0; i < Dim; ++i) z[i * n + a] = result[i];
+}
+
+template <int Dim>
+void TwoLevelPreconditioner<Dim>::apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) {
+  const bool with_grid = !grid_.empty();
+  const bool with_springs = !springs_.empty();
+  if (with_grid) grid_.solve(r);
+#pragma omp parallel for schedule(static)
+  for (Eigen::Index a = 0; a < size_; ++a) {
+    apply_block(a, r, z);
+    if (with_grid && !with_springs) grid_.add_solution(a, z);
   }
-  if (!springs_.empty()) springs_.correct(z);
-  if (!grid_.empty()) grid_.add_solution(r, z);
-  for (Eigen::Index k = 0; k < z.size(); ++k) {
-    if (prescribed_[static_cast<std::size_t>(k)] != 0) z[k] = 0.0;
+  if (with_springs) {
+    springs_.correct(z);
+    for (Eigen::Index a = 0; with_grid && a < size_; ++a) grid_.add_solution(a, z);
   }
+  for (const Eigen::Index k : given_) z[k] = 0.0;
 }
 
 template <int Dim>
 std::size_t TwoLevelPreconditioner<Dim>::bytes() const {
   return static_cast<std::size_t>(block_inverse_.size()) * sizeof(double) + prescribed_.size() +
-         springs_.bytes() + grid_.bytes();
+         given_.size() * sizeof(Eigen::Index) + springs_.bytes() + grid_.bytes();
 }
 
 template class TwoLevelPreconditioner<2>;

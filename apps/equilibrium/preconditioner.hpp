@@ -38,9 +38,11 @@ class TwoLevelPreconditioner {
   void build_blocks(const model::Model<Dim>& model, const fpm::MomentOperator<Dim>& op);
   void add_penalty_blocks(const model::Model<Dim>& model, Blocks& sum) const;
   void invert_blocks(const Blocks& sum);
+  void apply_block(Eigen::Index a, const Eigen::VectorXd& r, Eigen::VectorXd& z) const;
 
   Eigen::Index size_ = 0;
   std::vector<char> prescribed_;
+  std::vector<Eigen::Index> given_;  // the prescribed unknowns
   Blocks block_inverse_;
   InterfaceSprings<Dim> springs_;
   BackgroundGrid<Dim> grid_;

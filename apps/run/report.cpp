@@ -19,16 +19,24 @@ double mebibytes(std::size_t bytes) {
 }  // namespace
 
 std::string check_report(const scene::Scene& scene, std::size_t particles, std::size_t ghosts,
-                         std::size_t bytes, std::size_t state_bytes) {
+                         const std::vector<model::MemoryPart>& parts) {
   std::string out;
   const auto line = [&out](std::string_view name, const std::string& value) {
     fmt::format_to(std::back_inserter(out), "  {:<12} {}\n", name, value);
   };
-  const double per_particle = static_cast<double>(bytes) / static_cast<double>(particles);
+  const auto per_particle = [&](std::size_t bytes) {
+    return static_cast<double>(bytes) / static_cast<double>(particles);
+  };
   line("model", fmt::format("{} particles, {} ghosts", particles, ghosts));
-  line("memory", fmt::format("{:.1f} MiB, {:.0f} bytes per particle, the solver's vectors apart",
-                             mebibytes(bytes), per_particle));
-  line("checkpoint", fmt::format("at least {:.1f} MiB each", mebibytes(state_bytes)));
+  const std::size_t bytes = model::total(parts);
+  line("memory", fmt::format("{:.1f} MiB, {:.0f} bytes per particle:", mebibytes(bytes),
+                             per_particle(bytes)));
+  for (const model::MemoryPart& part : parts) {
+    if (part.bytes == 0) continue;
+    line("", fmt::format("{:5.0f} {}", per_particle(part.bytes), part.name));
+  }
+  line("", "left out: set-up, a file being written, Krylov vectors beyond forty");
+  line("checkpoint", fmt::format("at least {:.1f} MiB each", mebibytes(parts.front().bytes)));
   line("steps", fmt::format("{} planned", scene::nominal_steps(scene)));
   return out;
 }

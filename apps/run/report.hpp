@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "model/memory.hpp"
 #include "record/curve.hpp"
 #include "record/run_folder.hpp"
 
@@ -15,9 +16,9 @@ struct Scene;
 namespace run {
 
 /// Particles, ghosts, memory and steps of a run that is not made, for --check.
-/// @param bytes  of the state and of all that works on it
+/// @param parts  of the memory of a long run, the state's first
 std::string check_report(const scene::Scene& scene, std::size_t particles, std::size_t ghosts,
-                         std::size_t bytes, std::size_t state_bytes);
+                         const std::vector<model::MemoryPart>& parts);
 
 /// What a run came to, and where its files are.
 /// @param measures  columns of the curve that the scene asks for

@@ -136,10 +136,10 @@ class Run {
   }
 
   program::ExitCode check(RunStart<Dim>& start, const stepping::LoadStepper<Dim>& stepper) {
-    const std::size_t state_bytes = model::bytes_of(start.state);
+    std::vector<model::MemoryPart> parts = {{"state", model::bytes_of(start.state)}};
+    for (model::MemoryPart& part : stepper.memory(true)) parts.push_back(std::move(part));
     out_ << check_report(scene_, static_cast<std::size_t>(model_.size()),
-                         static_cast<std::size_t>(model_.ghosts.size()),
-                         stepper.bytes() + state_bytes, state_bytes);
+                         static_cast<std::size_t>(model_.ghosts.size()), parts);
     draw();
     for (const std::string& warning : start.warnings) err_ << "warning: " << warning << '\n';
     if (!start.checkpoint.empty()) out_ << resumed_line(start) << '\n';

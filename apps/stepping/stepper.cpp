@@ -121,8 +121,16 @@ template <int Dim>
 LoadStepper<Dim>::~LoadStepper() = default;
 
 template <int Dim>
-std::size_t LoadStepper<Dim>::bytes() const {
-  return equilibrium_->bytes() + preconditioner_->bytes();
+std::vector<model::MemoryPart> LoadStepper<Dim>::memory(bool to_come) const {
+  // As many as the Newton steps of a hard step need: 37 on the footing.
+  constexpr int krylov_vectors = 40;
+  std::vector<model::MemoryPart> parts = equilibrium_->memory(to_come);
+  parts.push_back({"preconditioner", preconditioner_->bytes()});
+  parts.push_back(
+      {"solver's vectors",
+       to_come ? solver_.bytes_to_come(model_.unknowns(), use_preconditioner_, krylov_vectors)
+               : solver_.bytes()});
+  return parts;
 }
 
 template <int Dim>

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "jfnk/solver.hpp"
+#include "model/memory.hpp"
 #include "model/model.hpp"
 #include "model/state.hpp"
 #include "record/curve.hpp"
@@ -74,7 +75,11 @@ class LoadStepper {
   /// @return the rows rebuilt
   Eigen::Index re_search();
 
-  std::size_t bytes() const;
+  /// Memory of all that it works with [bytes], as it is now.
+  std::size_t bytes() const { return model::total(memory(false)); }
+  /// The same part by part.
+  /// @param to_come  as of a long run: with tangents and all secant pairs
+  std::vector<model::MemoryPart> memory(bool to_come) const;
 
  private:
   StepResult attempt(const Watch& watch);

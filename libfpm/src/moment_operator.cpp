@@ -27,6 +27,66 @@ void add_consistency(const Ghosts<Dim>& ghosts, const Field<Dim>& potential, Ind
       geometry.own_volume * detail::weighted_remainder(geometry, weights, difference);
 }
 
+// Where the moments of pairs are kept; not read without pairs.
+template <int Dim>
+struct Moments {
+  Field<Dim>& first;
+  Eigen::VectorXd& second;
+};
+
+// Rows do not see each other: each on some thread.
+template <int Dim>
+detail::WeightedRows weigh(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Channels channels,
+                           const ConsistencyCorrection<Dim>& correction, Moments<Dim> moments) {
+  const Index size = rows.size();
+  detail::WeightedRows weighted;
+  weighted.channels = channels.count(Dim);
+  weighted.offset.reserve(static_cast<std::size_t>(size) + 1);
+  for (Index a = 0; a < size; ++a) {
+    weighted.offset.push_back(weighted.offset.back() + rows.neighbours(a).size());
+  }
+  weighted.id.resize(weighted.offset.back());
+  weighted.weight.resize(weighted.offset.back() * static_cast<std::size_t>(weighted.channels));
+#pragma omp parallel
+  {
+    RowGeometry<Dim> geometry;
+    RowWeights<Dim> weights;
+#pragma omp for schedule(static)
+    for (Index a = 0; a < size; ++a) {
+      const auto neighbours = rows.neighbours(a);
+      rows.geometry(a, geometry);
+      compute_weights(geometry, rows.options().kernel, channels.second, weights);
+      if (const auto carried = rows.correction(a); !carried.empty()) {
+        weights.gradient += Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>>(
+            carried.data(), Dim, geometry.size());
+      } else if (correction.corrects(a) && !rows.searched(a)) {
+        add_consistency(ghosts, correction.potential, a, neighbours, geometry, weights);
+      }
+      const auto begin = weighted.offset[static_cast<std::size_t>(a)];
+      std::ranges::copy(neighbours, weighted.id.begin() + static_cast<std::ptrdiff_t>(begin));
+      double* at = weighted.weight.data() + begin * static_cast<std::size_t>(weighted.channels);
+      const auto append = [&](const auto& column) {
+        at = std::copy_n(column.data(), column.size(), at);
+      };
+      for (Eigen::Index k = 0; k < geometry.size(); ++k) {
+        append(Vector<Dim>(weights.gradient.col(k)));
+        if (channels.pair) {
+          const Vector<Dim> kappa_x = weights.kappa[k] * geometry.offset.col(k);
+          *at++ = weights.kappa[k];
+          append(kappa_x);
+          moments.first.row(a) += kappa_x.transpose();
+          Eigen::Map<Tensor<Dim>>(moments.second.data() + a * Dim * Dim) +=
+              kappa_x * geometry.offset.col(k).transpose();
+        }
+        if (channels.second) {
+          append(Eigen::Matrix<double, second_gradient_size<Dim>, 1>(weights.second.col(k)));
+        }
+      }
+    }
+  }
+  return weighted;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -38,49 +98,12 @@ MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const Ghosts<Dim>& gh
     require_size("consistency potential", potential.rows(), size_);
     require_size("corrected rows", static_cast<Eigen::Index>(correction.corrected.size()), size_);
   }
-  detail::WeightedRows weighted;
-  weighted.channels = channel_count();
   if (channels.pair) {
     first_moment_.setZero(size_, Dim);
     second_moment_.setZero(static_cast<Eigen::Index>(size_) * Dim * Dim);
   }
-  std::size_t entries = 0;
-  for (Index a = 0; a < size_; ++a) entries += rows.neighbours(a).size();
-  weighted.id.reserve(entries);
-  weighted.weight.reserve(entries * static_cast<std::size_t>(weighted.channels));
-  weighted.offset.reserve(static_cast<std::size_t>(size_) + 1);
-  RowGeometry<Dim> geometry;
-  RowWeights<Dim> weights;
-  for (Index a = 0; a < size_; ++a) {
-    const auto neighbours = rows.neighbours(a);
-    rows.geometry(a, geometry);
-    compute_weights(geometry, rows.options().kernel, channels.second, weights);
-    if (const auto carried = rows.correction(a); !carried.empty()) {
-      weights.gradient += Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>>(
-          carried.data(), Dim, geometry.size());
-    } else if (correction.corrects(a) && !rows.searched(a)) {
-      add_consistency(ghosts_, potential, a, neighbours, geometry, weights);
-    }
-    weighted.id.insert(weighted.id.end(), neighbours.begin(), neighbours.end());
-    weighted.offset.push_back(weighted.id.size());
-    const auto append = [&](const auto& column) {
-      weighted.weight.insert(weighted.weight.end(), column.data(), column.data() + column.size());
-    };
-    for (Eigen::Index k = 0; k < geometry.size(); ++k) {
-      append(Vector<Dim>(weights.gradient.col(k)));
-      if (channels.pair) {
-        const Vector<Dim> kappa_x = weights.kappa[k] * geometry.offset.col(k);
-        weighted.weight.push_back(weights.kappa[k]);
-        append(kappa_x);
-        first_moment_.row(a) += kappa_x.transpose();
-        Eigen::Map<Tensor<Dim>>(second_moment_.data() + a * Dim * Dim) +=
-            kappa_x * geometry.offset.col(k).transpose();
-      }
-      if (channels.second) {
-        append(Eigen::Matrix<double, second_gradient_size<Dim>, 1>(weights.second.col(k)));
-      }
-    }
-  }
+  detail::WeightedRows weighted =
+      weigh<Dim>(rows, ghosts_, channels_, correction, {first_moment_, second_moment_});
   // A gradient acts on differences, so its row has a self entry; the caller handles that of pairs.
   std::vector<char> in_sum(static_cast<std::size_t>(channel_count()), 1);
   if (channels.pair) std::fill_n(in_sum.begin() + Channels::kappa(Dim), 1 + Dim, char{0});

@@ -4,7 +4,9 @@
 // processor has. Sums are made in eight lanes in any case, and multiplication and addition are not
 // fused (see CMakeLists.txt), so that all variants give the same bits. Sanitizer builds keep to one
 // (their runtime is not up when the loader resolves the variants).
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+#if defined(JFNK_TARGET_CLONES)
+// Chosen by whoever compiles this for one set alone.
+#elif defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define JFNK_TARGET_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else

@@ -36,6 +36,15 @@ class BroydenMemory {
   /// @return false, and nothing changes, if there is no room, du = 0 or anything is not finite
   bool add(const Vector& du, const Vector& image, const InnerProductRef& product);
 
+  /// Memory of the vectors held [bytes].
+  [[nodiscard]] std::size_t bytes() const {
+    Eigen::Index numbers = along_.size();
+    for (const std::vector<Vector>* vectors : {&s_, &w_}) {
+      for (const Vector& v : *vectors) numbers += v.size();
+    }
+    return static_cast<std::size_t>(numbers) * sizeof(double);
+  }
+
   /// Calls `walk` on every number that decides what follows, for saving and loading; `resize` must
   /// have been called.
   template <class Walker>

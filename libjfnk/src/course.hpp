@@ -19,7 +19,8 @@ enum class Ending {
   transient_failed,      ///< pseudo-transient only
   stopped,
   limit,
-  noise_floor  ///< ||F|| is at its noise, above the tolerance
+  noise_floor,  ///< ||F|| is at its noise, above the tolerance
+  stationary    ///< Newton only: ||F|| is stationary, but no root
 };
 
 /// Whether nothing more may be evaluated after such an ending.

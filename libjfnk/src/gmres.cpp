@@ -228,6 +228,14 @@ double Gmres::orthogonalise(int k, const InnerProductRef& product, double& befor
   return scale * shrunk * left;
 }
 
+std::size_t Gmres::bytes() const {
+  Eigen::Index numbers = work_.size() + direction_.size() + next_.size() + triangle_.size();
+  for (const std::vector<Vector>* vectors : {&basis_, &preconditioned_}) {
+    for (const Vector& v : *vectors) numbers += v.size();
+  }
+  return static_cast<std::size_t>(numbers) * sizeof(double);
+}
+
 // Brings the new column of the Hessenberg matrix to triangular form by Givens rotations.
 void Gmres::rotate_column(int k, double subdiagonal) {
   for (int j = 0; j < k; ++j) {

@@ -13,6 +13,10 @@ constexpr double poor = 0.1;
 constexpr int too_many_poor = 3;
 constexpr double too_short = 0.01;
 
+// A linear model that could take away no more than this part of ||F|| says that ||F|| is
+// stationary.
+constexpr double nothing_promised = 1e-4;
+
 // More left of ||F|| than this is no progress, whatever the options say.
 constexpr double all_but_all = 1.0 - 1e-10;
 
@@ -51,6 +55,62 @@ Ending judge_progress(Solve& solve, double norm_before, const Iteration& line) {
   course.newton.window_steps = 0;
   course.newton.window_norm = norm;
   return stagnated ? Ending::stagnated : Ending::go_on;
+}
+
+/// Part of ||F|| that the linear model of the last step could take away within that step's length,
+/// in whatever direction of the Krylov space.
+double promise_within(Solve& solve, double norm, double fraction) {
+  Workspace& work = solve.work;
+  CountedPreconditioner counted{&solve.evaluator};
+  const double left = work.gmres.shorten(fraction * work.gmres.length(), counted.ref(),
+                                         work.direction, solve.evaluator.product());
+  return 1.0 - left / norm;
+}
+
+/// Whether a stationary point can be told here: the last linear solve has seen all directions that
+/// matter, and ||F|| has come down, so that it is not a maximum. With factors that can be had anew
+/// there are better hopes, and what looks stationary may be a kink.
+bool can_tell_stationary(const Solve& solve, const LinearSolution& solution,
+                         const Iteration& line) {
+  constexpr double exact = 0.1;
+  constexpr double down = 0.9;
+  const Eigen::Index size = solve.evaluator.residual().global_size(solve.work.base.u.size());
+  const bool whole = line.linear_residual < exact || line.krylov_iterations >= size;
+  return solution.gmres && whole && solve.work.base.norm < down * solve.work.first.norm &&
+         !solve.work.evaluator_state.learnt && !solve.evaluator.caller_can_set_up();
+}
+
+/// Whether a step that the bend of F has cut says that ||F|| is stationary: its linear model, as
+/// far as it was right, could take away next to nothing. One that could take away little is
+/// followed by others, which tell.
+Ending judge_cut(Solve& solve, double norm_before, const LinearSolution& solution,
+                 const Iteration& line) {
+  constexpr double little = 0.01;
+  constexpr double kept = 0.8;  // of the promise, by a step that nothing but the radius cut
+  constexpr int more = 3;
+  const bool cut = line.step_length <= little && solve.course.newton.left_domain == 0;
+  if (!cut || !can_tell_stationary(solve, solution, line)) return Ending::go_on;
+  const double promised = promise_within(solve, norm_before, line.step_length);
+  const double gained = 1.0 - solve.work.base.norm / norm_before;
+  if (promised > little || gained > kept * promised) return Ending::go_on;
+  if (promised <= nothing_promised) {
+    solve.note_trouble(Trouble::minimum);
+    return Ending::stationary;
+  }
+  StageCourse& stage = solve.course.stage;
+  stage.limit = std::max(stage.limit, stage.iterations + 1 + more);
+  return Ending::go_on;
+}
+
+/// The same of a search in vain.
+Ending judge_failure(Solve& solve, Ending ending, const LinearSolution& solution,
+                     const Iteration& line) {
+  const bool at_minimum = ending == Ending::line_search_failed &&
+                          solve.report.trouble == Trouble::minimum &&
+                          solve.course.rescue.trouble_norm == solve.work.base.norm;
+  const bool told =
+      at_minimum && !by_full_steps(solve) && can_tell_stationary(solve, solution, line);
+  return told ? Ending::stationary : ending;
 }
 
 /// Watches full steps, on which ||F|| may rise.
@@ -120,12 +180,15 @@ Ending newton_step(Solve& solve) {
   const LinearSolution solution = find_direction(solve, eta, 0.0, line);
   if (solution.ending != Ending::go_on) return solution.ending;
   if (const Ending ending = globalise(solve, solution.gmres, line); ending != Ending::go_on) {
-    return ending;
+    return judge_failure(solve, ending, solution, line);
   }
   ++solve.report.newton_iterations;
   const double lowest = solve.work.best.norm;
   if (const Ending ending = solve.accept_base(line); ending != Ending::go_on) return ending;
-  if (!by_full_steps(solve)) return judge_progress(solve, norm, line);
+  if (!by_full_steps(solve)) {
+    const Ending ending = judge_progress(solve, norm, line);
+    return ending == Ending::go_on ? judge_cut(solve, norm, solution, line) : ending;
+  }
   return judge_full_step(solve, solve.work.best.norm < lowest);
 }
 

@@ -129,7 +129,7 @@ std::string advice(const Report& report) {
       return "; J v cannot be evaluated";
     case Trouble::minimum:
       return "; ||F|| has a minimum along the step that is no root, or J is all but singular: "
-             "start from another point";
+             "start from another point; is there a root at all?";
     case Trouble::broken_promise:
       if (own_action) {
         return "; check the Jacobian action: F does not fall as apply_jacobian promises (see "
@@ -229,6 +229,9 @@ std::string reason(const Report& report, const Options& options, double decades)
     case Status::out_of_domain_at_start:
       return out_of_domain_text(report);
     case Status::local_minimum:
+      if (report.trouble == Trouble::minimum) {
+        return "u is a stationary point of ||F|| that is no root: " + where(report) + hints;
+      }
       return "no direction lowers ||F||, which is not zero: a local minimum or an inconsistent "
              "system: " +
              where(report) + hints;

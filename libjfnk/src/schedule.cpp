@@ -153,7 +153,7 @@ bool is_minimum_again(Solve& solve) {
 Ending rescue(Solve& solve, Ending failure) {
   Course& course = solve.course;
   if (course.rescue.newton_failure == Ending::go_on) course.rescue.newton_failure = failure;
-  if (is_minimum_again(solve)) return failure;
+  if (failure == Ending::stationary || is_minimum_again(solve)) return failure;
   if (solve.evaluator.preconditioned_by_learning()) {
     rescue_with_learnt_factors(solve);
     return Ending::go_on;
@@ -209,7 +209,8 @@ Ending after_newton(Solve& solve, Ending ending) {
   }
   // Newton would fail again from where it has just failed without moving.
   const bool moved = solve.work.best.norm < course.stage.start_norm;
-  if (!in_final_newton(solve) && moved && ending != Ending::stagnated) {
+  const bool hopeful = ending != Ending::stagnated && ending != Ending::stationary;
+  if (!in_final_newton(solve) && moved && hopeful) {
     next_round(solve);
     return Ending::go_on;
   }

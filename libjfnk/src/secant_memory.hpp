@@ -88,6 +88,14 @@ class SecantMemory {
       for (int j = 0; j <= i; ++j) walk(r_(j, i));
     }
   }
+  /// Memory of the vectors held [bytes].
+  [[nodiscard]] std::size_t bytes() const {
+    Eigen::Index numbers = work_.size() + r_.size();
+    for (const std::vector<Vector>* vectors : {&du_, &q_, &image_}) {
+      for (const Vector& v : *vectors) numbers += v.size();
+    }
+    return static_cast<std::size_t>(numbers) * sizeof(double);
+  }
   /// Most pairs held.
   [[nodiscard]] int capacity() const { return capacity_; }
 

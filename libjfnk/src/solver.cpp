@@ -93,12 +93,17 @@ void resize(Workspace& work, Eigen::Index n, Eigen::Index global, const Options&
 
 namespace {
 
+/// Lines of history that are made room for: one per nonlinear iteration, and each iteration costs
+/// an evaluation or more.
+std::size_t most_lines(const Options& options) {
+  constexpr int most = 20000;
+  return static_cast<std::size_t>(std::min(options.max_evaluations, most)) + 1;
+}
+
 void begin(Report& report, const Options& options) {
-  // One line per nonlinear iteration, and each iteration costs an evaluation or more.
-  constexpr int most_lines = 20000;
   std::vector<Iteration> history = std::move(report.history);
   history.clear();
-  history.reserve(static_cast<std::size_t>(std::min(options.max_evaluations, most_lines)) + 1);
+  history.reserve(most_lines(options));
   // Copied into what the report holds already: a new one would allocate its words.
   static const Report blank;
   report = blank;
@@ -186,6 +191,8 @@ Status status_of(Ending ending, const Report& report) {
       return Status::stopped;
     case Ending::limit:
       return Status::evaluation_limit;
+    case Ending::stationary:
+      return Status::local_minimum;
     case Ending::noise_floor:
       return Status::noise_floor;
   }
@@ -305,6 +312,47 @@ Vector Solver::solution() const {
   const Vector& u = memory_->work.best.u;
   const Vector& scale = memory_->options.u_scale;
   return scale.size() == u.size() && u.size() > 0 ? Vector(u.cwiseProduct(scale)) : u;
+}
+
+std::size_t Solver::bytes() const {
+  const detail::Workspace& work = memory_->work;
+  Eigen::Index numbers = 0;
+  for (const detail::Iterate* at :
+       {&work.base, &work.trial, &work.best, &work.first, &work.aside}) {
+    numbers += at->u.size() + at->r.size();
+  }
+  for (const Vector* v :
+       {&work.step, &work.direction, &work.setup_point, &work.evaluator.probe,
+        &work.evaluator.physical, &work.evaluator.image, &work.by_least_squares, &work.by_broyden,
+        &work.image, &work.preconditioned, &work.preconditioned_before}) {
+    numbers += v->size();
+  }
+  return static_cast<std::size_t>(numbers) * sizeof(double) + work.gmres.bytes() +
+         work.bicgstab.bytes() + work.secants.bytes() + work.broyden.bytes() +
+         memory_->report.history.capacity() * sizeof(Iteration);
+}
+
+std::size_t Solver::bytes_to_come(Eigen::Index n, bool preconditioned, int krylov_vectors) const {
+  const Options& options = memory_->options;
+  const Eigen::Index p = preconditioned ? 1 : 0;
+  Eigen::Index vectors = 13 + p;  // iterates and residuals, step, direction, probe; setup_point
+  if (options.method != Method::multisecant) {
+    const Eigen::Index most = std::min(options.krylov.restart, options.krylov.max_iterations) + 1;
+    const Eigen::Index basis = std::min<Eigen::Index>({most, krylov_vectors + 1, n + 1});
+    vectors += options.krylov.solver == Krylov::Solver::bicgstab ? 6 + p : 2 + p + basis;
+  }
+  if (options.method != Method::newton_krylov) {
+    const Multisecant& rule = options.multisecant;
+    const Eigen::Index pairs = std::min<Eigen::Index>(rule.memory, n);
+    const bool broyden = preconditioned && rule.broyden;
+    vectors += 1 + 2 * pairs + (broyden ? 3 + 2 * rule.memory : 0);
+    if (broyden && !rule.preconditioned_norm) vectors += pairs;
+    if (preconditioned && (broyden || rule.preconditioned_norm || options.learning.enabled)) {
+      vectors += 2;
+    }
+  }
+  return static_cast<std::size_t>(vectors * n) * sizeof(double) +
+         detail::most_lines(options) * sizeof(Iteration);
 }
 
 bool Solver::start_erased(const ResidualRef& residual, const Vector& u,

@@ -22,6 +22,13 @@ class BiCGStab {
   GmresResult solve(const OperatorRef& A, const Vector& b, Vector& x, const GmresOptions& options,
                     const PreconditionerRef& P = {}, const InnerProductRef& product = {});
 
+  /// Memory of the vectors held [bytes].
+  [[nodiscard]] std::size_t bytes() const {
+    const Eigen::Index numbers = r_.size() + shadow_.size() + p_.size() + v_.size() + t_.size() +
+                                 image_.size() + best_.size();
+    return static_cast<std::size_t>(numbers) * sizeof(double);
+  }
+
  private:
   KrylovStatus iterate(const OperatorRef& A, const PreconditionerRef& P,
                        const InnerProductRef& product, double target, double rho, double& alpha,

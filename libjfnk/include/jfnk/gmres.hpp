@@ -113,6 +113,9 @@ class Gmres {
     }
   }
 
+  /// Memory of the vectors held [bytes].
+  [[nodiscard]] std::size_t bytes() const;
+
   /// Applications of the preconditioner by the last `solve`.
   [[nodiscard]] int preconditioner_applications() const { return preconditioner_applications_; }
 

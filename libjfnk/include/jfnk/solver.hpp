@@ -209,6 +209,14 @@ class Solver {
 
   /// The iterate of the lowest ||F|| so far; empty before `start`.
   [[nodiscard]] Vector solution() const;
+
+  /// Memory of its vectors and its history [bytes], as they have grown so far; not of the factors
+  /// of a Jacobian learnt.
+  [[nodiscard]] std::size_t bytes() const;
+  /// The same of a long solve of n unknowns to come: all pairs of the multisecant are in use, and
+  /// so many Krylov vectors.
+  [[nodiscard]] std::size_t bytes_to_come(Eigen::Index n, bool preconditioned,
+                                          int krylov_vectors = 10) const;
   /// The same into a vector of another type.
   /// @param[out] u  of the size of the first guess
   template <ForeignVector V>

@@ -1,0 +1,93 @@
+// Vector operations on threads: the bits of libjfnk's own, for any number of threads.
+#include "equilibrium/threaded_vectors.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <random>
+
+#include "equilibrium/equilibrium.hpp"
+#include "jfnk/residual.hpp"
+
+namespace {
+
+using equilibrium::ThreadedVectors;
+using jfnk::InnerProductRef;
+using jfnk::Vector;
+
+/// Vectors of which each sum cancels, so that another order shows in its last bits.
+struct Vectors {
+  std::vector<Vector> all;
+  std::vector<const Vector*> columns;
+  Vector w;
+  Vector factors;
+
+  Vectors(Eigen::Index n, std::size_t count) {
+    std::mt19937 generator(3);
+    std::normal_distribution<double> normal;
+    const auto random = [&](Eigen::Index size) {
+      return Vector(Vector::NullaryExpr(size, [&](Eigen::Index) { return normal(generator); }));
+    };
+    for (std::size_t j = 0; j < count; ++j) all.push_back(random(n));
+    for (const Vector& v : all) columns.push_back(&v);
+    w = random(n);
+    factors = random(static_cast<Eigen::Index>(count));
+  }
+  std::vector<Vector*> writable() {
+    std::vector<Vector*> pointers;
+    for (Vector& v : all) pointers.push_back(&v);
+    return pointers;
+  }
+  std::span<const double> weights() const { return {factors.data(), columns.size()}; }
+};
+
+/// All that the operations make of the same vectors.
+template <class Operations>
+std::vector<Vector> everything(const Operations& operations, Eigen::Index n, std::size_t count) {
+  Vectors set(n, count);
+  Vector sums(static_cast<Eigen::Index>(count));
+  operations.dots(set.columns, set.w, {sums.data(), count});
+  Vector product(1);
+  product[0] = operations.dot(set.w, set.all.front());
+  std::vector<Vector> results = {sums, product};
+  Vector w = set.w;
+  operations.combine(0.7, set.columns, set.weights(), w);
+  results.push_back(w);
+  operations.combine(0.0, set.columns, set.weights(), w);
+  results.push_back(w);
+  const Vector cosines = Vector::Constant(static_cast<Eigen::Index>(count), 0.6);
+  const Vector sines = Vector::Constant(static_cast<Eigen::Index>(count), 0.8);
+  operations.rotate(set.writable(), {cosines.data(), count - 1}, {sines.data(), count - 1});
+  for (const Vector& v : set.all) results.push_back(v);
+  return results;
+}
+
+TEST(ThreadedVectors, GiveTheBitsOfNoneForAnyNumberOfThreads) {
+  const int before = omp_get_max_threads();
+  // On either side of a block of rows and of a strip of columns; fewer blocks than threads, more.
+  for (const Eigen::Index n : {5, 1024, 1025, 9000}) {
+    for (const std::size_t count : {1U, 4U, 33U}) {
+      const std::vector<Vector> expected = everything(InnerProductRef(), n, count);
+      for (const int threads : {1, 2, 3, 7}) {
+        omp_set_num_threads(threads);
+        const std::vector<Vector> found = everything(ThreadedVectors((n + 1) / 2), n, count);
+        ASSERT_EQ(found.size(), expected.size());
+        for (std::size_t k = 0; k < found.size(); ++k) {
+          EXPECT_TRUE((found[k].array() == expected[k].array()).all())
+              << n << " rows, " << count << " columns, " << threads << " threads: " << k;
+        }
+      }
+    }
+  }
+  omp_set_num_threads(before);
+}
+
+TEST(ThreadedVectors, AreWhatTheSolverFindsInTheEquilibrium) {
+  using Plane = equilibrium::Equilibrium<2>;
+  EXPECT_TRUE(jfnk::HasInnerProduct<Plane>);
+  EXPECT_TRUE(jfnk::HasDots<Plane>);
+  EXPECT_TRUE(jfnk::HasCombine<Plane>);
+  EXPECT_TRUE(jfnk::HasRotate<Plane>);
+}
+
+}  // namespace
