@@ -190,13 +190,13 @@ fpm::Cells<Dim> cells_of(const scene::Scene& scene) {
   std::optional<shape::Body> body;
   if (cut) body = scene::body_of(scene);
   return {lattice, [&](const fpm::Vector<Dim>& lower, const fpm::Vector<Dim>& upper) {
-            const auto wanted = [&](double to_cutouts) {
+            const auto wanted = [&](double to_hollows) {
               return scene::wanted_spacing(scene, places, {lower.data(), Dim}, {upper.data(), Dim},
-                                           to_cutouts);
+                                           to_hollows);
             };
             if (!body) return wanted(std::numeric_limits<double>::infinity());
             const shape::Point low = lower.template head<2>(), high = upper.template head<2>();
-            return std::min(wanted(body->distance_to_cuts(low, high)),
+            return std::min(wanted(body->distance_to_hollows(low, high)),
                             fitting_spacing(*body, low, high, geometry.spacing));
           }};
 }

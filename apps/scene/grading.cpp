@@ -134,7 +134,7 @@ double resolve_coarsest(const Scene& scene) {
 }
 
 double wanted_spacing(const Scene& scene, const std::vector<FinePlace>& places,
-                      std::span<const double> min, std::span<const double> max, double to_cutouts) {
+                      std::span<const double> min, std::span<const double> max, double to_hollows) {
   const double slack = same_place(scene.geometry);
   for (const Material& material : scene.material) {
     if (cuts(material.region_min, material.region_max, slack, min, max)) {
@@ -154,8 +154,8 @@ double wanted_spacing(const Scene& scene, const std::vector<FinePlace>& places,
   const auto grown = [&](double r) {
     return scene.grading.growth * length * std::pow(r / length, scene.grading.exponent);
   };
-  if (std::isfinite(to_cutouts)) {
-    wanted = std::min(wanted, std::max(scene.geometry.spacing, grown(to_cutouts)));
+  if (std::isfinite(to_hollows)) {
+    wanted = std::min(wanted, std::max(scene.geometry.spacing, grown(to_hollows)));
   }
   for (const FinePlace& place : places) {
     const double r = distance(place, min, max);

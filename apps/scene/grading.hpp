@@ -30,9 +30,9 @@ struct FinePlace {
 /// The spacing [m] wanted in a box of space: growth L (r / L)^exponent at a distance r from the
 /// nearest fine place, but not less than the place's; the finest where the box is cut by a face of
 /// a region, which is followed.
-/// @param to_cutouts  [m] distance from the surface of the nearest cutout, which is fine as well
+/// @param to_hollows  [m] distance from the nearest cutout, bore or the like, which is fine as well
 [[nodiscard]] double wanted_spacing(const Scene& scene, const std::vector<FinePlace>& places,
                                     std::span<const double> min, std::span<const double> max,
-                                    double to_cutouts = std::numeric_limits<double>::infinity());
+                                    double to_hollows = std::numeric_limits<double>::infinity());
 
 }  // namespace scene

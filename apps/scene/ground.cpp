@@ -22,11 +22,13 @@ std::vector<shape::Point> points_of(const std::vector<PlanePoint>& places) {
 }  // namespace
 
 shape::Outline join_regions(const Scene& scene, tables::Diagnosis& diagnosis) {
-  std::vector<shape::NamedRing> regions;
+  std::vector<shape::NamedRegion> regions;
   for (std::size_t r = 0; r < scene.region.size(); ++r) {
     const Region& region = scene.region[r];
-    regions.push_back({region.name.empty() ? fmt::format("region {}", r) : region.name,
-                       points_of(region.outline)});
+    shape::NamedRegion& named = regions.emplace_back();
+    named.name = region.name.empty() ? fmt::format("region {}", r) : region.name;
+    named.ring = points_of(region.outline);
+    for (const auto& hole : region.holes) named.holes.push_back(points_of(hole));
   }
   std::vector<shape::NamedLine> sides;
   for (const OutlineSide& side : scene.side) sides.push_back({side.name, points_of(side.along)});
@@ -52,11 +54,12 @@ std::size_t material_of_region_at(const Scene& scene, const shape::Outline& outl
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t r = 0; r < outline.regions.size(); ++r) {
-    shape::Ring ring;
-    for (const int p : outline.regions[r]) ring.push_back(outline.at(p));
-    double distance = shape::is_inside(ring, here) ? 0.0 : least;
-    for (std::size_t k = 0; k < ring.size() && distance > 0.0; ++k) {
-      distance = std::min(distance, shape::distance(here, ring[k], ring[(k + 1) % ring.size()]));
+    const std::vector<shape::Ring> rings = outline.rings(r);
+    double distance = shape::is_inside(rings, here) ? 0.0 : least;
+    for (const shape::Ring& ring : rings) {
+      for (std::size_t k = 0; k < ring.size() && distance > 0.0; ++k) {
+        distance = std::min(distance, shape::distance(here, ring[k], ring[(k + 1) % ring.size()]));
+      }
     }
     if (distance >= least) continue;
     least = distance;

@@ -5,6 +5,7 @@
 #include "files/durable_file.hpp"
 #include "scene/check.hpp"
 #include "scene/complete.hpp"
+#include "scene/mesh_groups.hpp"
 #include "scene/scene.hpp"
 #include "scene/tables.hpp"
 #include "tables/nearest_name.hpp"
@@ -18,6 +19,7 @@ std::optional<Scene> parse_scene(std::string_view text, std::span<const std::str
   Scene scene;
   unreadable = tables::read_tables(text, settings, scene_tables(), scene, diagnosis);
   if (unreadable) return std::nullopt;
+  take_groups(scene.mesh, scene.region, scene.side, diagnosis);
   complete(scene, diagnosis);
   // Of ground that is none nothing else can be judged.
   if (scene.region.empty() || diagnosis.errors().empty()) check_scene(scene, diagnosis);

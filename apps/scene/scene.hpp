@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/choices.hpp"
+#include "scene/mesh_file.hpp"
 
 namespace scene {
 
@@ -39,11 +40,13 @@ class PlanePoint {
   double x_, y_;
 };
 
-/// A polygon of one material.
+/// A polygon of one material, and what of it is not.
 struct Region {
   std::string name;
   std::string material;             // its name
   std::vector<PlanePoint> outline;  // either way around
+  std::vector<std::vector<PlanePoint>> holes;
+  std::string group;  // of a mesh, which gives outline and holes; empty once read
   bool operator==(const Region&) const = default;
 };
 
@@ -52,6 +55,7 @@ struct OutlineSide {
   std::string name;
   OutlineKind kind = OutlineKind::free;
   std::vector<PlanePoint> along;  // a polyline, either way
+  std::string group;              // of a mesh, which gives it; empty once read
   double pressure = 0.0;          // [Pa] on the body, constant
   double shear = 0.0;             // [Pa] along the surface, with the body to the left, constant
   double live_pressure = 0.0;     // [Pa] likewise, at load parameter 1
@@ -301,6 +305,7 @@ struct Limit {
 struct Scene {
   std::string title;
   Geometry geometry;
+  MeshFile mesh;
   std::vector<Region> region;
   std::vector<OutlineSide> side;
   Load load;

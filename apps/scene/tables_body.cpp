@@ -153,7 +153,7 @@ SceneTable grading() {
              "tree of cells 1, 2, 4, ... spacings wide.")
       .key("enabled", &Grading::enabled,
            {.doc = "true: finest at the ends of plates and loads, at re-entrant corners of "
-                   "regions, at cutouts and at the places of [[refine]]."})
+                   "regions, at cutouts, holes and hollow arcs, and at the places of [[refine]]."})
       .key("growth", &Grading::growth,
            {.range = {0.0, 1.0, true, false},
             .doc = "A: at a distance r from the nearest such place the spacing is at most "

@@ -7,6 +7,20 @@ namespace scene {
 
 namespace {
 
+SceneTable mesh() {
+  return tables::TableBuilder<Scene, MeshFile>(
+             "mesh", &Scene::mesh,
+             "A plane mesh of Gmsh whose physical groups are regions and sides. Of its elements "
+             "only "
+             "the outlines of groups count: particles are those of the lattice or tree, as in any "
+             "region. Once read, its outlines are in the scene, and so in checkpoints.")
+      .key("file", &MeshFile::file,
+           {.doc = "Its path from the scene's folder: MSH 4.1 or 2.2, as text; empty: none."})
+      .key("unit", &MeshFile::unit,
+           {.unit = "m", .range = tables::positive(), .doc = "Of its coordinates; 0.001 for mm."})
+      .build();
+}
+
 SceneTable region() {
   return tables::TableBuilder<Scene, Region>(
              "region", &Scene::region,
@@ -15,10 +29,25 @@ SceneTable region() {
       .key("name", &Region::name, {.doc = "Serves messages."})
       .key("material", &Region::material,
            {.need = tables::Need::required, .doc = "Name of its material."})
+      .key("group", &Region::group,
+           {.doc = "Physical surface of [mesh], by name or number, in place of outline and holes. "
+                   "Parts that do not hang together become regions of their own."})
       .key("outline", &Region::outline,
-           {.need = tables::Need::required,
+           {.need = tables::Need::optional,
             .unit = "m",
-            .doc = "Its corners, either way around, [[x, y], ...]."})
+            .doc =
+                "Its corners, either way around, [[x, y], ...]. Among them, as everywhere in lists "
+                "of points, arcs { centre = [x, y], radius = r, from = degrees, to = degrees, "
+                "chords = n }: from the direction +x, counterclockwise if to is more; a whole "
+                "circle without from and to. It becomes chords between points on it, at whole "
+                "multiples of an angle and at its ends, n to a circle, 144 if not given.",
+            .absent = "that of group"})
+      .key("holes", &Region::holes,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "Polygons within it that are not of it: cavities, whose surface is a side, or "
+                   "filled by other regions.",
+            .absent = "none"})
       .build();
 }
 
@@ -36,8 +65,13 @@ SceneTable side() {
             .doc = "free: nothing acts on it. loaded: pressure and shear do. fixed: it is held. "
                    "roller, symmetry: it is held across, and free along. footing: a rigid plate, "
                    "what the drive moves or loads."})
+      .key("group", &OutlineSide::group,
+           {.doc = "Physical curve of [mesh], by name or number, in place of along."})
       .key("along", &OutlineSide::along,
-           {.need = tables::Need::required, .unit = "m", .doc = "A polyline on the outline."})
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "A polyline on the outline.",
+            .absent = "that of group"})
       .key("pressure", &OutlineSide::pressure,
            {.unit = "Pa", .doc = "loaded: on the body, a dead load, there from the start."})
       .key("shear", &OutlineSide::shear,
@@ -86,7 +120,7 @@ SceneTable load() {
 }  // namespace
 
 std::vector<SceneTable> ground_tables() {
-  return {region(), side(), load()};
+  return {mesh(), region(), side(), load()};
 }
 
 }  // namespace scene

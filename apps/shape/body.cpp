@@ -47,6 +47,7 @@ struct Edge {
   Point from, to;
   int side = -1;
   int other = -1;  // region beyond it
+  bool hollow = false;
 };
 
 // A region with its edges, after the cuts.
@@ -104,6 +105,26 @@ void add_part(const Polygon::ring_type& closed, const Point& lower, const Point&
     part.area += 0.5 * twice;
     part.centroid += twice / 6.0 * (a + b);
   }
+}
+
+// Which segments of an outline turn towards the ground at both ends; a turn is more than round-off.
+std::vector<char> hollows_of(const Outline& outline) {
+  constexpr double round_off = 1e-6;
+  std::vector<int> turns(outline.segments.size(), 0);
+  for (std::size_t i = 0; i < outline.segments.size(); ++i) {
+    for (std::size_t j = 0; j < outline.segments.size(); ++j) {
+      const OutlineSegment &before = outline.segments[i], &after = outline.segments[j];
+      if (before.right >= 0 || after.right >= 0 || before.second != after.first) continue;
+      const Point in = (outline.at(before.second) - outline.at(before.first)).normalized();
+      const Point out = (outline.at(after.second) - outline.at(after.first)).normalized();
+      if (in.x() * out.y() - in.y() * out.x() >= -round_off) continue;
+      ++turns[i];
+      ++turns[j];
+    }
+  }
+  std::vector<char> hollow;
+  for (const int count : turns) hollow.push_back(count == 2 ? 1 : 0);
+  return hollow;
 }
 
 double distance_of(const Point& place, const Point& from, const Point& to) {
@@ -178,6 +199,7 @@ struct Body::Shape {
         continue;
       } else {
         segment.side = edge->side;
+        segment.hollow = edge->hollow;
       }
       surface.push_back(segment);
     }
@@ -240,17 +262,23 @@ Body::Body(const Point& lower, const Point& upper, const std::vector<Cut>& cuts)
 Body::Body(const Outline& outline, const Point& lower, const Point& upper,
            const std::vector<Cut>& cuts)
     : shape_(std::make_unique<Shape>(lower, upper)) {
-  for (const std::vector<int>& ring : outline.regions) {
-    Ring corners;
-    for (const int p : ring) corners.push_back(outline.at(p));
-    shape_->regions.emplace_back().polygons.push_back(polygon_of(corners));
+  for (std::size_t r = 0; r < outline.regions.size(); ++r) {
+    const std::vector<Ring> rings = outline.rings(r);
+    Polygon polygon = polygon_of(rings.front());
+    for (std::size_t hole = 1; hole < rings.size(); ++hole) {
+      polygon.inners().push_back(polygon_of(rings[hole]).outer());
+    }
+    geometry::correct(polygon);  // holes clockwise
+    shape_->regions.emplace_back().polygons.push_back(std::move(polygon));
   }
-  for (const OutlineSegment& segment : outline.segments) {
+  const std::vector<char> hollow = hollows_of(outline);
+  for (std::size_t k = 0; k < outline.segments.size(); ++k) {
+    const OutlineSegment& segment = outline.segments[k];
     const Point &from = outline.at(segment.first), &to = outline.at(segment.second);
     const auto edges_of = [&](int r) -> auto& {
       return shape_->regions[static_cast<std::size_t>(r)].edges;
     };
-    edges_of(segment.left).push_back({from, to, segment.side, segment.right});
+    edges_of(segment.left).push_back({from, to, segment.side, segment.right, hollow[k] != 0});
     if (segment.right >= 0) edges_of(segment.right).push_back({to, from, -1, segment.left});
   }
   shape_->take(cuts);
@@ -335,11 +363,11 @@ Stretch Body::along(const Point& from, const Point& to) const {
   return stretch;
 }
 
-double Body::distance_to_cuts(const Point& lower, const Point& upper) const {
+double Body::distance_to_hollows(const Point& lower, const Point& upper) const {
   const Box box(corner(lower), corner(upper));
   double least = std::numeric_limits<double>::infinity();
   for (const SurfaceSegment& s : shape_->surface) {
-    if (s.cut < 0) continue;
+    if (s.cut < 0 && !s.hollow) continue;
     // A bound first: most segments are further away than one before.
     const Point apart = (lower - s.from.cwiseMax(s.to)).cwiseMax(s.from.cwiseMin(s.to) - upper);
     if (apart.maxCoeff() >= least) continue;

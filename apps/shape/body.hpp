@@ -22,6 +22,7 @@ struct SurfaceSegment {
   int side = -1;  // of the outline
   int face = -1;  // of the box: 0 left, 1 right, 2 bottom, 3 top
   int region = 0;
+  bool hollow = false;  // of regions: both ends turn towards the body, as all of a bore does
 };
 
 /// A straight piece of where two regions meet.
@@ -73,8 +74,8 @@ class Body {
   [[nodiscard]] Stretch along(const Point& from, const Point& to) const;
   [[nodiscard]] const std::vector<SurfaceSegment>& surface() const;
   [[nodiscard]] const std::vector<Joint>& joints() const;
-  /// Distance of a box from the surface that the cuts made.
-  [[nodiscard]] double distance_to_cuts(const Point& lower, const Point& upper) const;
+  /// Distance of a box from the surface that cuts made or that is hollow.
+  [[nodiscard]] double distance_to_hollows(const Point& lower, const Point& upper) const;
   /// How far a box is from a region; 0 inside it.
   [[nodiscard]] double distance_to_region(const Point& lower, const Point& upper, int region) const;
 

@@ -41,7 +41,7 @@ std::optional<Point> crossing(const Point& a, const Point& b, const Point& c, co
 
 class Arranger {
  public:
-  Arranger(std::span<const NamedRing> regions, std::span<const NamedLine> sides,
+  Arranger(std::span<const NamedRegion> regions, std::span<const NamedLine> sides,
            tables::Diagnosis& diagnosis)
       : regions_(regions), sides_(sides), diagnosis_(diagnosis) {}
 
@@ -49,30 +49,34 @@ class Arranger {
     measure();
     if (is_good()) collect_points();
     if (is_good() && points_are_apart()) {
-      for (auto& ring : result_.regions) divide(ring);
+      for (auto& loops : result_.regions) {
+        for (Loop& loop : loops) divide(loop);
+      }
       for (std::size_t r = 0; r < regions_.size(); ++r) check_itself(r);
     }
     if (is_good()) check_overlaps();
     if (is_good()) join();
     if (is_good()) check_connection();
     if (is_good()) name_sides();
-    for (std::size_t r = 0; r < result_.regions.size(); ++r) result_.area += area_of(polygon(r));
+    for (std::size_t r = 0; r < result_.regions.size(); ++r) {
+      for (const Ring& ring : result_.rings(r)) result_.area += area_of(ring);
+    }
     return std::move(result_);
   }
 
  private:
-  using Ring = std::vector<int>;
+  using Loop = Outline::Loop;
 
   [[nodiscard]] bool is_good() const { return diagnosis_.errors().empty(); }
-  [[nodiscard]] static std::string key(std::size_t region) {
-    return fmt::format("region.{}.outline", region);
+  [[nodiscard]] static std::string key(std::size_t region, bool of_hole = false) {
+    return fmt::format("region.{}.{}", region, of_hole ? "holes" : "outline");
   }
   [[nodiscard]] std::string name(std::size_t region) const { return regions_[region].name; }
   [[nodiscard]] const Point& at(int point) const { return result_.at(point); }
 
   void measure() {
     Point low = regions_.front().ring.front(), high = low;
-    for (const NamedRing& region : regions_) {
+    for (const NamedRegion& region : regions_) {
       for (const Point& point : region.ring) {
         low = low.cwiseMin(point);
         high = high.cwiseMax(point);
@@ -108,22 +112,11 @@ class Arranger {
 
   void collect_points() {
     for (std::size_t r = 0; r < regions_.size(); ++r) {
-      std::vector<Point> outline = regions_[r].ring;
-      // A polygon that is closed by its first point is the same polygon.
-      if (outline.size() > 1 && outline.front() == outline.back()) outline.pop_back();
-      if (area_of(outline) < 0.0) std::reverse(outline.begin(), outline.end());
-      Ring ring;
-      for (const Point& point : outline) ring.push_back(id_of(point));
-      if (ring.size() < 3) {
-        diagnosis_.error(key(r), fmt::format("found {} points", ring.size()),
-                         "a polygon has 3 or more");
+      std::vector<Loop>& loops = result_.regions.emplace_back();
+      loops.push_back(loop_of(regions_[r].ring, key(r), 1.0));
+      for (const Ring& hole : regions_[r].holes) {
+        loops.push_back(loop_of(hole, key(r, true), -1.0));
       }
-      for (std::size_t k = 0; k < ring.size(); ++k) {
-        if (ring[k] != ring[(k + 1) % ring.size()]) continue;
-        diagnosis_.error(key(r), fmt::format("found {} twice in a row", text_of(at(ring[k]))),
-                         "an outline passes no place twice");
-      }
-      result_.regions.push_back(std::move(ring));
     }
     for (std::size_t s = 0; s < sides_.size(); ++s) {
       int before = -1;
@@ -139,11 +132,49 @@ class Arranger {
     }
   }
 
+  // A ring as a loop of points that goes around as `sign` says.
+  Loop loop_of(Ring ring, const std::string& key, double sign) {
+    // A polygon that is closed by its first point is the same polygon.
+    if (ring.size() > 1 && (ring.front() - ring.back()).norm() <= result_.tolerance()) {
+      ring.pop_back();
+    }
+    if (sign * area_of(ring) < 0.0) std::reverse(ring.begin(), ring.end());
+    Loop loop;
+    for (const Point& point : ring) loop.push_back(id_of(point));
+    if (loop.size() < 3) {
+      diagnosis_.error(key, fmt::format("found {} points", loop.size()), "a polygon has 3 or more");
+    }
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      if (loop[k] != loop[(k + 1) % loop.size()]) continue;
+      diagnosis_.error(key, fmt::format("found {} twice in a row", text_of(at(loop[k]))),
+                       "an outline passes no place twice");
+    }
+    return loop;
+  }
+
+  /// A straight piece of a region's loops.
+  struct Piece {
+    int from = 0, to = 0;
+    std::size_t loop = 0;
+  };
+
+  [[nodiscard]] std::vector<Piece> pieces(std::size_t r) const {
+    std::vector<Piece> all;
+    const std::vector<Loop>& loops = result_.regions[r];
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+      for (std::size_t k = 0; k < loops[l].size(); ++k) {
+        all.push_back({loops[l][k], loops[l][(k + 1) % loops[l].size()], l});
+      }
+    }
+    return all;
+  }
+
   // The key of what has this point.
   [[nodiscard]] std::string key_of_point(int point) const {
     for (std::size_t r = 0; r < result_.regions.size(); ++r) {
-      const Ring& ring = result_.regions[r];
-      if (std::find(ring.begin(), ring.end(), point) != ring.end()) return key(r);
+      for (const Piece& piece : pieces(r)) {
+        if (piece.from == point) return key(r, piece.loop > 0);
+      }
     }
     for (std::size_t s = 0; s < sides_.size(); ++s) {
       for (const Point& place : sides_[s].along) {
@@ -168,13 +199,11 @@ class Arranger {
         return false;
       }
       for (std::size_t r = 0; r < result_.regions.size(); ++r) {
-        const Ring& ring = result_.regions[r];
-        for (std::size_t k = 0; k < ring.size(); ++k) {
-          const int a = ring[k], b = ring[(k + 1) % ring.size()];
+        for (const auto& [a, b, loop] : pieces(r)) {
           if (i == a || i == b) continue;
           const double apart = distance(at(i), at(a), at(b));
           if (apart > thin || apart <= result_.tolerance()) continue;
-          diagnosis_.error(key(r),
+          diagnosis_.error(key(r, loop > 0),
                            fmt::format("{} almost lies on {} - {}: a layer without thickness",
                                        text_of(at(i)), text_of(at(a)), text_of(at(b))),
                            fmt::format("apart are at least {:.3g} m, or nothing", thin));
@@ -185,11 +214,11 @@ class Arranger {
     return true;
   }
 
-  // Takes every point that lies on a ring into it.
-  void divide(Ring& ring) const {
-    Ring divided;
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const int a = ring[k], b = ring[(k + 1) % ring.size()];
+  // Takes every point that lies on a loop into it.
+  void divide(Loop& loop) const {
+    Loop divided;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const int a = loop[k], b = loop[(k + 1) % loop.size()];
       std::vector<std::pair<double, int>> between;
       for (int i = 0; i < static_cast<int>(result_.points.size()); ++i) {
         if (i == a || i == b || distance(at(i), at(a), at(b)) > result_.tolerance()) continue;
@@ -199,34 +228,46 @@ class Arranger {
       divided.push_back(a);
       for (const auto& [along, point] : between) divided.push_back(point);
     }
-    ring = divided;
+    loop = divided;
   }
 
   void check_itself(std::size_t r) {
-    const Ring& ring = result_.regions[r];
-    const std::size_t n = ring.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = i + 1; j < n; ++j) {
-        if (ring[i] == ring[j]) {
-          diagnosis_.error(key(r),
-                           fmt::format("the polygon touches itself at {}", text_of(at(ring[i]))),
+    const std::vector<Piece> all = pieces(r);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      for (std::size_t j = i + 1; j < all.size(); ++j) {
+        const Piece &one = all[i], &other = all[j];
+        const std::string where = key(r, other.loop > 0);
+        if (one.from == other.from) {
+          diagnosis_.error(where,
+                           fmt::format("the polygon touches itself at {}", text_of(at(one.from))),
                            "an outline passes no place twice");
           return;
         }
-        const auto place =
-            crossing(at(ring[i]), at(ring[i + 1]), at(ring[j]), at(ring[(j + 1) % n]));
+        const auto place = crossing(at(one.from), at(one.to), at(other.from), at(other.to));
         if (!place) continue;
-        diagnosis_.error(key(r), fmt::format("the polygon crosses itself at {}", text_of(*place)),
+        diagnosis_.error(where, fmt::format("the polygon crosses itself at {}", text_of(*place)),
                          "an outline passes no place twice");
         return;
       }
     }
+    check_holes(r);
   }
 
-  [[nodiscard]] std::vector<Point> polygon(std::size_t r) const {
-    std::vector<Point> points;
-    for (const int point : result_.regions[r]) points.push_back(at(point));
-    return points;
+  // Loops that do not meet are within one another or apart.
+  void check_holes(std::size_t r) {
+    const std::vector<Ring> rings = result_.rings(r);
+    for (std::size_t hole = 1; hole < rings.size(); ++hole) {
+      for (std::size_t other = 0; other < rings.size(); ++other) {
+        const bool wanted = other == 0;
+        const Point& at = rings[hole].front();
+        if (other == hole || is_inside(rings[other], at) == wanted) continue;
+        diagnosis_.error(key(r, true),
+                         wanted ? fmt::format("the hole at {} is outside the outline", text_of(at))
+                                : fmt::format("the hole at {} is in another one", text_of(at)),
+                         "holes are within the outline, side by side");
+        return;
+      }
+    }
   }
 
   void check_overlaps() {
@@ -246,18 +287,18 @@ class Arranger {
 
   // A place of region r's outline that shows that it overlaps another one.
   [[nodiscard]] std::optional<Point> overlap(std::size_t r, std::size_t other) const {
-    const std::vector<Point> mine = polygon(r), theirs = polygon(other);
-    for (std::size_t i = 0; i < mine.size(); ++i) {
-      const Point &a = mine[i], &b = mine[(i + 1) % mine.size()];
+    const std::vector<Piece> theirs = pieces(other);
+    const std::vector<Ring> rings = result_.rings(other);
+    for (const Piece& mine : pieces(r)) {
+      const Point &a = at(mine.from), &b = at(mine.to);
       const Point middle = (a + b) / 2.0;
       bool lies_on_it = false;
-      for (std::size_t j = 0; j < theirs.size(); ++j) {
-        const Point &c = theirs[j], &d = theirs[(j + 1) % theirs.size()];
-        if (const auto place = crossing(a, b, c, d)) return place;
-        if (a == c && b == d) return middle;
-        lies_on_it = lies_on_it || (a == d && b == c);
+      for (const Piece& piece : theirs) {
+        if (const auto place = crossing(a, b, at(piece.from), at(piece.to))) return place;
+        if (mine.from == piece.from && mine.to == piece.to) return middle;
+        lies_on_it = lies_on_it || (mine.from == piece.to && mine.to == piece.from);
       }
-      if (!lies_on_it && is_inside(theirs, middle)) return middle;
+      if (!lies_on_it && is_inside(rings, middle)) return middle;
     }
     return std::nullopt;
   }
@@ -265,9 +306,7 @@ class Arranger {
   void join() {
     std::map<std::pair<int, int>, std::size_t> known;
     for (std::size_t r = 0; r < result_.regions.size(); ++r) {
-      const Ring& ring = result_.regions[r];
-      for (std::size_t k = 0; k < ring.size(); ++k) {
-        const int a = ring[k], b = ring[(k + 1) % ring.size()];
+      for (const auto& [a, b, loop] : pieces(r)) {
         const auto [at, is_new] = known.emplace(std::minmax(a, b), result_.segments.size());
         if (is_new) {
           result_.segments.push_back({a, b, static_cast<int>(r)});
@@ -364,7 +403,7 @@ class Arranger {
     return area_of(loop) < 0.0;
   }
 
-  std::span<const NamedRing> regions_;
+  std::span<const NamedRegion> regions_;
   std::span<const NamedLine> sides_;
   tables::Diagnosis& diagnosis_;
   Outline result_;
@@ -378,7 +417,16 @@ double distance(const Point& place, const Point& first, const Point& second) {
   return (place - first - share * along).norm();
 }
 
-bool is_inside(const std::vector<Point>& polygon, const Point& place) {
+std::vector<Ring> Outline::rings(std::size_t region) const {
+  std::vector<Ring> rings;
+  for (const Loop& loop : regions[region]) {
+    Ring& ring = rings.emplace_back();
+    for (const int point : loop) ring.push_back(at(point));
+  }
+  return rings;
+}
+
+bool is_inside(const Ring& polygon, const Point& place) {
   bool inside = false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
@@ -389,7 +437,14 @@ bool is_inside(const std::vector<Point>& polygon, const Point& place) {
   return inside;
 }
 
-Outline join_regions(std::span<const NamedRing> regions, std::span<const NamedLine> sides,
+bool is_inside(std::span<const Ring> rings, const Point& place) {
+  return std::count_if(rings.begin(), rings.end(),
+                       [&](const Ring& ring) { return is_inside(ring, place); }) %
+             2 ==
+         1;
+}
+
+Outline join_regions(std::span<const NamedRegion> regions, std::span<const NamedLine> sides,
                      tables::Diagnosis& diagnosis) {
   return Arranger(regions, sides, diagnosis).outline();
 }

@@ -9,10 +9,12 @@
 
 namespace shape {
 
-/// A region of a scene: a simple polygon, either way around.
-struct NamedRing {
+/// A region of a scene: a simple polygon without its holes, which are simple polygons within it.
+/// All go either way around.
+struct NamedRegion {
   std::string name;
-  Ring ring;  // [m]
+  Ring ring;                // [m]
+  std::vector<Ring> holes;  // [m]
 };
 
 /// A side of a scene: a polyline on the outline of the regions together, either way.
@@ -33,27 +35,32 @@ struct OutlineSegment {
 struct Outline {
   std::vector<Point> points;
   std::vector<OutlineSegment> segments;
-  std::vector<std::vector<int>> regions;  // points, counterclockwise
-  double size = 0.0;                      // diagonal of the bounding box
+  using Loop = std::vector<int>;  // points
+  /// Of each region the loop around it, counterclockwise, and those of its holes, clockwise.
+  std::vector<std::vector<Loop>> regions;
+  double size = 0.0;  // diagonal of the bounding box
   double area = 0.0;
 
   /// Places closer than this are one.
   [[nodiscard]] double tolerance() const { return 1e-9 * size; }
   [[nodiscard]] const Point& at(int point) const { return points[static_cast<std::size_t>(point)]; }
+  /// The loops of a region as places.
+  [[nodiscard]] std::vector<Ring> rings(std::size_t region) const;
 };
 
 /// Joins the regions, [[region]] of a scene, and finds the side, [[side]], of each part of the
 /// outline. What is no ground is an error of the diagnosis: a size whose square is no number, or
 /// too small for the digits of its place; polygons that cross or touch themselves, overlap, are
-/// thinner than a millionth of the whole, or fall apart; sides off the outline; outline (of a hole,
-/// too) without a side.
-[[nodiscard]] Outline join_regions(std::span<const NamedRing> regions,
+/// thinner than a millionth of the whole, or fall apart; holes outside their region; sides off the
+/// outline; outline (of a hole, too) without a side.
+[[nodiscard]] Outline join_regions(std::span<const NamedRegion> regions,
                                    std::span<const NamedLine> sides, tables::Diagnosis& diagnosis);
 
 /// Distance of a place from the straight piece between two others.
 [[nodiscard]] double distance(const Point& place, const Point& first, const Point& second);
 
-/// Whether a place is inside a polygon; either, on its outline.
+/// Whether a place is inside a polygon, or one with holes; either, on its outline.
 [[nodiscard]] bool is_inside(const Ring& polygon, const Point& place);
+[[nodiscard]] bool is_inside(std::span<const Ring> rings, const Point& place);
 
 }  // namespace shape

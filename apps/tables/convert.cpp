@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
+#include "tables/arc.hpp"
 #include "tables/nearest_name.hpp"
 #include "tables/tree.hpp"
 
@@ -54,21 +56,95 @@ struct Reader {
     return std::nullopt;
   }
 
-  /// A list of pairs of numbers.
-  std::optional<Value> points(const toml::node& node) const {
+  /// Two numbers.
+  std::optional<std::array<double, 2>> pair(const toml::node& node) const {
+    const toml::array* list = node.as_array();
+    if (list == nullptr || list->size() != 2) return refuse(node);
+    const auto x = number((*list)[0]), y = number((*list)[1]);
+    if (!x || !y) return std::nullopt;
+    return std::array<double, 2>{*x, *y};
+  }
+
+  /// A table of centre, radius, from, to and chords.
+  std::optional<Arc> arc(const toml::table& table) const {
+    const auto wrong = [&](const std::string& found, const std::string& allowed) {
+      diagnosis.error(key, found, "allowed is " + allowed);
+      return std::nullopt;
+    };
+    constexpr std::string_view form =
+        "an arc { centre = [x, y], radius = r, from = degrees, to = degrees, chords = n }";
+    for (const auto& entry : table) {
+      constexpr std::array<std::string_view, 5> names{"centre", "radius", "from", "to", "chords"};
+      if (std::ranges::count(names, entry.first.str()) > 0) continue;
+      return wrong(fmt::format("no such key in it: {}", entry.first.str()), std::string(form));
+    }
+    const toml::node *centre = table.get("centre"), *radius = table.get("radius");
+    if (centre == nullptr || radius == nullptr || table.contains("from") != table.contains("to")) {
+      return wrong("found an arc with something missing", std::string(form));
+    }
+    Arc arc;
+    const auto middle = pair(*centre);
+    const auto size = number(*radius);
+    if (!middle || !size) return std::nullopt;
+    arc.centre = *middle;
+    arc.radius = *size;
+    for (const auto& [name, angle] : {std::pair("from", &arc.from), std::pair("to", &arc.to)}) {
+      const toml::node* node = table.get(name);
+      const auto value = node == nullptr ? std::optional(*angle) : number(*node);
+      if (!value) return std::nullopt;
+      *angle = *value;
+    }
+    if (const toml::node* chords = table.get("chords")) {
+      const auto count = chords->value_exact<std::int64_t>();
+      if (!count || *count < Arc::fewest_chords || *count > Arc::most_chords) {
+        return wrong("found chords = " + describe(*chords),
+                     fmt::format("a whole number {} .. {}", Arc::fewest_chords, Arc::most_chords));
+      }
+      arc.chords = static_cast<int>(*count);
+    }
+    if (const std::string why = objection(arc); !why.empty()) return wrong(why, std::string(form));
+    return arc;
+  }
+
+  /// A list of pairs of numbers, and of arcs.
+  std::optional<std::vector<double>> coordinates(const toml::node& node) const {
     const toml::array* array = node.as_array();
     if (array == nullptr || array->empty()) return refuse(node);
     std::vector<double> coordinates;
+    bool follows_arc = false;
     for (const toml::node& entry : *array) {
-      const toml::array* pair = entry.as_array();
-      if (pair == nullptr || pair->size() != 2) return refuse(entry);
-      for (const toml::node& coordinate : *pair) {
-        const auto value = number(coordinate);
-        if (!value) return std::nullopt;
-        coordinates.push_back(*value);
+      if (const toml::table* table = entry.as_table()) {
+        const auto found = arc(*table);
+        if (!found) return std::nullopt;
+        append(*found, coordinates);
+        follows_arc = true;
+        continue;
       }
+      const auto place = pair(entry);
+      if (!place) return std::nullopt;
+      // The end of an arc may be said again.
+      const bool is_said = follows_arc && is_end(*place, coordinates);
+      if (!is_said) coordinates.insert(coordinates.end(), place->begin(), place->end());
+      follows_arc = false;
     }
-    return Value(std::move(coordinates));
+    return coordinates;
+  }
+
+  std::optional<Value> points(const toml::node& node) const {
+    auto found = coordinates(node);
+    return found ? std::optional<Value>(std::move(*found)) : std::nullopt;
+  }
+
+  std::optional<Value> polygons(const toml::node& node) const {
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->empty()) return refuse(node);
+    std::vector<std::vector<double>> all;
+    for (const toml::node& entry : *array) {
+      auto found = coordinates(entry);
+      if (!found) return std::nullopt;
+      all.push_back(std::move(*found));
+    }
+    return Value(std::move(all));
   }
 
   /// A number, or a table of value, at and gradient; the range is the value's.
@@ -208,6 +284,8 @@ std::optional<Value> convert(const toml::node& node, const FieldInfo& field, con
       return reader.list<std::string>(node, [&](const toml::node& n) { return reader.name(n); });
     case ValueKind::points:
       return reader.points(node);
+    case ValueKind::polygons:
+      return reader.polygons(node);
     case ValueKind::linear:
       return reader.linear(node);
   }

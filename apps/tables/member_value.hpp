@@ -35,6 +35,21 @@ concept Point = requires(const T& point) {
   T(0.0, 0.0);
 };
 
+template <class Points>
+std::vector<double> coordinates_of(const Points& points) {
+  std::vector<double> coordinates;
+  for (const auto& point : points) coordinates.insert(coordinates.end(), {point.x(), point.y()});
+  return coordinates;
+}
+
+template <class Points>
+void set_points(Points& points, const std::vector<double>& coordinates) {
+  points.clear();
+  for (std::size_t i = 0; i + 1 < coordinates.size(); i += 2) {
+    points.emplace_back(coordinates[i], coordinates[i + 1]);
+  }
+}
+
 template <class Enum>
 Enum enum_of(std::string_view name) {
   const auto all = names_of(Enum{});
@@ -60,6 +75,8 @@ constexpr ValueKind kind_of() {
     using Item = typename T::value_type;
     if constexpr (detail::Point<Item>) {
       return ValueKind::points;
+    } else if constexpr (detail::is_list<Item>) {
+      return ValueKind::polygons;
     } else if constexpr (std::is_same_v<Item, double>) {
       return ValueKind::numbers;
     } else {
@@ -106,11 +123,11 @@ std::optional<Value> to_value(const T& member) {
   } else {
     if (member.empty()) return std::nullopt;
     if constexpr (kind_of<T>() == ValueKind::points) {
-      std::vector<double> coordinates;
-      for (const auto& point : member) {
-        coordinates.insert(coordinates.end(), {point.x(), point.y()});
-      }
-      return Value(std::move(coordinates));
+      return Value(detail::coordinates_of(member));
+    } else if constexpr (kind_of<T>() == ValueKind::polygons) {
+      std::vector<std::vector<double>> polygons;
+      for (const auto& points : member) polygons.push_back(detail::coordinates_of(points));
+      return Value(std::move(polygons));
     } else if constexpr (kind_of<T>() == ValueKind::choices) {
       std::vector<std::string> names;
       for (const auto item : member) names.emplace_back(detail::text_of(item));
@@ -134,10 +151,11 @@ void from_value(T& member, const Value& value) {
     const auto& v = std::get<std::vector<double>>(value);
     member = {v[0], {v[1], v[2]}, {v[3], v[4]}};
   } else if constexpr (kind_of<T>() == ValueKind::points) {
-    const auto& coordinates = std::get<std::vector<double>>(value);
+    detail::set_points(member, std::get<std::vector<double>>(value));
+  } else if constexpr (kind_of<T>() == ValueKind::polygons) {
     member.clear();
-    for (std::size_t i = 0; i + 1 < coordinates.size(); i += 2) {
-      member.emplace_back(coordinates[i], coordinates[i + 1]);
+    for (const auto& coordinates : std::get<std::vector<std::vector<double>>>(value)) {
+      detail::set_points(member.emplace_back(), coordinates);
     }
   } else if constexpr (kind_of<T>() == ValueKind::choices) {
     member.clear();

@@ -47,7 +47,10 @@ std::string FieldInfo::allowed_text() const {
     case ValueKind::choices:
       return "a list of " + joined(choices);
     case ValueKind::points:
-      text = "a list of points [x, y]";
+      text = "a list of points [x, y] and arcs";
+      break;
+    case ValueKind::polygons:
+      text = "a list of lists of points [x, y] and arcs";
       break;
     case ValueKind::linear:
       text = "a number";
@@ -103,6 +106,15 @@ std::string list_text(const std::vector<Item>& items, Show show) {
   return out + "]";
 }
 
+std::string points_text(const std::vector<double>& coordinates) {
+  std::string out;
+  for (std::size_t i = 0; i + 1 < coordinates.size(); i += 2) {
+    out += fmt::format("{}[{}, {}]", i == 0 ? "" : ", ", number_text(coordinates[i]),
+                       number_text(coordinates[i + 1]));
+  }
+  return "[" + out + "]";
+}
+
 }  // namespace
 
 std::string value_text(const Value& value) {
@@ -113,6 +125,9 @@ std::string value_text(const Value& value) {
     std::string operator()(const std::string& v) const { return quoted(v); }
     std::string operator()(const std::vector<double>& v) const { return list_text(v, number_text); }
     std::string operator()(const std::vector<std::string>& v) const { return list_text(v, quoted); }
+    std::string operator()(const std::vector<std::vector<double>>& v) const {
+      return list_text(v, points_text);
+    }
   };
   return std::visit(Show{}, value);
 }
@@ -126,12 +141,7 @@ std::string value_text(const Value& value, ValueKind kind) {
                        number(0), number(3), number(4));
   }
   if (kind != ValueKind::points || coordinates == nullptr) return value_text(value);
-  std::string out;
-  for (std::size_t i = 0; i + 1 < coordinates->size(); i += 2) {
-    out += fmt::format("{}[{}, {}]", i == 0 ? "" : ", ", number_text((*coordinates)[i]),
-                       number_text((*coordinates)[i + 1]));
-  }
-  return "[" + out + "]";
+  return points_text(*coordinates);
 }
 
 std::string joined(std::span<const std::string_view> items) {

@@ -20,10 +20,11 @@ struct LinearField {
   std::array<double, 2> gradient{};
 };
 
-/// A value as it stands in TOML: numbers are double, choices their names, points x0 y0 x1 y1 ..., a
-/// linear field its value, place and gradient.
+/// A value as it stands in TOML: numbers are double, choices their names, points x0 y0 x1 y1 ...,
+/// with arcs as chords (arc.hpp), polygons lists of points, a linear field its value, place and
+/// gradient.
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>,
-                           std::vector<std::string>>;
+                           std::vector<std::string>, std::vector<std::vector<double>>>;
 
 enum class ValueKind {
   boolean,
@@ -35,6 +36,7 @@ enum class ValueKind {
   texts,
   choices,
   points,
+  polygons,
   linear
 };
 

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "scene/cutouts.hpp"
 #include "scene/derived.hpp"
 #include "scene/print.hpp"
@@ -84,6 +87,93 @@ TEST(GroundScene, IsPrintedAndReadAgain) {
     ASSERT_TRUE(again.scene);
     EXPECT_EQ(*again.scene, *reading.scene);
   }
+}
+
+// Arcs become chords when they are read, holes stay what they are.
+TEST(GroundScene, HasArcsAndHolesThatArePrintedAndReadAgain) {
+  const std::string arc = "{ centre = [0, 0], radius = 2, from = 0, to = 90, chords = 36 }";
+  const std::string bore = "{ centre = [0.8, 0.8], radius = 0.3 }";
+  const std::string text =
+      base + "[[region]]\nmaterial = \"clay\"\noutline = [[0, 0], [2, 0], " + arc +
+      ", [0, 2]]\nholes = [[" + bore + "]]\n" + side("left", "symmetry", "[[0, 0], [0, 2]]") +
+      side("bottom", "fixed", "[[0, 0], [2, 0]]") + side("mantle", "free", "[" + arc + "]") +
+      side("bore", "loaded", "[" + bore + "]") + "";
+  const auto reading = parse_scene(text, "s.toml");
+  ASSERT_TRUE(reading.scene) << errors_of(text)[0];
+  EXPECT_EQ(reading.scene->region[0].outline.size(), 1U + 10U);
+  ASSERT_EQ(reading.scene->region[0].holes.size(), 1U);
+  const auto polygon = [](double radius, double chords) {  // its area
+    return 0.5 * chords * radius * radius * std::sin(2.0 * std::numbers::pi / chords);
+  };
+  EXPECT_NEAR(body_of(*reading.scene).area(), polygon(2.0, 36.0) / 4.0 - polygon(0.3, 144.0),
+              1e-13);
+  const auto again = parse_scene(effective_toml(*reading.scene), "again.toml");
+  ASSERT_TRUE(again.scene);
+  EXPECT_EQ(*again.scene, *reading.scene);
+  for (const auto& [right, wrong] :
+       {std::pair("radius = 2", "radius = 0"), std::pair("from = 0, ", ""),
+        std::pair("chords = 36", "chords = 3"), std::pair("chords = 36", "points = 36")}) {
+    EXPECT_THAT(errors_of(replaced(text, right, wrong)),
+                ElementsAre(::testing::HasSubstr("region.0.outline: ")));
+  }
+}
+
+std::string of_groups(const std::string& text) {
+  std::string groups = "[mesh]\nfile = \"" FPM_SHARE_DIR "/scenes/tunnel.msh\"\n";
+  groups += base;
+  for (const char* soil : {"soft clay", "stiff clay"}) {
+    groups += std::string("[[region]]\nmaterial = \"clay\"\ngroup = \"") + soil + "\"\n";
+  }
+  for (const char* name : {"level", "slope", "tunnel", "base", "left", "right", "footing"}) {
+    groups += std::string("[[side]]\nname = \"") + name + "\"\nkind = \"free\"\ngroup = \"" + name +
+              "\"\n";
+  }
+  return groups + text;
+}
+
+// What is read of a mesh is in the scene, which then wants the file no more.
+TEST(GroundScene, TakesRegionsAndSidesFromAMesh) {
+  const auto reading = parse_scene(of_groups(""), "s.toml");
+  ASSERT_TRUE(reading.scene) << errors_of(of_groups(""))[0];
+  const Scene& scene = *reading.scene;
+  EXPECT_TRUE(scene.mesh.file.empty());
+  ASSERT_EQ(scene.region.size(), 2U);
+  EXPECT_EQ(scene.region[0].outline.size(), 4U);
+  ASSERT_EQ(scene.region[1].holes.size(), 1U);
+  // The polygons of tunnel.geo, the tunnel's of as many chords as the mesh has there.
+  const auto chords = static_cast<double>(scene.region[1].holes[0].size());
+  const double tunnel = 0.5 * chords * 0.49 * std::sin(2.0 * std::numbers::pi / chords);
+  const double ground = 8.0 * 4.0 + 3.0 * 4.0 + 0.5 * (4.0 + 2.5) * 3.0 + 0.5 * (2.5 + 2.0) + 6.0;
+  EXPECT_NEAR(body_of(scene).area(), ground - tunnel, 1e-6);
+  const auto again = parse_scene(effective_toml(scene), "elsewhere/again.toml");
+  ASSERT_TRUE(again.scene);
+  EXPECT_EQ(*again.scene, scene);
+}
+
+TEST(GroundScene, RefusesGroupsThatAreNone) {
+  using ::testing::HasSubstr;
+  const std::string good = of_groups("");
+  const auto with = [&](const std::string& what, const std::string& by) {
+    const auto errors = errors_of(replaced(good, what, by));
+    return errors.empty() ? "" : errors.front();
+  };
+  EXPECT_THAT(
+      with("group = \"tunnel\"", "group = \"tunel\""),
+      HasSubstr("side.2.group: found \"tunel\"; the mesh's physical curves with elements are "
+                "base, footing, left, level, right, slope, tunnel; did you mean \"tunnel\"?"));
+  EXPECT_THAT(with("group = \"soft clay\"", "group = \"base\""),
+              HasSubstr("region.0.group: found \"base\"; the mesh's physical surfaces"));
+  EXPECT_THAT(with("group = \"soft clay\"", "outline = [[0, 0], [1, 0], [0, 1]]\ngroup = \"base\""),
+              HasSubstr("region.0.group: found \"base\" beside outline; give one of them"));
+  EXPECT_THAT(with("group = \"soft clay\"", "name = \"x\""),
+              HasSubstr("region.0.outline: is missing"));
+  EXPECT_THAT(with("tunnel.msh", "nothing.msh"), HasSubstr("nothing.msh: cannot be read"));
+  EXPECT_THAT(with("tunnel.msh", "tunnel.geo"),
+              HasSubstr("tunnel.geo:1: it does not begin with $MeshFormat"));
+  EXPECT_THAT(errors_of(good.substr(good.find("[geometry]")))[0],
+              HasSubstr("region.0.group: found \"soft clay\" without a mesh"));
+  EXPECT_THAT(errors_of("[mesh]\nfile = \"" FPM_SHARE_DIR "/scenes/tunnel.msh\"\n" + base)[0],
+              HasSubstr("of which no region or side names a group"));
 }
 
 // A face that is held in part only is held by springs, where it is.

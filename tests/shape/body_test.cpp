@@ -38,7 +38,7 @@ TEST(Body, OfNoCutsIsItsBox) {
   EXPECT_EQ(body.pieces(), 1U);
   EXPECT_EQ(body.surface().size(), 4U);
   EXPECT_EQ(body.within({0.0, 0.0}, {0.5, 0.25}).area, 0.125);
-  EXPECT_EQ(body.distance_to_cuts({0.0, 0.0}, {0.5, 0.25}),
+  EXPECT_EQ(body.distance_to_hollows({0.0, 0.0}, {0.5, 0.25}),
             std::numeric_limits<double>::infinity());
   expect_closed(body);
 }
@@ -123,7 +123,7 @@ TEST(Body, CutsLinesToo) {
   EXPECT_NEAR(stretch.length, 2.0 - at, 1e-5);
   EXPECT_NEAR(stretch.middle.x(), 0.5 * (2.0 + at), 1e-5);
   EXPECT_EQ(body.along({0.0, 0.1}, {0.5, 0.1}).length, 0.0);
-  EXPECT_NEAR(body.distance_to_cuts({1.0, 1.0}, {2.0, 2.0}), std::sqrt(2.0) - 1.0, 1e-5);
+  EXPECT_NEAR(body.distance_to_hollows({1.0, 1.0}, {2.0, 2.0}), std::sqrt(2.0) - 1.0, 1e-5);
 }
 
 TEST(Circle, HasItsCornersOnItAndNoChordFurtherThanTheSagitta) {

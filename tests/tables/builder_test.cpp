@@ -152,7 +152,8 @@ TEST(TableBuilder, RefusesByFileLineAndKey) {
           "shop.toml:2:8: press.tilt: found -1; allowed is a number >= 0",
           "shop.toml:5:10: sheet.0.colour: found the text \"grene\"; allowed is one of red, green; "
           "did you mean \"green\"?",
-          "shop.toml:6:11: sheet.0.outline: found [1]; allowed is a list of points [x, y]"));
+          "shop.toml:6:11: sheet.0.outline: found [1]; allowed is a list of points [x, y] and "
+          "arcs"));
 }
 
 }  // namespace

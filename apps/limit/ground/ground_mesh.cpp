@@ -40,9 +40,8 @@ class Mesher {
         outline_(outline),
         longest_(fineness.longest),
         fans_(ground_fans(scene, outline, fineness)) {
-    for (const std::vector<int>& ring : outline.regions) {
-      std::vector<mesh::Point>& polygon = polygons_.emplace_back();
-      for (const int point : ring) polygon.push_back(outline.at(point));
+    for (std::size_t r = 0; r < outline.regions.size(); ++r) {
+      regions_.push_back(outline.rings(r));
     }
   }
 
@@ -102,8 +101,8 @@ class Mesher {
       }
       if (is_inside(polygon, place)) return -1;
     }
-    for (std::size_t r = 0; r < polygons_.size(); ++r) {
-      if (is_inside(polygons_[r], place)) return static_cast<int>(r);
+    for (std::size_t r = 0; r < regions_.size(); ++r) {
+      if (is_inside(regions_[r], place)) return static_cast<int>(r);
     }
     return -1;
   }
@@ -233,7 +232,7 @@ class Mesher {
   const GroundOutline& outline_;
   double longest_;
   std::vector<GroundFan> fans_;
-  std::vector<std::vector<mesh::Point>> polygons_;
+  std::vector<std::vector<shape::Ring>> regions_;
   Triangulation triangulation_;
   mesh::Mesh mesh_;
   std::map<std::pair<double, double>, int> nodes_;

@@ -48,6 +48,7 @@ class Reader {
       taken.material = scene::material_of(scene_, r);
       taken.number = r;
       taken.outline = points_of(region.outline);
+      for (const auto& hole : region.holes) taken.holes.push_back(points_of(hole));
       found_.regions.push_back(std::move(taken));
     }
     for (const scene::OutlineSide& side : scene_.side) take_side(side);

@@ -3,8 +3,10 @@
 namespace limit::ground {
 
 GroundOutline ground_outline(const GroundScene& scene, tables::Diagnosis& diagnosis) {
-  std::vector<shape::NamedRing> regions;
-  for (const GroundRegion& region : scene.regions) regions.push_back({region.name, region.outline});
+  std::vector<shape::NamedRegion> regions;
+  for (const GroundRegion& region : scene.regions) {
+    regions.push_back({region.name, region.outline, region.holes});
+  }
   std::vector<shape::NamedLine> sides;
   for (const GroundSide& side : scene.sides) sides.push_back({side.name, side.along});
   return shape::join_regions(regions, sides, diagnosis);

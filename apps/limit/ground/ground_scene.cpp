@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "scene/mesh_groups.hpp"
 #include "tables/builder.hpp"
 #include "tables/nearest_name.hpp"
 #include "tables/reader.hpp"
@@ -37,6 +38,16 @@ GroundTable units() {
                                      "nothing is converted, unit weights are stress over length")
       .key("stress", &problem::UnitNames::stress, {.doc = "e.g. kPa, psf; default Pa"})
       .key("length", &problem::UnitNames::length, {.doc = "e.g. ft; default m"})
+      .build();
+}
+
+GroundTable mesh_file() {
+  return Builder<scene::MeshFile>("mesh", &GroundScene::mesh,
+                                  "of Gmsh, whose physical groups are regions and sides")
+      .key("file", &scene::MeshFile::file,
+           {.doc = "MSH 4.1 or 2.2 as text, its path from the scene's folder; empty: none"})
+      .key("unit", &scene::MeshFile::unit,
+           {.unit = "m", .range = tables::positive(), .doc = "of its coordinates"})
       .build();
 }
 
@@ -119,7 +130,14 @@ GroundTable region() {
       .required()
       .key("name", &GroundRegion::name, {})
       .key("material", &GroundRegion::material_name, {.need = Need::required})
-      .key("outline", &GroundRegion::outline, {.need = Need::required, .unit = "m"})
+      .key("group", &GroundRegion::group,
+           {.doc = "physical surface of [mesh], in place of outline"})
+      .key("outline", &GroundRegion::outline,
+           {.need = Need::optional,
+            .unit = "m",
+            .doc = "also with arcs { centre, radius, from, to, chords }, see scene.md",
+            .absent = "that of group"})
+      .key("holes", &GroundRegion::holes, {.need = Need::optional, .unit = "m", .absent = "none"})
       .build();
 }
 
@@ -129,8 +147,12 @@ GroundTable side() {
       .required()
       .key("name", &GroundSide::name, {.need = Need::required})
       .key("kind", &GroundSide::kind, {.need = Need::required})
+      .key("group", &GroundSide::group, {.doc = "physical curve of [mesh], in place of along"})
       .key("along", &GroundSide::along,
-           {.need = Need::required, .unit = "m", .doc = "a polyline on the outline"})
+           {.need = Need::optional,
+            .unit = "m",
+            .doc = "a polyline on the outline",
+            .absent = "that of group"})
       .key("pressure", &GroundSide::pressure,
            {.unit = "Pa", .doc = "loaded, footing: given, compression positive"})
       .key("shear", &GroundSide::shear,
@@ -146,8 +168,8 @@ GroundTable side() {
 }
 
 const std::vector<GroundTable>& ground_tables() {
-  static const std::vector<GroundTable> all{top_level(), units(),  load(), water(),
-                                            material(),  region(), side()};
+  static const std::vector<GroundTable> all{top_level(), units(),    mesh_file(), load(),
+                                            water(),     material(), region(),    side()};
   return all;
 }
 
@@ -261,6 +283,7 @@ std::optional<GroundScene> read_ground_scene(std::string_view text,
   GroundScene scene;
   unreadable = tables::read_tables(text, settings, ground_tables(), scene, diagnosis);
   if (unreadable) return std::nullopt;
+  scene::take_groups(scene.mesh, scene.regions, scene.sides, diagnosis);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) check_material(scene, i, diagnosis);
   for (std::size_t i = 0; i < scene.regions.size(); ++i) find_material(scene, i, diagnosis);
   if (diagnosis.errors().empty()) {

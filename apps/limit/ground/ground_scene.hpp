@@ -9,6 +9,7 @@
 
 #include "limit/problem/case.hpp"
 #include "limit/problem/problem.hpp"
+#include "scene/mesh_file.hpp"
 #include "tables/diagnosis.hpp"
 #include "tables/table.hpp"
 
@@ -24,13 +25,15 @@ struct GroundMaterial {
   bool grows = true;                            // its weight is multiplied where gravity is sought
 };
 
-/// A simple polygon of one soil.
+/// A polygon of one soil.
 struct GroundRegion {
   std::string name;
   std::string material_name;
   std::size_t material = 0;          // its index
   std::size_t number = 0;            // in the scene, of which it may be a part
   std::vector<mesh::Point> outline;  // [m] either way around
+  std::vector<std::vector<mesh::Point>> holes;
+  std::string group;  // of a mesh, which gives them; empty once read
 };
 
 /// A symmetry is a roller once it has been read.
@@ -42,6 +45,7 @@ struct GroundSide {
   std::string name;
   SideKind kind = SideKind::free;
   std::vector<mesh::Point> along;  // [m] either way
+  std::string group;               // of a mesh, which gives it; empty once read
   double pressure = 0.0;           // [Pa] loaded, footing: given
   double shear = 0.0;          // [Pa] loaded: given, along the outline with the ground to the left
   double live_pressure = 0.0;  // [Pa] loaded: per unit of the multiplier
@@ -92,6 +96,7 @@ struct GroundWater {
 struct GroundScene {
   std::string title;
   problem::UnitNames units;
+  scene::MeshFile mesh;
   GroundWater water;
   std::vector<GroundMaterial> materials;
   std::vector<GroundRegion> regions;

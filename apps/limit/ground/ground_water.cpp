@@ -15,19 +15,27 @@ namespace {
 using Place = boost::geometry::model::d2::point_xy<double>;
 using Polygon = boost::geometry::model::polygon<Place, false, false>;
 
-Polygon polygon_of(const std::vector<mesh::Point>& outline) {
+using Ring = Polygon::ring_type;
+
+Ring ring_of(const std::vector<mesh::Point>& outline) {
+  Ring ring;
+  for (const mesh::Point& point : outline) ring.emplace_back(point.x(), point.y());
+  return ring;
+}
+
+Polygon polygon_of(const std::vector<mesh::Point>& outline,
+                   const std::vector<std::vector<mesh::Point>>& holes = {}) {
   Polygon polygon;
-  for (const mesh::Point& point : outline) {
-    boost::geometry::append(polygon.outer(), Place(point.x(), point.y()));
-  }
+  polygon.outer() = ring_of(outline);
+  for (const std::vector<mesh::Point>& hole : holes) polygon.inners().push_back(ring_of(hole));
   boost::geometry::correct(polygon);
   return polygon;
 }
 
 // Where the table meets an outline, both give the place, but for rounding.
-std::vector<mesh::Point> outline_of(const Polygon& polygon, double one_place) {
+std::vector<mesh::Point> outline_of(const Ring& ring, double one_place) {
   std::vector<mesh::Point> outline;
-  for (const Place& place : polygon.outer()) {
+  for (const Place& place : ring) {
     const mesh::Point point(place.x(), place.y());
     if (outline.empty() || (point - outline.back()).norm() > one_place) outline.push_back(point);
   }
@@ -98,12 +106,15 @@ void wet(GroundScene& scene, tables::Diagnosis& diagnosis) {
   const auto cut = [&](const GroundRegion& whole, const std::vector<mesh::Point>& with,
                        std::size_t material) {
     std::vector<Polygon> parts;
-    boost::geometry::intersection(polygon_of(whole.outline), polygon_of(with), parts);
+    boost::geometry::intersection(polygon_of(whole.outline, whole.holes), polygon_of(with), parts);
     for (const Polygon& part : parts) {
       if (!is_something(part, ground)) continue;
       GroundRegion& region = regions.emplace_back(whole);
       constexpr double rounding = 1e-9;
-      region.outline = outline_of(part, rounding * (ground.high - ground.low).norm());
+      const double one_place = rounding * (ground.high - ground.low).norm();
+      region.outline = outline_of(part.outer(), one_place);
+      region.holes.clear();
+      for (const Ring& hole : part.inners()) region.holes.push_back(outline_of(hole, one_place));
       region.material = material;
     }
   };

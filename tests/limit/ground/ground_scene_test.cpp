@@ -64,6 +64,24 @@ TEST(GroundScene, RefusesWhatIsNoGroundByFileLineAndKey) {
   EXPECT_EQ(read(layered).errors, "");
 }
 
+TEST(GroundScene, TakesRegionsAndSidesFromAMesh) {
+  std::string text =
+      "[mesh]\nfile = \"" FPM_SHARE_DIR
+      "/scenes/tunnel.msh\"\n[load]\nsought = "
+      "\"gravity\"\n[[material]]\nname = \"clay\"\ncohesion = 1.0\nunit_weight = 1.0\n";
+  for (const char* soil : {"soft clay", "stiff clay"}) {
+    text += std::string("[[region]]\nmaterial = \"clay\"\ngroup = \"") + soil + "\"\n";
+  }
+  for (const char* name : {"level", "slope", "tunnel", "base", "left", "right", "footing"}) {
+    const char* kind = std::string(name) == "base" ? "fixed" : "free";
+    text += std::string("[[side]]\nname = \"") + name + "\"\nkind = \"" + kind + "\"\ngroup = \"" +
+            name + "\"\n";
+  }
+  EXPECT_EQ(read(text, {}).errors, "");
+  EXPECT_THAT(read(text, {"side.tunnel.group=tunel"}).errors,
+              HasSubstr("did you mean \"tunnel\"?"));
+}
+
 TEST(GroundScene, RefusesWhatWouldTakeTooManyTriangles) {
   const std::string thin = read(layered, {"region.crust.outline=[[0, -1e-4], [4, -1e-4], [4, 0], "
                                           "[1, 0], [0, 0]]",

@@ -50,6 +50,40 @@ std::vector<KnownGround> quick_grounds() {
 INSTANTIATE_TEST_SUITE_P(Scenes, Shipped, ::testing::ValuesIn(quick_grounds()),
                          [](const auto& info) { return std::string(info.param.scene); });
 
+// A ring of clay of 1 m to 2 m bears 2 c ln 2 in its bore; of its 48 chords between the values of
+// rings whose radii are those of circles within and around them.
+TEST(Ground, ARingOfArcsBearsTheLogarithmOfItsRadii) {
+  const Read made = read(R"([load]
+sought = "traction"
+[[material]]
+name = "clay"
+cohesion = 1.0
+[[region]]
+material = "clay"
+outline = [{ centre = [0, 0], radius = 2, chords = 48 }]
+holes = [[{ centre = [0, 0], radius = 1, chords = 48 }]]
+[[side]]
+name = "bore"
+kind = "loaded"
+live_pressure = 1
+along = [{ centre = [0, 0], radius = 1, chords = 48 }]
+[[side]]
+name = "mantle"
+kind = "free"
+along = [{ centre = [0, 0], radius = 2, chords = 48 }]
+)",
+                         {});
+  ASSERT_TRUE(made.found) << made.errors;
+  bracket::BracketOptions options;
+  options.gap = 0.1;
+  const bracket::Solution found = bracket::solution_of(made.found->associated, options, {});
+  ASSERT_TRUE(found.lower && found.upper);
+  const double of_chords = std::cos(std::numbers::pi / 48.0);
+  EXPECT_LT(*found.lower, 2.0 * std::log(2.0 / of_chords));
+  EXPECT_GT(*found.upper, 2.0 * std::log(2.0 * of_chords));
+  EXPECT_LE(found.gap(), options.gap);
+}
+
 TEST(Ground, AUniformTractionOnAStripCarriesPrandtlsPressure) {
   const Read made = read(layered, {"load.sought=traction", "side.footing.kind=loaded",
                                    "side.footing.live_pressure=2.0", "material.soft.cohesion=2.0"});

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/mesh_file.hpp"
+#include "shape/gmsh.hpp"
+#include "shape/mesh_outline.hpp"
+#include "tables/diagnosis.hpp"
+
+namespace scene {
+
+/// Reads a mesh beside the scene. What is wrong with it is an error of the diagnosis.
+[[nodiscard]] std::optional<shape::GmshMesh> read_mesh(const MeshFile& mesh,
+                                                       tables::Diagnosis& diagnosis);
+
+/// The group that a region (of dimension 2) or a side (1) names, if it names one. An error of the
+/// diagnosis if it names one that is not there or without elements, or has a shape besides, or
+/// neither.
+/// @param shape_key  of the table: what it has instead of a group
+[[nodiscard]] std::optional<int> group_of(const shape::GmshMesh* mesh, int dimension,
+                                          const std::string& table, const std::string& shape_key,
+                                          bool has_shape, const std::string& group,
+                                          tables::Diagnosis& diagnosis);
+
+namespace detail {
+
+template <class Points>
+void assign(Points& points, const std::vector<shape::Point>& places) {
+  points.clear();
+  for (const shape::Point& place : places) points.emplace_back(place.x(), place.y());
+}
+
+/// An entry for another part of a group, by another name.
+template <class Entry>
+Entry& add_part(std::vector<Entry>& entries, std::size_t of, const std::string& group,
+                std::size_t part) {
+  Entry copy = entries[of];
+  copy.name = fmt::format("{} ({})", copy.name.empty() ? group : copy.name, part + 1);
+  return entries.emplace_back(std::move(copy));
+}
+
+}  // namespace detail
+
+/// Gives regions and sides that name groups of the mesh their polygons and polylines; one whose
+/// group is in several parts becomes as many. Nothing of the mesh is left in the scene.
+template <class Region, class Side>
+void take_groups(MeshFile& file, std::vector<Region>& regions, std::vector<Side>& sides,
+                 tables::Diagnosis& diagnosis) {
+  std::optional<shape::GmshMesh> mesh;
+  if (!file.file.empty()) {
+    mesh = read_mesh(file, diagnosis);
+    if (!mesh) return;
+  }
+  const auto takes = [](const auto& entry) { return !entry.group.empty(); };
+  if (mesh && std::ranges::none_of(regions, takes) && std::ranges::none_of(sides, takes)) {
+    diagnosis.error("mesh.file",
+                    fmt::format("found {}, of which no region or side names a group", file.file),
+                    "group of [[region]] and [[side]] is a physical surface and curve of it");
+  }
+  file = {};
+  const shape::GmshMesh* const found = mesh ? &*mesh : nullptr;
+  for (std::size_t r = 0, count = regions.size(); r < count; ++r) {
+    const auto group = group_of(found, 2, fmt::format("region.{}", r), "outline",
+                                !regions[r].outline.empty(), regions[r].group, diagnosis);
+    if (!group) continue;
+    const std::string name = std::exchange(regions[r].group, "");
+    const std::vector<shape::Piece> pieces = shape::pieces_of(*mesh, *group);
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      Region& region = k == 0 ? regions[r] : detail::add_part(regions, r, name, k);
+      detail::assign(region.outline, pieces[k].outline);
+      region.holes.clear();
+      for (const shape::Ring& hole : pieces[k].holes) {
+        detail::assign(region.holes.emplace_back(), hole);
+      }
+    }
+  }
+  for (std::size_t s = 0, count = sides.size(); s < count; ++s) {
+    const auto group = group_of(found, 1, fmt::format("side.{}", s), "along",
+                                !sides[s].along.empty(), sides[s].group, diagnosis);
+    if (!group) continue;
+    const std::string name = std::exchange(sides[s].group, "");
+    const auto lines = shape::polylines_of(*mesh, *group);
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      detail::assign((k == 0 ? sides[s] : detail::add_part(sides, s, name, k)).along, lines[k]);
+    }
+  }
+}
+
+}  // namespace scene

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shape/point.hpp"
+
+namespace shape {
+
+/// What of a plane mesh of Gmsh says where regions and sides are: the faces and lines of its
+/// physical groups.
+struct GmshMesh {
+  struct Group {
+    int dimension = 0;  // 1 lines, 2 faces
+    int tag = 0;
+    std::string name;  // its tag if the file gives it none
+  };
+  struct Element {
+    int group = 0;
+    std::vector<int> nodes;  // 2 of a line; 3 or 4 of a face, counterclockwise
+  };
+  std::vector<Group> groups;
+  std::vector<Point> nodes;
+  std::vector<Element> elements;
+};
+
+/// What is wrong with a mesh.
+class GmshError : public std::runtime_error {
+ public:
+  /// @param line  of the file; 0: of the file as a whole
+  GmshError(std::size_t line, const std::string& what) : std::runtime_error(what), line_(line) {}
+  [[nodiscard]] std::size_t line() const { return line_; }
+
+ private:
+  std::size_t line_;
+};
+
+/// Reads the text of a mesh in Gmsh's formats MSH 2.2 and 4.1, as of gmsh 4.8's manual.
+/// @param unit  [m] what a unit of the file's coordinates is
+/// @throws GmshError if it is binary, of another version or broken off; if nodes are not in one
+///   plane z = const; if a physical group has solid or curved elements; if a face has no area, is
+///   not convex or is folded
+[[nodiscard]] GmshMesh read_gmsh(std::string_view text, double unit = 1.0);
+
+}  // namespace shape
