@@ -40,6 +40,19 @@ void hold_directly(scene::Scene& scene) {
   }
 }
 
+// Before this schema a load that grows had the controls of a displacement.
+constexpr std::int64_t schema_of_load_control = 6;
+
+void control_as_if_driven(scene::Scene& scene) {
+  if (scene.drive.kind != scene::DriveKind::load) return;
+  scene::Scene driven = scene;
+  driven.drive.kind = scene::DriveKind::displacement;
+  scene.hourglass.control = scene::resolve_control(driven);
+  if (scene.hourglass.control == scene::HourglassControl::incremental) {
+    scene.hourglass.stiffness_ratio = scene::resolve_stiffness_ratio(driven);
+  }
+}
+
 void keep_one_body(scene::Scene& scene) {
   if (scene.material.size() > 1) scene.approximation.interfaces = scene::InterfaceKind::through;
   if (scene.approximation.consistency == scene::Switch::automatic &&
@@ -122,6 +135,7 @@ scene::Scene scene_of(const std::filesystem::path& path, const record::Checkpoin
     hold_directly(scene);
     keep_one_body(scene);
   }
+  if (notes.schema < schema_of_load_control) control_as_if_driven(scene);
   if (restored(path, notes.materials) != parameters_of(scene)) {
     throw files::FileError(path, "/meta/materials are not the materials of /meta/scene");
   }

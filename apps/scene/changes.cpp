@@ -46,6 +46,11 @@ void keep_methods(const Scene& before, Scene& scene) {
     if (method == SupportMethod::automatic) method = before.support[i].method;
   }
   if (scene.drive.method == DriveMethod::automatic) scene.drive.method = before.drive.method;
+  Hourglass& hourglass = scene.hourglass;
+  if (hourglass.control == HourglassControl::automatic) {
+    hourglass.control = before.hourglass.control;
+  }
+  if (!hourglass.stiffness_ratio) hourglass.stiffness_ratio = before.hourglass.stiffness_ratio;
 }
 
 std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after) {

@@ -28,8 +28,8 @@ struct SceneChange {
 /// These keys in words.
 [[nodiscard]] std::string what_may_change();
 
-/// What `scene` leaves to `auto` of how sides are held and driven becomes what `before`, with which
-/// the run began, says: before there was `auto`, no method meant direct.
+/// What `scene` leaves to `auto` of how sides are held and driven and of hourglass control becomes
+/// what `before`, with which the run began, says: before there was `auto`, no method meant direct.
 void keep_methods(const Scene& before, Scene& scene);
 
 /// Every key whose value differs, in the order of the scene file.

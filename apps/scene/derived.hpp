@@ -35,12 +35,13 @@ struct Support;
 /// Whether a material has a strength.
 [[nodiscard]] bool yields(const Material& material);
 
-/// The control `automatic` stands for: stiffness if every material is elastic, mixed in 2D when
-/// every material yields and its sub-points can share one pressure, incremental otherwise.
+/// The control `automatic` stands for: stiffness if every material is elastic; under a load that
+/// grows incremental; else mixed in 2D when every material yields and its sub-points can share one
+/// pressure, incremental otherwise.
 [[nodiscard]] HourglassControl resolve_control(const Scene& scene);
 
-/// Hourglass modulus ratio gamma in force: the scene's, else 0.1 for stiffness and incremental,
-/// 0.01 for mixed, 0 for none and viscosity.
+/// Hourglass modulus ratio gamma in force: the scene's, else 0.1 for stiffness and incremental, the
+/// latter 0.001 under a load that grows, 0.01 for mixed, 0 for none and viscosity.
 [[nodiscard]] double resolve_stiffness_ratio(const Scene& scene);
 
 /// How a support holds: its method, where `automatic` means ghosts if images can hold its side, and

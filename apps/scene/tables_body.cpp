@@ -316,20 +316,23 @@ SceneTable hourglass() {
   return tables::TableBuilder<Scene, Hourglass>(
              "hourglass", &Scene::hourglass,
              "Control of the zero-energy modes of nodal integration.")
-      .key("control", &Hourglass::control,
-           {.doc =
-                "viscosity: the paper's, for reproduction. stiffness: elastic bodies; locks when "
-                "they yield. incremental: cheap, biases collapse loads at first order in spacing. "
-                "mixed: sub-points with one pressure plus a weak incremental control; collapse "
-                "loads converge. auto: stiffness if all is elastic, mixed in 2D where all that "
-                "yields is von_mises or "
-                "drucker_prager, else incremental.",
-            .source = "viscosity: Chen, Huang & Lyamin 2020, Eq. 15-20"})
-      .key("stiffness_ratio", &Hourglass::stiffness_ratio,
-           {.need = tables::Need::optional,
-            .range = tables::between(0.0, 1.0),
-            .doc = "gamma: control stiffness over Young's modulus.",
-            .absent = "0.1 for stiffness and incremental, 0.01 for mixed"})
+      .key(
+          "control", &Hourglass::control,
+          {.doc =
+               "viscosity: the paper's, for reproduction. stiffness: elastic bodies; locks when "
+               "they yield. incremental: cheap; its stiffness biases collapse loads at first order "
+               "in spacing. mixed: sub-points with one pressure plus a weak incremental control; "
+               "collapse loads under a plate converge, narrow bands are borne too well. auto: "
+               "stiffness if all is elastic, incremental under a load that grows, mixed in 2D "
+               "where all that yields is von_mises or drucker_prager, else incremental.",
+           .source = "viscosity: Chen, Huang & Lyamin 2020, Eq. 15-20"})
+      .key(
+          "stiffness_ratio", &Hourglass::stiffness_ratio,
+          {.need = tables::Need::optional,
+           .range = tables::between(0.0, 1.0),
+           .doc = "gamma: control stiffness over Young's modulus.",
+           .absent = "0.1 for stiffness and incremental, the latter 0.001 under a load that grows; "
+                     "0.01 for mixed"})
       .key("modulus_factor", &Hourglass::modulus_factor,
            {.range = tables::positive(),
             .doc =

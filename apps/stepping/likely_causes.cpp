@@ -107,6 +107,18 @@ std::string sudden_weight(const scene::Scene& scene, bool plastic, double load) 
          "give [initial_stress] kind = \"geostatic\", or let a load drive scale gravity";
 }
 
+// What a load that grows comes to at last.
+template <int Dim>
+std::string collapse(const scene::Scene& scene, const model::State<Dim>& state) {
+  const bool flows = state.layout.plastic && (state.plastic_increment.array() > 0.0).any();
+  if (scene.drive.kind != scene::DriveKind::load || !flows || !(state.programme.load > 0.0)) {
+    return "";
+  }
+  return fmt::format(
+      "collapse: the body bears {:.4g} of the load, and no equilibrium was found with more",
+      state.programme.load);
+}
+
 // The Jaumann rate turns the stress with the material: shear between two fibres loses stiffness by
 // half their stress difference, and has none left where that is twice the shear modulus.
 template <int Dim>
@@ -177,7 +189,7 @@ std::vector<std::string> likely_causes(const scene::Scene& scene, const model::M
   }
   for (std::string cause :
        {incompressible(scene), sudden_weight(scene, state.layout.plastic, state.programme.load),
-        strained_beyond_the_law(model, state)}) {
+        strained_beyond_the_law(model, state), collapse(scene, state)}) {
     if (!cause.empty()) causes.push_back(std::move(cause));
   }
   return causes;

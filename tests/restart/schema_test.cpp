@@ -12,6 +12,9 @@
 #include "model/state_file.hpp"
 #include "record/curve_file.hpp"
 #include "restart.hpp"
+#include "scene/changes.hpp"
+#include "scene/derived.hpp"
+#include "scene/reader.hpp"
 #include "scene/scene.hpp"
 
 namespace restart {
@@ -94,6 +97,33 @@ INSTANTIATE_TEST_SUITE_P(Versions, Schema,
                          ::testing::Range<std::int64_t>(1, record::checkpoint_schema + 1),
                          [](const auto& info) { return std::to_string(info.param); });
 
+// Under a load that grows the control was as strong as under a plate.
+TEST(SchemaOfThePast, OfLoadsHasItsControl) {
+  const auto reading = scene::parse_scene(
+      "[geometry]\nmin = [0.0, 0.0]\nmax = [1.0, 1.0]\nspacing = 0.25\n"
+      "[[material]]\nname = \"soil\"\nmodel = \"drucker_prager\"\nyoungs_modulus = 1e6\n"
+      "poissons_ratio = 0.3\ncohesion = 1e3\nfriction_angle = 20.0\ndilation_angle = 0.0\ndensity "
+      "= 2e3\n"
+      "[[support]]\nname = \"base\"\nside = \"bottom\"\ndirections = [\"x\", \"y\"]\n"
+      "[gravity]\nacceleration = [0.0, -10.0]\n[drive]\nkind = \"load\"\nscales = "
+      "[\"gravity\"]\n[programme]\nsteps = 4\n",
+      "s.toml");
+  ASSERT_TRUE(reading.scene) << reading.errors.front().text();
+  EXPECT_EQ(scene::resolve_control(*reading.scene), scene::HourglassControl::incremental);
+  EXPECT_EQ(scene::resolve_stiffness_ratio(*reading.scene), 0.001);
+  record::CheckpointNotes notes = model::notes_for(*reading.scene);
+  for (const std::int64_t schema : {5, 6}) {
+    notes.schema = schema;
+    const scene::Scene before = model::scene_of("stored.hdf", notes);
+    scene::Scene resumed = *reading.scene;
+    scene::keep_methods(before, resumed);
+    const bool is_old = schema == 5;
+    EXPECT_EQ(scene::resolve_control(resumed),
+              is_old ? scene::HourglassControl::mixed : scene::HourglassControl::incremental);
+    EXPECT_EQ(scene::resolve_stiffness_ratio(resumed), is_old ? 0.01 : 0.001);
+  }
+}
+
 TEST(SchemaOfTheFuture, IsRefusedByName) {
   const support::TemporaryFolder folder;
   const auto run = folder / "run", file = folder / "newer.hdf";
@@ -103,8 +133,8 @@ TEST(SchemaOfTheFuture, IsRefusedByName) {
   files::write_seal(file, record::checkpoint_schema + 1, "fpm-run 9.8.7");
   const Outcome outcome = fpm_run_in(run, block, {"--resume=" + file.string()});
   EXPECT_EQ(outcome.code, program::ExitCode::checkpoint_unusable);
-  EXPECT_THAT(outcome.err, HasSubstr("has checkpoint schema 6 (written by fpm-run 9.8.7); this "
-                                     "program reads schemas 1 to 5"));
+  EXPECT_THAT(outcome.err, HasSubstr("has checkpoint schema 7 (written by fpm-run 9.8.7); this "
+                                     "program reads schemas 1 to 6"));
 }
 
 // What is in the file counts, though its seal were of an older program.
@@ -124,7 +154,7 @@ TEST(SchemaOfTheFuture, IsRefusedByNameBehindASealToo) {
     (void)record::open_checkpoint(file, notes);
     FAIL() << "opened";
   } catch (const files::FileError& failure) {
-    EXPECT_THAT(failure.reason(), HasSubstr("has checkpoint schema 6 (written by fpm-run 9.8.7)"));
+    EXPECT_THAT(failure.reason(), HasSubstr("has checkpoint schema 7 (written by fpm-run 9.8.7)"));
   }
 }
 

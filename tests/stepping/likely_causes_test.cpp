@@ -101,5 +101,14 @@ TEST(LikelyCauses, AreStrainsBeyondTheElasticLaw) {
   EXPECT_THAT(causes(small), IsEmpty()) << "which has no such law";
 }
 
+TEST(LikelyCauses, AreCollapsesUnderLoadsThatGrow) {
+  SmallFooting run(
+      {"drive.kind=load", "drive.scales=gravity", "programme.steps=4", "initial_stress.kind=none"});
+  run.state.programme.load = 0.75;
+  EXPECT_THAT(causes(run), IsEmpty()) << "nothing yields";
+  run.state.plastic_increment[5] = 1e-3;
+  EXPECT_THAT(causes(run), ElementsAre(HasSubstr("collapse: the body bears 0.75 of the load")));
+}
+
 }  // namespace
 }  // namespace stepping
