@@ -220,6 +220,17 @@ Plate<Dim> plate_of(const scene::Drive& drive, const Interface<Dim>& interface) 
 }
 
 template <int Dim>
+fpm::CommonFaces<Dim> faces_under_plate(const scene::Scene& scene, const Model<Dim>& model) {
+  const scene::Drive& drive = scene.drive;
+  if (drive.level) return surface_faces(model, SurfacePart::of_side(*scene::footing_of(scene)));
+  const auto faces = outer_faces(model, face_of<Dim>(drive.side));
+  return part_of<Dim>(faces, [&](Eigen::Index c) {
+    return in_side_range(scene, model, drive.side, drive.range_min, drive.range_max,
+                         faces.first[static_cast<std::size_t>(c)]);
+  });
+}
+
+template <int Dim>
 void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
   for (const scene::Support& support : scene.support) {
     if (support.method != scene::SupportMethod::contact) continue;
@@ -233,11 +244,7 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
   if ((!pushes && !scene::loads_plate(drive)) || drive.method != scene::DriveMethod::contact) {
     return;
   }
-  const auto faces = outer_faces(model, face_of<Dim>(drive.side));
-  const auto under = part_of<Dim>(faces, [&](Eigen::Index c) {
-    return in_side_range(scene, model, drive.side, drive.range_min, drive.range_max,
-                         faces.first[static_cast<std::size_t>(c)]);
-  });
+  const auto under = faces_under_plate(scene, model);
   const bool is_free = !pushes || !drive.at.empty();
   scene::Contact contact = drive.contact;
   if (is_free && model.layout.plastic && !contact.stiffness_factor) {

@@ -207,6 +207,8 @@ fpm::Field<Dim> cut_area_vectors(const scene::Scene& scene, const Model<Dim>& mo
     SurfacePart under = SurfacePart::of_face(face_at(plate.axis, plate.position, middle));
     under.from = plate.range_min[along];
     under.to = plate.range_max[along];
+    // Of planes the drive's alone has a range.
+    if (scene.drive.level) under = SurfacePart::of_side(*scene::footing_of(scene));
     add(under, -1.0);
   }
   return area;

@@ -131,7 +131,8 @@ void Measures<Dim>::find_side(const scene::Scene& scene, scene::Side side, Measu
       add_contacts(support.name, measure);
     }
   }
-  if (scene.drive.method == scene::DriveMethod::contact && scene.drive.side == side) {
+  if (scene.drive.method == scene::DriveMethod::contact && scene.drive.side == side &&
+      !scene.drive.level) {
     add_contacts("", measure);
   }
   std::size_t following = 0;

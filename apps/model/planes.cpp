@@ -22,6 +22,7 @@ template <int Dim>
 fpm::GhostPlane<Dim> driven(const scene::Scene& scene) {
   const scene::Drive& drive = scene.drive;
   fpm::GhostPlane<Dim> plane = plane_at<Dim>(scene, drive.side);
+  plane.position = scene::plate_position(scene);
   const double slack = scene::same_place(scene.geometry);
   std::size_t k = 0;
   for (int i = 0; i < Dim; ++i) {

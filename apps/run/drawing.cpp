@@ -45,7 +45,7 @@ class Drawing {
     for (const scene::Symmetry& mirror : scene_.symmetry) add_mirror(mirror);
     for (const scene::Traction& traction : scene_.traction) {
       on_face(
-          traction.side, traction.range_min, traction.range_max, loaded,
+          traction.side, position_of(traction.side), traction.range_min, traction.range_max, loaded,
           fmt::format("{} ({:g}, {:g}) Pa", traction.name, traction.value[0], traction.value[1]));
     }
     add_drive();
@@ -143,12 +143,14 @@ class Drawing {
     label(first->from, colour, text);
   }
 
-  // A part of a face of the box.
-  void on_face(scene::Side side, const scene::Point& range_min, const scene::Point& range_max,
-               std::string_view colour, const std::string& text) {
+  double position_of(scene::Side side) const { return scene::side_position(scene_.geometry, side); }
+
+  // A part of a face of the box, or of one parallel to it.
+  void on_face(scene::Side side, double position, const scene::Point& range_min,
+               const scene::Point& range_max, std::string_view colour, const std::string& text) {
     const int across = scene::axis_of(side), along = 1 - across;
     Place from = model_.box_min, to = model_.box_max;
-    from[across] = to[across] = scene::side_position(scene_.geometry, side);
+    from[across] = to[across] = position;
     if (!range_min.empty()) from[along] = range_min[0];
     if (!range_max.empty()) to[along] = range_max[0];
     written_line(from, to, colour, text);
@@ -164,7 +166,7 @@ class Drawing {
       text += fmt::format(" {}", scene::name_of(axis));
     }
     if (support.side) {
-      on_face(*support.side, {}, {}, held, text);
+      on_face(*support.side, position_of(*support.side), {}, {}, held, text);
     } else if (!support.at.empty()) {
       label(Place(support.at[0], support.at[1]), held, text);
     } else {
@@ -178,16 +180,18 @@ class Drawing {
     if (!scene_.side.empty()) return;
     const int axis = static_cast<int>(mirror.axis);
     const bool upper = mirror.position > 0.5 * (model_.box_min[axis] + model_.box_max[axis]);
-    on_face(static_cast<scene::Side>(2 * axis + (upper ? 1 : 0)), {}, {}, held, "symmetry");
+    const auto side = static_cast<scene::Side>(2 * axis + (upper ? 1 : 0));
+    on_face(side, position_of(side), {}, {}, held, "symmetry");
   }
 
   void add_drive() {
     const scene::Drive& drive = scene_.drive;
     if (drive.kind == scene::DriveKind::displacement) {
-      on_face(drive.side, drive.range_min, drive.range_max, moved,
+      on_face(drive.side, scene::plate_position(scene_), drive.range_min, drive.range_max, moved,
               fmt::format("moved by {:g} m", drive.target));
     } else if (scene::loads_plate(drive)) {
-      on_face(drive.side, drive.range_min, drive.range_max, moved, "loaded plate");
+      on_face(drive.side, scene::plate_position(scene_), drive.range_min, drive.range_max, moved,
+              "loaded plate");
     }
   }
 

@@ -12,6 +12,10 @@ bool loads_plate(const Drive& drive) {
   return drive.kind == DriveKind::load && std::ranges::count(drive.scales, LoadKind::plate) > 0;
 }
 
+double plate_position(const Scene& scene) {
+  return scene.drive.level.value_or(side_position(scene.geometry, scene.drive.side));
+}
+
 bool is_mirror(const Scene& scene, Side side) {
   return std::ranges::any_of(scene.symmetry, [&](const Symmetry& symmetry) {
     return static_cast<int>(symmetry.axis) == axis_of(side) &&

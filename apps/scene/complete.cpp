@@ -9,6 +9,7 @@
 #include <string>
 
 #include "scene/box.hpp"
+#include "scene/derived.hpp"
 #include "scene/ground.hpp"
 #include "scene/names.hpp"
 #include "scene/outline_faces.hpp"
@@ -212,14 +213,51 @@ void complete_supports(Scene& scene, const shape::Outline& outline) {
   }
 }
 
+// Where the base of a footing is: its face, as of a box around the ground under it, and its
+// coordinate across it.
+struct BasePlace {
+  Side face = Side::top;
+  double position = 0.0;
+};
+
+// Where a straight piece of a base is, which has the ground to its left; nothing if it is aslant.
+std::optional<BasePlace> base_at(const shape::Point& from, const shape::Point& to, double slack) {
+  const shape::Point along = to - from;
+  if (std::abs(along.y()) <= slack)
+    return BasePlace{along.x() < 0.0 ? Side::top : Side::bottom, from.y()};
+  if (std::abs(along.x()) <= slack)
+    return BasePlace{along.y() > 0.0 ? Side::right : Side::left, from.x()};
+  return std::nullopt;
+}
+
+std::optional<BasePlace> base_of(const shape::Outline& outline, std::size_t side,
+                                 tables::Diagnosis& diagnosis) {
+  std::optional<BasePlace> base;
+  const double slack = outline.tolerance();
+  for (const shape::OutlineSegment& segment : outline.segments) {
+    if (segment.right >= 0 || segment.side != static_cast<int>(side)) continue;
+    const auto here = base_at(outline.at(segment.first), outline.at(segment.second), slack);
+    if (here && (!base || (base->face == here->face &&
+                           std::abs(base->position - here->position) <= slack))) {
+      base = here;
+      continue;
+    }
+    const shape::Point& at = outline.at(segment.first);
+    diagnosis.error(fmt::format("side.{}.along", side),
+                    fmt::format("the base at ({:.6g}, {:.6g}) is {}", at.x(), at.y(),
+                                here ? "beside the rest of it" : "aslant"),
+                    "a footing of fpm-run has one straight base, level or upright");
+    return std::nullopt;
+  }
+  return base;
+}
+
 // The one footing of a scene is where its drive acts.
 void complete_drive(Scene& scene, const shape::Outline& outline, tables::Diagnosis& diagnosis) {
-  const auto is_footing = [](const OutlineSide& side) { return side.kind == OutlineKind::footing; };
-  const auto footing = std::ranges::find_if(scene.side, is_footing);
-  if (footing == scene.side.end()) return;
-  const auto s = static_cast<std::size_t>(footing - scene.side.begin());
-  const auto key = [&](const char* name) { return fmt::format("side.{}.{}", s, name); };
-  if (std::ranges::count_if(scene.side, is_footing) > 1) {
+  const auto s = footing_of(scene);
+  if (!s) return;
+  const auto key = [&](const char* name) { return fmt::format("side.{}.{}", *s, name); };
+  if (std::ranges::count(scene.side, OutlineKind::footing, &OutlineSide::kind) > 1) {
     diagnosis.error(key("kind"), "a footing among several", "one footing at most");
     return;
   }
@@ -230,38 +268,31 @@ void complete_drive(Scene& scene, const shape::Outline& outline, tables::Diagnos
                     "its scales");
     return;
   }
-  const OutlineFaces faces(scene, outline);
-  std::optional<Side> face;
-  for (const shape::OutlineSegment& segment : outline.segments) {
-    if (segment.right >= 0 || segment.side != static_cast<int>(s)) continue;
-    const auto here = faces.face_of(segment);
-    if (here && (!face || face == here)) {
-      face = here;
-      continue;
-    }
-    const shape::Point& at = outline.at(segment.first);
-    diagnosis.error(
-        key("along"),
-        fmt::format("the base at ({:.6g}, {:.6g}) is not on a face of the box", at.x(), at.y()),
-        "a footing of fpm-run has one straight base at the highest, lowest, leftmost or "
-        "rightmost of the ground");
-    return;
-  }
-  const int axis = 1 - axis_of(*face);
-  const auto along = [&](const PlanePoint& place) { return axis == 0 ? place.x() : place.y(); };
-  const auto [low, high] = std::ranges::minmax(footing->along, {}, along);
-  drive.side = *face;
+  const auto base = base_of(outline, *s, diagnosis);
+  if (!base) return;
+  const OutlineSide& footing = scene.side[*s];
+  const int across = axis_of(base->face);
+  const auto along = [&](const PlanePoint& place) { return across == 1 ? place.x() : place.y(); };
+  const auto [low, high] = std::ranges::minmax(footing.along, {}, along);
+  drive.side = base->face;
   drive.range_min = {along(low)};
   drive.range_max = {along(high)};
+  const double away = base->position - side_position(scene.geometry, base->face);
+  if (std::abs(away) > outline.tolerance()) drive.level = base->position;
   if (drive.kind == DriveKind::displacement && drive.direction.empty()) {
     drive.direction = {0.0, 0.0};
-    drive.direction[static_cast<std::size_t>(axis_of(*face))] = is_upper(*face) ? -1.0 : 1.0;
+    drive.direction[static_cast<std::size_t>(across)] = is_upper(base->face) ? -1.0 : 1.0;
   }
   if (!drive.width) drive.width = along(high) - along(low);
-  drive.lateral = footing->base == Base::rough ? Lateral::fixed : Lateral::free;
-  if (!footing->tension && drive.method == DriveMethod::automatic) {
+  drive.lateral = footing.base == Base::rough ? Lateral::fixed : Lateral::free;
+  if (!footing.tension && drive.method == DriveMethod::automatic) {
     drive.method = DriveMethod::contact;
     drive.contact.tension = false;
+  }
+  if (drive.level && drive.kind == DriveKind::displacement &&
+      resolve_drive_method(scene) == DriveMethod::direct) {
+    diagnosis.error("drive.method", "found direct, with a footing on no face of the box",
+                    "allowed are ghosts, which hold it across its base, and contact");
   }
 }
 

@@ -80,7 +80,8 @@ bool may_have_images(const Scene& scene) {
 }
 
 bool moves(const Drive& drive, Side side) {
-  return (drive.kind == DriveKind::displacement || loads_plate(drive)) && drive.side == side;
+  return (drive.kind == DriveKind::displacement || loads_plate(drive)) && drive.side == side &&
+         !drive.level;
 }
 
 bool holds_by_images(const Scene& scene) {
@@ -114,11 +115,10 @@ DriveMethod resolve_drive_method(const Scene& scene) {
   const auto across = static_cast<std::size_t>(axis_of(drive.side));
   const bool held_across = drive.lateral == Lateral::fixed ||
                            (across < drive.direction.size() && drive.direction[across] != 0.0);
-  const bool alone = std::ranges::none_of(
-      scene.support, [&](const Support& support) { return support.side == drive.side; });
-  return held_across && alone && may_have_images(scene) && !is_mirror(scene, drive.side)
-             ? DriveMethod::ghosts
-             : DriveMethod::direct;
+  const auto is_there = [&](const Support& support) { return support.side == drive.side; };
+  const bool alone = drive.level || (std::ranges::none_of(scene.support, is_there) &&
+                                     !is_mirror(scene, drive.side));
+  return held_across && alone && may_have_images(scene) ? DriveMethod::ghosts : DriveMethod::direct;
 }
 
 bool resolve_consistency(const Scene& scene) {

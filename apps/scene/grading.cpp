@@ -19,12 +19,12 @@ double shortest_extent(const Geometry& geometry) {
   return shortest;
 }
 
-/// A part of a side as a box without thickness.
-FinePlace part_of_side(const Scene& scene, Side side, const Point& range_min,
+/// A part of a side, at `position` across it, as a box without thickness.
+FinePlace part_of_side(const Scene& scene, Side side, double position, const Point& range_min,
                        const Point& range_max) {
   FinePlace place{scene.geometry.min, scene.geometry.max, scene.geometry.spacing, 0.0};
   const auto normal = static_cast<std::size_t>(axis_of(side));
-  place.min[normal] = place.max[normal] = side_position(scene.geometry, side);
+  place.min[normal] = place.max[normal] = position;
   for (std::size_t i = 0, k = 0; i < place.min.size() && !range_min.empty(); ++i) {
     if (i == normal) continue;
     place.min[i] = range_min[k];
@@ -34,11 +34,11 @@ FinePlace part_of_side(const Scene& scene, Side side, const Point& range_min,
 }
 
 /// The edges of a part of a side that do not lie on other sides.
-void add_ends(const Scene& scene, Side side, const Point& range_min, const Point& range_max,
-              double radius, std::vector<FinePlace>& places) {
+void add_ends(const Scene& scene, Side side, double position, const Point& range_min,
+              const Point& range_max, double radius, std::vector<FinePlace>& places) {
   if (range_min.empty()) return;
   const double slack = same_place(scene.geometry);
-  FinePlace part = part_of_side(scene, side, range_min, range_max);
+  FinePlace part = part_of_side(scene, side, position, range_min, range_max);
   part.radius = radius;
   for (std::size_t i = 0; i < part.min.size(); ++i) {
     if (static_cast<int>(i) == axis_of(side)) continue;
@@ -95,11 +95,12 @@ std::vector<FinePlace> fine_places(const Scene& scene) {
   const Drive& drive = scene.drive;
   if (drive.kind == DriveKind::displacement) {
     const bool moves = scene.approximation.kinematics == KinematicsKind::finite_strain;
-    add_ends(scene, drive.side, drive.range_min, drive.range_max, moves ? drive.target : 0.0,
-             places);
+    add_ends(scene, drive.side, plate_position(scene), drive.range_min, drive.range_max,
+             moves ? drive.target : 0.0, places);
   }
   for (const Traction& traction : scene.traction) {
-    add_ends(scene, traction.side, traction.range_min, traction.range_max, 0.0, places);
+    add_ends(scene, traction.side, side_position(scene.geometry, traction.side), traction.range_min,
+             traction.range_max, 0.0, places);
   }
   for (const shape::Point& corner : singular_corners(scene)) {
     const Point at{corner.x(), corner.y()};
@@ -108,7 +109,8 @@ std::vector<FinePlace> fine_places(const Scene& scene) {
   for (const Refine& refine : scene.refine) {
     FinePlace place;
     if (refine.side) {
-      place = part_of_side(scene, *refine.side, refine.range_min, refine.range_max);
+      place = part_of_side(scene, *refine.side, side_position(scene.geometry, *refine.side),
+                           refine.range_min, refine.range_max);
     } else if (!refine.at.empty()) {
       place.min = place.max = refine.at;
     } else {

@@ -40,6 +40,12 @@ shape::Outline outline_of(const Scene& scene) {
   return join_regions(scene, ignored);
 }
 
+std::optional<std::size_t> footing_of(const Scene& scene) {
+  const auto found = std::ranges::find(scene.side, OutlineKind::footing, &OutlineSide::kind);
+  if (found == scene.side.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - scene.side.begin());
+}
+
 std::size_t material_of(const Scene& scene, std::size_t region) {
   const auto has_its_name = [&](const Material& material) {
     return material.name == scene.region[region].material;

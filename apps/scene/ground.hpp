@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ struct Scene;
 
 /// The regions of a completed scene, joined, with its sides.
 [[nodiscard]] shape::Outline outline_of(const Scene& scene);
+
+/// Index of the side that is a footing.
+[[nodiscard]] std::optional<std::size_t> footing_of(const Scene& scene);
 
 /// Index of a region's material.
 [[nodiscard]] std::size_t material_of(const Scene& scene, std::size_t region);

@@ -232,6 +232,8 @@ struct Drive {
   std::vector<LoadKind> scales;            // what grows from 0 to 1 in a load drive
   std::optional<double> reference_length;  // B [m]
   std::optional<double> width;             // [m] over which the mean pressure is taken
+  // [m] across its side, of a plate whose [[side]] is on no face of the box; no key.
+  std::optional<double> level;
   bool operator==(const Drive&) const = default;
 };
 

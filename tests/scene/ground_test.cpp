@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/box.hpp"
 #include "scene/cutouts.hpp"
 #include "scene/derived.hpp"
 #include "scene/print.hpp"
@@ -174,6 +175,46 @@ TEST(GroundScene, RefusesGroupsThatAreNone) {
               HasSubstr("region.0.group: found \"soft clay\" without a mesh"));
   EXPECT_THAT(errors_of("[mesh]\nfile = \"" FPM_SHARE_DIR "/scenes/tunnel.msh\"\n" + base)[0],
               HasSubstr("of which no region or side names a group"));
+}
+
+// A bench below a level, and what is no base.
+TEST(GroundScene, HasFootingsOnNoFaceOfTheBox) {
+  const auto scene_with = [&](const std::string& footing, const std::string& more) {
+    return base +
+           "[[region]]\nmaterial = \"clay\"\noutline = [[0, 0], [3, 0], [3, 0.5], [2, 0.5], "
+           "[1.5, 1], [1, 1], [1, 2], [0, 2]]\n" +
+           side("strip", "footing", footing) + side("left", "symmetry", "[[0, 0], [0, 2]]") +
+           side("base", "fixed", "[[0, 0], [3, 0]]") + more + pressed;
+  };
+  const std::string level = "[[1, 1], [1.5, 1]]";
+  const auto reading =
+      parse_scene(scene_with(level, side("rest", "free", "[[3, 0], [3, 0.5], [2, 0.5], [1.5, 1]]") +
+                                        side("wall", "free", "[[1, 1], [1, 2], [0, 2]]")),
+                  "s.toml");
+  ASSERT_TRUE(reading.scene);
+  const Drive& drive = reading.scene->drive;
+  EXPECT_EQ(drive.side, Side::top);
+  EXPECT_EQ(drive.level, 1.0);
+  EXPECT_EQ(plate_position(*reading.scene), 1.0);
+  EXPECT_EQ(resolve_drive_method(*reading.scene), DriveMethod::ghosts);
+  const auto upright = parse_scene(
+      scene_with("[[1, 2], [1, 1]]",
+                 side("rest", "free", "[[3, 0], [3, 0.5], [2, 0.5], [1.5, 1], [1, 1]]") +
+                     side("top", "free", "[[1, 2], [0, 2]]")),
+      "s.toml");
+  ASSERT_TRUE(upright.scene);
+  EXPECT_EQ(upright.scene->drive.side, Side::right);
+  EXPECT_EQ(upright.scene->drive.level, 1.0);
+  EXPECT_THAT(upright.scene->drive.direction, ElementsAre(-1.0, 0.0));
+  EXPECT_THAT(errors_of(scene_with("[[2, 0.5], [1.5, 1]]",
+                                   side("rest", "free", "[[3, 0], [3, 0.5], [2, 0.5]]") +
+                                       side("top", "free", "[[1.5, 1], [1, 1], [1, 2], [0, 2]]"))),
+              ElementsAre(::testing::HasSubstr("side.0.along: the base at (2, 0.5) is aslant")));
+  EXPECT_THAT(
+      errors_of(scene_with(level, side("rest", "free", "[[3, 0], [3, 0.5], [2, 0.5], [1.5, 1]]") +
+                                      side("wall", "free", "[[1, 1], [1, 2], [0, 2]]")) +
+                "method = \"direct\"\n"),
+      ElementsAre(::testing::HasSubstr("drive.method: found direct, with a footing on no face")));
 }
 
 // A face that is held in part only is held by springs, where it is.

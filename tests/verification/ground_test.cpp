@@ -239,6 +239,36 @@ TEST(Crest, BearsWhatFpmLimitBrackets) {
   EXPECT_LT(alike, 1.02 * 4843.0);
 }
 
+// A footing of 2 m on a bench halfway down a slope of clay, on no face of the box: between
+// the 4.545 and 4.615 kPa that fpm-limit certifies of the same text.
+TEST(Bench, BearsWhatFpmLimitBrackets) {
+  const std::string text =
+      geometry(0.125) + "[grading]\nenabled = true\n" + small_strain +
+      "[[material]]\nname = \"clay\"\nmodel = \"mohr_coulomb\"\nyoungs_modulus = 1e6\n"
+      "poissons_ratio = 0.49\ncohesion = 1e3\nfriction_angle = 0\ndilation_angle = 0\n" +
+      region("clay", "[[-6, -6], [9, -6], [9, -3], [6, -3], [3, 0], [0, 0], [-2, 2], [-6, 2]]") +
+      side("lower", "\"free\"", "[[9, -3], [6, -3], [3, 0], [2, 0]]") +
+      side("footing", "\"footing\"", "[[2, 0], [0, 0]]") +
+      side("upper", "\"free\"", "[[0, 0], [-2, 2], [-6, 2]]") +
+      side("left", "\"roller\"", "[[-6, 2], [-6, -6]]") +
+      side("base", "\"fixed\"", "[[-6, -6], [9, -6]]") +
+      side("right", "\"roller\"", "[[9, -6], [9, -3]]") +
+      "[hourglass]\ncontrol = \"mixed\"\n[drive]\nkind = \"displacement\"\ntarget = 0.06\n";
+  const auto bears = [&](const std::string& more) {
+    verification::Run<2> run(scene_of(text + more));
+    return run.complete().back().mean_pressure;
+  };
+  const double by_images = bears("");
+  report("by_images_Pa", by_images);
+  EXPECT_GT(by_images, 0.98 * 4545.0);
+  EXPECT_LT(by_images, 1.02 * 4615.0);
+  // By springs it is a row of points that bears, first order in the spacing.
+  const double by_springs = bears("method = \"contact\"\nadhesion = 1e5\n");
+  report("by_springs_Pa", by_springs);
+  EXPECT_GT(by_springs, by_images);
+  EXPECT_LT(by_springs, 1.06 * 4615.0);
+}
+
 // share/scenes/slope.toml at half its fineness, against the bracket that fpm-limit certifies of the
 // same file with a gap of 2 %. With the stiffer control that a plate has it bears 7 % more.
 TEST(Slope, BearsWhatFpmLimitBrackets) {
