@@ -30,6 +30,7 @@ constitutive::MaterialParameters parameters_of(const Material& material) {
   p.dilation_angle = material.dilation_angle.value_or(p.dilation_angle);
   p.density = material.density;
   p.dilation_cutoff = material.dilation_cutoff.value_or(p.dilation_cutoff);
+  if (model.yields) p.tension_cutoff = material.tension_cutoff.value_or(p.tension_cutoff);
   // The scene has been warned of what has no effect. An elastic material is archived with it.
   if (model.yields && !model.frictional) p.friction_angle = p.dilation_angle = 0.0;
   return p;
@@ -49,7 +50,8 @@ HourglassControl resolve_control(const Scene& scene) {
   }
   // What does not yield is at home with either: it must not decide for the ground that does.
   const bool has_sub_points = scene.geometry.dimension == 2 && all([](const Material& m) {
-                                return model_of(m).one_pressure || !yields(m);
+                                const bool one = model_of(m).one_pressure && !m.tension_cutoff;
+                                return one || !yields(m);
                               });
   return has_sub_points ? HourglassControl::mixed : HourglassControl::incremental;
 }

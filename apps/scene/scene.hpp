@@ -132,6 +132,7 @@ struct Material {
   double density = 0.0;                   // [kg/m3]
   std::optional<double> unit_weight;      // [N/m3] which says the same
   std::optional<double> dilation_cutoff;  // accumulated plastic volume strain
+  std::optional<double> tension_cutoff;   // [Pa] largest principal stress
   std::string match = "plane_strain";     // of a family of several
   Point region_min;                       // [m] empty: everywhere
   Point region_max;                       // [m]

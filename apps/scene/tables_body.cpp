@@ -279,6 +279,8 @@ SceneTable material() {
             .absent = "density says it"})
       .key("dilation_cutoff", &Material::dilation_cutoff,
            notes_of("dilation_cutoff", tables::Need::optional, "never"))
+      .key("tension_cutoff", &Material::tension_cutoff,
+           notes_of("tension_cutoff", tables::Need::optional, "none"))
       .key("match", &Material::match,
            {.doc = "Which Mohr-Coulomb states the Drucker-Prager cone meets; plane_strain holds in "
                    "2D only."})
@@ -323,7 +325,7 @@ SceneTable hourglass() {
                 "mixed: sub-points with one pressure plus a weak incremental control; collapse "
                 "loads converge. auto: stiffness if all is elastic, mixed in 2D where all that "
                 "yields is von_mises or "
-                "drucker_prager, else incremental.",
+                "drucker_prager without a tension cut-off, else incremental.",
             .source = "viscosity: Chen, Huang & Lyamin 2020, Eq. 15-20"})
       .key("stiffness_ratio", &Hourglass::stiffness_ratio,
            {.need = tables::Need::optional,

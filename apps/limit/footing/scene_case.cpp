@@ -87,6 +87,8 @@ class Reader {
     require(scene::yields(material), table + "model", "an elastic material never yields");
     require(material.match == "plane_strain", table + "match",
             "only strengths matched in plane strain are those of Mohr-Coulomb");
+    require(!material.tension_cutoff, table + "tension_cutoff",
+            "the bounds are those of a soil without a tension cut-off");
     found_.soils.push_back({material.cohesion.value_or(0.0),
                             material.friction_angle.value_or(0.0) * degree,
                             material.density * gravity});
