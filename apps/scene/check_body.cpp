@@ -132,7 +132,7 @@ void check_parameters(const Scene& scene, const Material& material, const std::s
   const auto check = [&](const char* name, const std::optional<double>& value) {
     check_parameter(constitutive::parameter_info(name), value, material, key(name), diagnosis);
   };
-  check("cohesion", material.cohesion);
+  check("cohesion", material.cohesion ? std::optional(material.cohesion->value) : std::nullopt);
   check("friction_angle", material.friction_angle);
   check("dilation_angle", material.dilation_angle);
   if (material.tension_cutoff && !model.yields) {
@@ -141,7 +141,10 @@ void check_parameters(const Scene& scene, const Material& material, const std::s
                       fmt::format("it has no effect on the model {}", material.model));
   }
   if (diagnosis.good({key("cohesion"), key("friction_angle"), key("dilation_angle")})) {
-    for (auto& objection : constitutive::joint_objections(parameters_of(material), model)) {
+    auto parameters = parameters_of(material);
+    // Where it is least is another rule's.
+    if (material.cohesion && material.cohesion->varies()) parameters.cohesion = 1.0;
+    for (auto& objection : constitutive::joint_objections(parameters, model)) {
       diagnosis.error(key(objection.parameter), objection.found, objection.allowed);
     }
   }
@@ -180,6 +183,7 @@ void check_material(const Scene& scene, std::size_t index, tables::Diagnosis& di
   }
 
   if (diagnosis.good({key("model")})) check_parameters(scene, material, table, diagnosis);
+  check_varying(scene, index, diagnosis);
 }
 
 }  // namespace

@@ -252,7 +252,9 @@ SceneTable material() {
              "material", &Scene::material,
              "A material. The first fills the body; each later one has a box "
              "and wins inside it over the earlier ones. Where there are [[region]]s, they say "
-             "where it is.")
+             "where it is. Of its values, cohesion and youngs_modulus may change linearly from "
+             "place "
+             "to place.")
       .required()
       .key("name", &Material::name,
            {.need = tables::Need::required,
@@ -277,6 +279,12 @@ SceneTable material() {
             .doc = "Weight per volume; density is this over gravity's acceleration, 9.81 m/s2 "
                    "down unless [gravity] says more.",
             .absent = "density says it"})
+      .key("saturated_unit_weight", &Material::saturated_unit_weight,
+           {.need = tables::Need::optional,
+            .unit = "N/m3",
+            .range = tables::positive(),
+            .doc = "Weight per volume below the water table, that of the water in it included.",
+            .absent = "the unit_weight"})
       .key("dilation_cutoff", &Material::dilation_cutoff,
            notes_of("dilation_cutoff", tables::Need::optional, "never"))
       .key("tension_cutoff", &Material::tension_cutoff,

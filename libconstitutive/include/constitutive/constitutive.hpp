@@ -16,4 +16,5 @@
 #include "constitutive/rankine.hpp"
 #include "constitutive/state.hpp"
 #include "constitutive/tensor.hpp"
+#include "constitutive/utilisation.hpp"
 #include "constitutive/version.hpp"
