@@ -61,7 +61,7 @@ Eigen::VectorXd BackgroundGrid<Dim>::node_moduli(const model::Model<Dim>& model,
                                                  fpm::Index nodes) const {
   Eigen::VectorXd modulus = Eigen::VectorXd::Zero(nodes);
   for (Eigen::Index a = 0; a < model.size(); ++a) {
-    const double own = model.youngs_modulus[model.material[static_cast<std::size_t>(a)]];
+    const double own = model.youngs_modulus_of(a);
     for (const fpm::Index node : corner_.col(a)) modulus[node] = std::max(modulus[node], own);
   }
   return modulus;
@@ -138,8 +138,7 @@ std::vector<Eigen::Triplet<double>> BackgroundGrid<Dim>::grid_stiffness(
     const constitutive::ElasticModuli m = moduli_of(model, a);
     const auto add_point = [&](const GridPoint<Dim>& at, double share) {
       const double volume = share * model.particles.volume[a];
-      const double penalty = share * penalty_factor *
-                             model.youngs_modulus[model.material[static_cast<std::size_t>(a)]] *
+      const double penalty = share * penalty_factor * model.youngs_modulus_of(a) *
                              std::pow(model.particles.volume[a], 1.0 - 2.0 / Dim);
       for (int p = 0; p < corners; ++p) {
         for (int q = 0; q < corners; ++q) {

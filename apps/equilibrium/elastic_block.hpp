@@ -8,7 +8,7 @@ namespace equilibrium {
 /// Elastic moduli of a particle.
 template <int Dim>
 constitutive::ElasticModuli moduli_of(const model::Model<Dim>& model, Eigen::Index particle) {
-  return constitutive::moduli(model.materials[model.material[static_cast<std::size_t>(particle)]]);
+  return constitutive::moduli(model.laws[model.law[static_cast<std::size_t>(particle)]]);
 }
 
 /// Stiffness of two nodes with gradients g, h in an isotropic body of unit volume.

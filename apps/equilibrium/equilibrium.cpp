@@ -89,7 +89,7 @@ fpm::MomentOperator<Dim> Equilibrium<Dim>::initial_operator() const {
 
 template <int Dim>
 LoopData<Dim> Equilibrium<Dim>::loop_data() {
-  return {operator_, model_.materials, model_.material, state_, step_, evaluation_, tangents_};
+  return {operator_, model_.laws, model_.law, state_, step_, evaluation_, tangents_};
 }
 
 template <int Dim>
@@ -98,7 +98,7 @@ void Equilibrium<Dim>::rebuild_operator() {
   if (model_.control != scene::HourglassControl::viscosity) return;
   Eigen::VectorXd modulus(model_.size());
   for (Eigen::Index a = 0; a < modulus.size(); ++a) {
-    modulus[a] = model_.youngs_modulus[model_.material[static_cast<std::size_t>(a)]];
+    modulus[a] = model_.youngs_modulus_of(a);
   }
   viscosity_ = fpm::PairViscosity<Dim>(operator_, modulus, fpm::smoothing_lengths(state_.rows));
 }
@@ -186,7 +186,7 @@ void Equilibrium<Dim>::remember_pairs(Eigen::Index a, const Eigen::VectorXd& pos
   Eigen::Map<Tensor>(step_.memory_second.col(a).data()) =
       second - gradient * operator_.second_moment(row);
 
-  const double youngs_modulus = model_.youngs_modulus[model_.material[static_cast<std::size_t>(a)]];
+  const double youngs_modulus = model_.youngs_modulus_of(a);
   double modulus = youngs_modulus;
   if (model_.layout.incremental && model_.layout.plastic) {
     const double sqrt_j2 =

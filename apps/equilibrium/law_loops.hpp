@@ -14,9 +14,9 @@ namespace equilibrium {
 template <int Dim>
 struct LoopData {
   const fpm::MomentOperator<Dim>& op;
-  const std::vector<constitutive::Material>& materials;
-  const std::vector<model::MaterialIndex>& material_of;  // of each particle
-  model::State<Dim>& state;                              // changed by `commit` alone
+  const std::vector<constitutive::Material>& laws;
+  const std::vector<model::LawIndex>& law_of;  // of each particle
+  model::State<Dim>& state;                    // changed by `commit` alone
   const StepArrays<Dim>& step;
   EvaluationArrays<Dim>& evaluation;
   TangentArrays& tangents;

@@ -38,9 +38,7 @@ void TwoLevelPreconditioner<Dim>::build_blocks(const model::Model<Dim>& model,
     const constitutive::ElasticModuli m = moduli_of(model, a);
     const double volume = model.particles.volume[a];
     const double spring =
-        pair ? model.pair_control.stiffness_ratio * volume *
-                   model.youngs_modulus[model.material[static_cast<std::size_t>(a)]]
-             : 0.0;
+        pair ? model.pair_control.stiffness_ratio * volume * model.youngs_modulus_of(a) : 0.0;
     Vector own = Vector::Zero();
     Second own_second = Second::Zero();
     double own_kappa = 0.0;

@@ -78,23 +78,23 @@ struct RowLoop {
     }
   }
 
-  /// Rows of one block, with one visit per run of equal material.
+  /// Rows of one block, with one visit per run of one law.
   template <class Work>
   static fpm::Index material_runs(const LoopData<Dim>& data, fpm::Index first, fpm::Index end,
                                   const double* moments) {
-    const auto& material_of = data.material_of;
+    const auto& law_of = data.law_of;
     fpm::Index failed = none;
     for (fpm::Index begin = first; begin < end;) {
-      const auto material = material_of[static_cast<std::size_t>(begin)];
+      const auto law = law_of[static_cast<std::size_t>(begin)];
       fpm::Index run_end = begin + 1;
-      while (run_end < end && material_of[static_cast<std::size_t>(run_end)] == material) {
+      while (run_end < end && law_of[static_cast<std::size_t>(run_end)] == law) {
         ++run_end;
       }
       const fpm::Index run_failed = std::visit(
           [&](const auto& m) {
             return rows<Work>(data, begin, run_end, moments + (begin - first), m);
           },
-          data.materials[material]);
+          data.laws[law]);
       failed = std::min(failed, run_failed);
       begin = run_end;
     }

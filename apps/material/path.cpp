@@ -28,7 +28,8 @@ tables::FieldNotes notes_of(std::string_view name, tables::Need need) {
           .unit = info.unit,
           .range = {info.lower, info.upper, info.lower_open, info.upper_open},
           .doc = info.doc,
-          .absent = need == tables::Need::optional ? "0, or never; or the model has none" : ""};
+          .absent =
+              need == tables::Need::optional ? "0; of a cut-off never; or the model has none" : ""};
 }
 
 std::vector<std::string_view> names_of_models(std::string_view constitutive::ModelInfo::*name) {
@@ -66,6 +67,7 @@ tables::Table<Path> soil() {
       .key("friction_angle", &Soil::friction_angle, notes_of("friction_angle", Need::optional))
       .key("dilation_angle", &Soil::dilation_angle, notes_of("dilation_angle", Need::optional))
       .key("dilation_cutoff", &Soil::dilation_cutoff, notes_of("dilation_cutoff", Need::optional))
+      .key("tension_cutoff", &Soil::tension_cutoff, notes_of("tension_cutoff", Need::optional))
       .build();
 }
 
@@ -122,6 +124,7 @@ void check_soil(const Path& path, tables::Diagnosis& diagnosis) {
   check("friction_angle", soil.friction_angle);
   check("dilation_angle", soil.dilation_angle);
   check("dilation_cutoff", soil.dilation_cutoff);
+  check("tension_cutoff", soil.tension_cutoff);
   if (!diagnosis.errors().empty()) return;
   for (const constitutive::Objection& objection :
        constitutive::joint_objections(parameters_of(path), model)) {
@@ -224,6 +227,7 @@ constitutive::MaterialParameters parameters_of(const Path& path) {
   p.friction_angle = soil.friction_angle.value_or(p.friction_angle);
   p.dilation_angle = soil.dilation_angle.value_or(p.dilation_angle);
   p.dilation_cutoff = soil.dilation_cutoff.value_or(p.dilation_cutoff);
+  p.tension_cutoff = soil.tension_cutoff.value_or(p.tension_cutoff);
   return p;
 }
 

@@ -45,7 +45,7 @@ struct Soil {
   std::string match = "plane_strain";
   double youngs_modulus = 0.0;
   double poissons_ratio = 0.0;
-  std::optional<double> cohesion, friction_angle, dilation_angle, dilation_cutoff;
+  std::optional<double> cohesion, friction_angle, dilation_angle, dilation_cutoff, tension_cutoff;
 };
 
 /// An element test as its file describes it.

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
+#include <tuple>
 
 #include "model/bodies.hpp"
 #include "model/initial_stress.hpp"
 #include "model/interfaces.hpp"
 #include "model/loads.hpp"
 #include "model/planes.hpp"
+#include "model/pore_water.hpp"
 #include "model/selection.hpp"
 #include "model/surface.hpp"
 #include "scene/cutouts.hpp"
@@ -60,10 +63,6 @@ void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
   const bool known = !model.material.empty();  // of regions
   model.material.resize(static_cast<std::size_t>(n), 0);
   model.mass.resize(n);
-  for (const scene::Material& material : scene.material) {
-    model.materials.push_back(constitutive::make_material(scene::parameters_of(material)));
-    model.youngs_modulus.push_back(material.youngs_modulus);
-  }
   // By where its cell is: jitter moves no particle into another material. What is left of a cell
   // that was cut is where its particle is.
   for (Eigen::Index a = 0; a < n; ++a) {
@@ -77,6 +76,35 @@ void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
     }
     model.mass[a] = scene.material[model.material[static_cast<std::size_t>(a)]].density *
                     model.particles.volume[a];
+  }
+}
+
+// The laws of particles. Equal values are one law, so that rows of a lattice along which nothing
+// changes go on to be worked on side by side.
+template <int Dim>
+void assign_laws(const scene::Scene& scene, Model<Dim>& model) {
+  const auto add = [&](const constitutive::MaterialParameters& parameters) {
+    model.laws.push_back(constitutive::make_material(parameters));
+    model.youngs_modulus.push_back(parameters.youngs_modulus);
+    return static_cast<LawIndex>(model.laws.size() - 1);
+  };
+  std::vector<LawIndex> uniform(scene.material.size());
+  for (std::size_t m = 0; m < scene.material.size(); ++m) {
+    const scene::Material& material = scene.material[m];
+    if (!scene::varies(material)) uniform[m] = add(scene::parameters_of(material));
+  }
+  model.law.resize(model.material.size());
+  std::map<std::tuple<MaterialIndex, double, double>, LawIndex> known;
+  for (Eigen::Index a = 0; a < model.size(); ++a) {
+    const MaterialIndex m = model.material[static_cast<std::size_t>(a)];
+    model.law[static_cast<std::size_t>(a)] = uniform[m];
+    if (!scene::varies(scene.material[m])) continue;
+    const fpm::Vector<Dim> place = model.particles.position.row(a).transpose();
+    const auto parameters = scene::parameters_at(scene.material[m], {place.data(), Dim});
+    const auto [at, is_new] =
+        known.try_emplace({m, parameters.cohesion, parameters.youngs_modulus}, 0);
+    if (is_new) at->second = add(parameters);
+    model.law[static_cast<std::size_t>(a)] = at->second;
   }
 }
 
@@ -216,6 +244,8 @@ Model<Dim> build_model(const scene::Scene& scene) {
   Model<Dim> model;
   place_particles(scene, model);
   assign_materials(scene, model);
+  assign_laws(scene, model);
+  add_pore_water(scene, model);
   choose_integration(scene, model);
   part_into_bodies(scene, model);
   constrain(scene, model);

@@ -54,6 +54,7 @@ void add_initial_stress(const scene::Scene& scene, Model<Dim>& model) {
   for (std::size_t i = 0; i < scene.gravity.acceleration.size(); ++i) {
     load.col(static_cast<Eigen::Index>(i)) = model.mass * scene.gravity.acceleration[i];
   }
+  if (model.water_load.size() > 0) model.initial_load += model.water_load;
   for (int s = 0; s < 2 * Dim; ++s) {
     const auto side = static_cast<scene::Side>(s);
     if (bears_across(scene, side)) continue;

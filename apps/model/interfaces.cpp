@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
-#include <set>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "constitutive/tensor.hpp"
 #include "model/initial_stress.hpp"
@@ -44,14 +46,15 @@ constitutive::InterfaceLaw law_of(const scene::Contact& contact) {
 // the slip over a spacing instead, and a layer that is squeezed would bear more
 // (share/doc/decisions/interfaces.md). Slip along soil with friction dilates, which a face does
 // not; in finite strain slips would outgrow the spacing, and points keep their partners.
-constitutive::InterfaceLaw law_of_tied(const scene::Scene& scene, const Pair& materials) {
+constitutive::InterfaceLaw law_of_tied(const scene::Scene& scene, const Pair& materials,
+                                       std::span<const double> place) {
   constitutive::InterfaceLaw law;
   const bool slips = scene.approximation.kinematics == scene::KinematicsKind::small_strain;
   for (const fpm::Index m : {materials.first, materials.second}) {
     const scene::Material& material = scene.material[static_cast<std::size_t>(m)];
     if (!scene::yields(material)) continue;
     law.shear_stiffness = soils_shear_stiffness;
-    const auto p = scene::parameters_of(material);
+    const auto p = scene::parameters_at(material, place);
     if (p.friction_angle > 0.0 || !slips) continue;
     law.adhesion = law.tied ? p.cohesion : std::min(law.adhesion, p.cohesion);
     law.tied = false;
@@ -120,11 +123,11 @@ Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
     const scene::Material& one = material_of(scene, model, faces.first[k]);
     const scene::Material& other =
         faces.second.empty() ? one : material_of(scene, model, faces.second[k]);
-    const double softer = std::min(one.youngs_modulus, other.youngs_modulus);
+    const fpm::Index beyond = faces.second.empty() ? faces.first[k] : faces.second[k];
+    const double softer =
+        std::min(model.youngs_modulus_of(faces.first[k]), model.youngs_modulus_of(beyond));
     const bool yields = scene::yields(one) || scene::yields(other);
-    const double spacing =
-        std::min(model.spacing_at(faces.first[k]),
-                 model.spacing_at(faces.second.empty() ? faces.first[k] : faces.second[k]));
+    const double spacing = std::min(model.spacing_at(faces.first[k]), model.spacing_at(beyond));
     interface.stiffness[c] = scene::resolve_stiffness_factor(contact, yields) * softer / spacing;
     interface.initial_traction.row(c) = initial_traction(scene, model, faces, k).transpose();
   }
@@ -172,15 +175,29 @@ void add_between_materials(const scene::Scene& scene, Model<Dim>& model) {
     const fpm::Index other = model.material[static_cast<std::size_t>(faces.second[k])];
     return Pair(std::min(one, other), std::max(one, other));
   };
-  std::set<Pair> pairs;
-  for (Eigen::Index c = 0; c < faces.points.weight.size(); ++c) pairs.insert(pair_of(c));
-  for (const Pair& pair : pairs) {
-    const scene::Interface rule = scene::interface_between(
-        scene, static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
-    const auto part = part_of<Dim>(faces, [&](Eigen::Index c) { return pair_of(c) == pair; });
-    const auto law = rule.kind == scene::InterfaceKind::contact ? law_of(rule.contact)
-                                                                : law_of_tied(scene, pair);
-    model.interfaces.push_back(interface_at(scene, model, part, rule.contact, law));
+  const auto rule_of = [&](const Pair& pair) {
+    return scene::interface_between(scene, static_cast<std::size_t>(pair.first),
+                                    static_cast<std::size_t>(pair.second));
+  };
+  const auto law_at = [&](Eigen::Index c) {
+    const scene::Interface rule = rule_of(pair_of(c));
+    const fpm::Vector<Dim> place = faces.points.position.row(c).transpose();
+    return rule.kind == scene::InterfaceKind::contact
+               ? law_of(rule.contact)
+               : law_of_tied(scene, pair_of(c), {place.data(), Dim});
+  };
+  // What two materials bear along their faces is one law, unless it changes from place to place.
+  std::map<std::pair<Pair, double>, Eigen::Index> first_of;
+  std::vector<std::pair<Pair, double>> group(static_cast<std::size_t>(faces.points.weight.size()));
+  for (Eigen::Index c = 0; c < faces.points.weight.size(); ++c) {
+    group[static_cast<std::size_t>(c)] = {pair_of(c), law_at(c).adhesion};
+    first_of.try_emplace(group[static_cast<std::size_t>(c)], c);
+  }
+  for (const auto& [alike, first] : first_of) {
+    const auto part = part_of<Dim>(
+        faces, [&](Eigen::Index c) { return group[static_cast<std::size_t>(c)] == alike; });
+    model.interfaces.push_back(
+        interface_at(scene, model, part, rule_of(alike.first).contact, law_at(first)));
   }
 }
 

@@ -31,6 +31,7 @@ void add_gravity(const scene::Scene& scene, Model<Dim>& model) {
   for (int i = 0; i < Dim; ++i) {
     load.segment(i * n, n) += model.mass * scene.gravity.acceleration[static_cast<std::size_t>(i)];
   }
+  if (model.water_load.size() > 0) load += model.water_load;
 }
 
 template <int Dim>
@@ -122,7 +123,9 @@ Eigen::VectorXd moduli_at(const scene::Scene& scene, const scene::Support& suppo
   Eigen::VectorXd moduli(points.rows());
   for (Eigen::Index k = 0; k < points.rows(); ++k) {
     const fpm::Vector<Dim> place = points.row(k).transpose() + inward;
-    moduli[k] = scene.material[scene::material_at(scene, {place.data(), Dim})].youngs_modulus;
+    const scene::Material& material =
+        scene.material[scene::material_at(scene, {place.data(), Dim})];
+    moduli[k] = material.youngs_modulus.at_place({place.data(), Dim});
   }
   return moduli;
 }

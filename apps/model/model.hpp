@@ -114,10 +114,17 @@ struct Model {
   bool consistency = false;
   fpm::Field<Dim> area_vector;  // boundary area of each particle, with the correction only
 
-  std::vector<constitutive::Material> materials;
-  std::vector<double> youngs_modulus;   // of each material [Pa]
+  // One of each of the scene's materials; of one whose values change from place to place one for
+  // each of them.
+  std::vector<constitutive::Material> laws;
+  std::vector<double> youngs_modulus;   // of each law [Pa]
+  std::vector<LawIndex> law;            // of each particle
   std::vector<MaterialIndex> material;  // of each particle
   Eigen::VectorXd mass;                 // [kg] of each particle
+  // Of pore water, or empty for none: its pressure where each particle is at the start, and the
+  // dead load by which the pressure's fall acts on the ground [N/m or N].
+  Eigen::VectorXd pore_pressure;  // [Pa]
+  Eigen::VectorXd water_load;
 
   scene::HourglassControl control = scene::HourglassControl::none;
   fpm::PairControlOptions pair_control;
@@ -144,6 +151,11 @@ struct Model {
   std::vector<Interface<Dim>> interfaces;
   std::vector<SurfacePiece> surface;  // of a body with cutouts or regions only
   std::vector<JointPiece> joints;     // of a body of regions only
+
+  /// [Pa] Young's modulus of a particle.
+  double youngs_modulus_of(Eigen::Index particle) const {
+    return youngs_modulus[law[static_cast<std::size_t>(particle)]];
+  }
 
   /// Number of points of all interfaces.
   Eigen::Index interface_points() const;

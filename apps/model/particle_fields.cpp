@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "constitutive/tensor.hpp"
+#include "constitutive/utilisation.hpp"
 #include "fpm/boundary_loads.hpp"
 #include "fpm/recovery.hpp"
 
@@ -58,6 +59,16 @@ void add_stress_fields(const State<Dim>& state, Collector<Dim>& fields) {
   });
 }
 
+// Stress is effective where there is pore water; what the ground bears with its water is total.
+template <int Dim>
+void add_water_fields(const Model<Dim>& model, const State<Dim>& state, Collector<Dim>& fields) {
+  if (model.pore_pressure.size() == 0) return;
+  fields.scalar("pore_pressure", "Pa", [&](std::size_t a) { return model.pore_pressure[at(a)]; });
+  fields.tensor("total_stress", "Pa", [&](std::size_t a, int r) {
+    return state.stress(r, at(a)) - (r < 3 ? model.pore_pressure[at(a)] : 0.0);
+  });
+}
+
 // Each material by itself: across an interface the mean stress jumps. In the geometry the stress
 // belongs to, which small strains do not change.
 template <int Dim>
@@ -101,8 +112,14 @@ fpm::Field<Dim> holding_force(const Model<Dim>& model, const State<Dim>& state) 
 }
 
 template <int Dim>
-void add_strain_fields(const State<Dim>& state, Collector<Dim>& fields) {
+void add_strain_fields(const Model<Dim>& model, const State<Dim>& state, Collector<Dim>& fields) {
   if (state.layout.plastic) {
+    fields.scalar("utilisation", "-", [&](std::size_t a) {
+      using Stress = constitutive::StressVector<Dim>;
+      return constitutive::utilisation<Dim>(model.laws[model.law[a]],
+                                            Stress(state.stress.col(at(a))),
+                                            state.plastic_volume_strain[at(a)]);
+    });
     fields.scalar("plastic_strain", "-",
                   [&](std::size_t a) { return state.plastic_strain[at(a)]; });
     fields.scalar("plastic_volume_strain", "-",
@@ -143,7 +160,8 @@ std::vector<files::PointField> particle_fields(const Model<Dim>& model, const St
     const Eigen::VectorXd mean = recovered_mean_stress(model, state);
     fields.scalar("recovered_mean_stress", "Pa", [&](std::size_t a) { return mean[at(a)]; });
   }
-  add_strain_fields(state, fields);
+  add_water_fields(model, state, fields);
+  add_strain_fields(model, state, fields);
   fields.scalar("material", "-", [&](std::size_t a) { return model.material[a]; });
   if (fields.wanted("reaction")) {
     const fpm::Field<Dim> force = holding_force(model, state);

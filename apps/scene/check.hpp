@@ -20,6 +20,7 @@ void check_interfaces(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_boundaries(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_loads(const Scene& scene, tables::Diagnosis& diagnosis);
+void check_water(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_drive(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_plate(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_places(const Scene& scene, tables::Diagnosis& diagnosis);
@@ -34,6 +35,9 @@ bool check_length(const Point& point, std::size_t wanted, const std::string& key
 /// otherwise. Both absent passes.
 bool check_region(const Point& region_min, const Point& region_max, const std::string& table,
                   const Scene& scene, tables::Diagnosis& diagnosis);
+
+/// Reports values of a material that change from place to place and are less than allowed in some.
+void check_varying(const Scene& scene, std::size_t index, tables::Diagnosis& diagnosis);
 
 /// Whether a place is whole and in the body; reports otherwise. An empty (absent) one passes.
 bool check_at(const Point& at, const std::string& key, const Scene& scene,

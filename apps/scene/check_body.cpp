@@ -132,11 +132,19 @@ void check_parameters(const Scene& scene, const Material& material, const std::s
   const auto check = [&](const char* name, const std::optional<double>& value) {
     check_parameter(constitutive::parameter_info(name), value, material, key(name), diagnosis);
   };
-  check("cohesion", material.cohesion);
+  check("cohesion", material.cohesion ? std::optional(material.cohesion->value) : std::nullopt);
   check("friction_angle", material.friction_angle);
   check("dilation_angle", material.dilation_angle);
+  if (material.tension_cutoff && !model.yields) {
+    diagnosis.warning(key("tension_cutoff"),
+                      fmt::format("found {}", tables::number_text(*material.tension_cutoff)),
+                      fmt::format("it has no effect on the model {}", material.model));
+  }
   if (diagnosis.good({key("cohesion"), key("friction_angle"), key("dilation_angle")})) {
-    for (auto& objection : constitutive::joint_objections(parameters_of(material), model)) {
+    auto parameters = parameters_of(material);
+    // Where it is least is another rule's.
+    if (material.cohesion && material.cohesion->varies()) parameters.cohesion = 1.0;
+    for (auto& objection : constitutive::joint_objections(parameters, model)) {
       diagnosis.error(key(objection.parameter), objection.found, objection.allowed);
     }
   }
@@ -175,6 +183,7 @@ void check_material(const Scene& scene, std::size_t index, tables::Diagnosis& di
   }
 
   if (diagnosis.good({key("model")})) check_parameters(scene, material, table, diagnosis);
+  check_varying(scene, index, diagnosis);
 }
 
 }  // namespace
@@ -278,6 +287,12 @@ void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis) {
     for (std::size_t i = 0; i < scene.material.size(); ++i) {
       none_yields = none_yields && diagnosis.good({fmt::format("material.{}.model", i)}) &&
                     !yields(scene.material[i]);
+    }
+    for (const Material& material : scene.material) {
+      if (!material.tension_cutoff || !yields(material)) continue;
+      refuse(fmt::format("found mixed with the tension_cutoff of {}", material.name),
+             "sub-points with one pressure have no tension cut-off: use \"incremental\"");
+      break;
     }
     if (none_yields) {
       refuse("found mixed with elastic materials only",

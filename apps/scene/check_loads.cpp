@@ -112,7 +112,7 @@ void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
     const double horizontal = resolve_k0(scene, material) * vertical;
     const double phi = parameters_of(material).friction_angle * std::numbers::pi / 180.0;
     const double Kp = std::pow(std::tan(std::numbers::pi / 4.0 + phi / 2.0), 2);
-    const double cohesion = material.cohesion.value_or(0.0);
+    const double cohesion = parameters_at(material, deepest).cohesion;
     const double least = vertical / Kp - 2.0 * cohesion / std::sqrt(Kp);
     const double most = vertical * Kp + 2.0 * cohesion * std::sqrt(Kp);
     constexpr double round_off = 1e-6;
@@ -408,6 +408,7 @@ void check_scene(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_interfaces(scene, diagnosis);
   check_hourglass(scene, diagnosis);
   check_boundaries(scene, diagnosis);
+  check_water(scene, diagnosis);
   check_loads(scene, diagnosis);
   check_drive(scene, diagnosis);
   check_places(scene, diagnosis);

@@ -10,6 +10,7 @@
 #include "constitutive/parameters.hpp"
 #include "scene/ground.hpp"
 #include "scene/scene.hpp"
+#include "scene/water.hpp"
 
 namespace scene {
 
@@ -23,15 +24,28 @@ constitutive::MaterialParameters parameters_of(const Material& material) {
   const constitutive::ModelInfo& model = model_of(material);
   constitutive::MaterialParameters p;
   p.model = model.name;
-  p.youngs_modulus = material.youngs_modulus;
+  p.youngs_modulus = material.youngs_modulus.value;
   p.poissons_ratio = material.poissons_ratio;
-  p.cohesion = material.cohesion.value_or(p.cohesion);
+  p.cohesion = material.cohesion.value_or(p.cohesion).value;
   p.friction_angle = material.friction_angle.value_or(p.friction_angle);
   p.dilation_angle = material.dilation_angle.value_or(p.dilation_angle);
   p.density = material.density;
   p.dilation_cutoff = material.dilation_cutoff.value_or(p.dilation_cutoff);
+  if (model.yields) p.tension_cutoff = material.tension_cutoff.value_or(p.tension_cutoff);
   // The scene has been warned of what has no effect. An elastic material is archived with it.
   if (model.yields && !model.frictional) p.friction_angle = p.dilation_angle = 0.0;
+  return p;
+}
+
+bool varies(const Material& material) {
+  return material.youngs_modulus.varies() || (material.cohesion && material.cohesion->varies());
+}
+
+constitutive::MaterialParameters parameters_at(const Material& material,
+                                               std::span<const double> place) {
+  constitutive::MaterialParameters p = parameters_of(material);
+  p.youngs_modulus = material.youngs_modulus.at_place(place);
+  if (material.cohesion) p.cohesion = material.cohesion->at_place(place);
   return p;
 }
 
@@ -51,7 +65,8 @@ HourglassControl resolve_control(const Scene& scene) {
   if (scene.drive.kind == DriveKind::load) return HourglassControl::incremental;
   // What does not yield is at home with either: it must not decide for the ground that does.
   const bool has_sub_points = scene.geometry.dimension == 2 && all([](const Material& m) {
-                                return model_of(m).one_pressure || !yields(m);
+                                const bool one = model_of(m).one_pressure && !m.tension_cutoff;
+                                return one || !yields(m);
                               });
   return has_sub_points ? HourglassControl::mixed : HourglassControl::incremental;
 }
@@ -216,9 +231,17 @@ double geostatic_stress(const Scene& scene, std::span<const double> place) {
       std::max(1.0, std::ceil((std::abs(depth) - same_place(scene.geometry)) / spacing));
   Point at(place.begin(), place.end());
   double vertical = -scene.initial_stress.surcharge;
+  const double slice = depth / slices;
+  const auto& table = scene.water.table;
   for (double k = 0.5; k < slices; k += 1.0) {
     at[up] = surface - depth * (k / slices);
-    vertical -= scene.material[material_at(scene, at)].density * gravity * (depth / slices);
+    const Material& material = scene.material[material_at(scene, at)];
+    vertical -= material.density * gravity * (depth / slices);
+    if (table.empty() || slice == 0.0) continue;
+    // It is level in ground whose stress is geostatic.
+    const double below = (table.front().y() - at[up]) / std::abs(slice) + 0.5;
+    const double more = (saturated_density(material) - material.density) * gravity;
+    vertical += std::clamp(below, 0.0, 1.0) * (scene.water.unit_weight - more) * slice;
   }
   return vertical;
 }

@@ -32,6 +32,13 @@ struct Support;
 /// A material as libconstitutive takes it; what its model does not use is left out.
 [[nodiscard]] constitutive::MaterialParameters parameters_of(const Material& material);
 
+/// Whether values of a material change from place to place; `parameters_of` has those of one place.
+[[nodiscard]] bool varies(const Material& material);
+
+/// Its parameters at a place.
+[[nodiscard]] constitutive::MaterialParameters parameters_at(const Material& material,
+                                                             std::span<const double> place);
+
 /// Whether a material has a strength.
 [[nodiscard]] bool yields(const Material& material);
 
@@ -89,8 +96,9 @@ struct SolverSettings {
 /// Index of the material at a place: of the region that holds it, or the last one whose box does.
 [[nodiscard]] std::size_t material_at(const Scene& scene, std::span<const double> place);
 
-/// Vertical stress [Pa] of geostatic ground at a place: the surcharge and the weight above, in
-/// slices of at most a spacing, each of the material at its middle.
+/// Vertical stress [Pa] of geostatic ground at a place, effective under a water table: the
+/// surcharge and the weight above, less what water bears of it, in slices of at most a spacing,
+/// each of the material at its middle.
 [[nodiscard]] double geostatic_stress(const Scene& scene, std::span<const double> place);
 
 /// Horizontal over vertical geostatic stress in a material.

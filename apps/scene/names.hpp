@@ -124,17 +124,14 @@ constexpr std::string_view name_of(Enum value) {
 }
 
 /// Particle fields a frame can hold, as [output] fields names them.
-inline constexpr std::array<std::string_view, 12> output_field_names{"displacement",
-                                                                     "stress",
-                                                                     "mean_stress",
-                                                                     "recovered_mean_stress",
-                                                                     "deviatoric_stress",
-                                                                     "plastic_strain",
-                                                                     "plastic_volume_strain",
-                                                                     "volume_ratio",
-                                                                     "yielding",
-                                                                     "material",
-                                                                     "reaction",
-                                                                     "searched"};
+inline constexpr std::array<std::string_view, 15> output_field_names{
+    "displacement",      "stress",
+    "mean_stress",       "recovered_mean_stress",
+    "pore_pressure",     "total_stress",
+    "deviatoric_stress", "utilisation",
+    "plastic_strain",    "plastic_volume_strain",
+    "volume_ratio",      "yielding",
+    "material",          "reaction",
+    "searched"};
 
 }  // namespace scene

@@ -7,6 +7,7 @@
 
 #include "scene/choices.hpp"
 #include "scene/mesh_file.hpp"
+#include "tables/table.hpp"
 
 namespace scene {
 
@@ -76,6 +77,14 @@ struct Load {
   bool operator==(const Load&) const = default;
 };
 
+/// Pore water, whose pressure is given; at most one of table and r_u.
+struct Water {
+  std::vector<PlanePoint> table;  // [m] from left to right; hydrostatic below, nothing above
+  double unit_weight = 9810.0;    // [N/m3]
+  std::optional<double> r_u;      // its pressure over the overburden
+  bool operator==(const Water&) const = default;
+};
+
 /// What is cut out of the box, and what acts on the surface that it leaves; either an outline or a
 /// circle.
 struct Cutout {
@@ -127,18 +136,20 @@ struct Approximation {
 /// the body, later ones win inside their region.
 struct Material {
   std::string name;
-  std::string model = "elastic";  // a family of models of libconstitutive
-  double youngs_modulus = 0.0;    // [Pa]
+  std::string model = "elastic";       // a family of models of libconstitutive
+  tables::LinearField youngs_modulus;  // [Pa]
   double poissons_ratio = 0.0;
-  std::optional<double> cohesion;         // [Pa] present for every yielding model
-  std::optional<double> friction_angle;   // [deg] present for the frictional models
-  std::optional<double> dilation_angle;   // [deg] present for the frictional models
-  double density = 0.0;                   // [kg/m3]
-  std::optional<double> unit_weight;      // [N/m3] which says the same
-  std::optional<double> dilation_cutoff;  // accumulated plastic volume strain
-  std::string match = "plane_strain";     // of a family of several
-  Point region_min;                       // [m] empty: everywhere
-  Point region_max;                       // [m]
+  std::optional<tables::LinearField> cohesion;  // [Pa] present for every yielding model
+  std::optional<double> friction_angle;         // [deg] present for the frictional models
+  std::optional<double> dilation_angle;         // [deg] present for the frictional models
+  double density = 0.0;                         // [kg/m3]
+  std::optional<double> unit_weight;            // [N/m3] which says the same
+  std::optional<double> saturated_unit_weight;  // [N/m3] below the water table
+  std::optional<double> dilation_cutoff;        // accumulated plastic volume strain
+  std::optional<double> tension_cutoff;         // [Pa] largest principal stress
+  std::string match = "plane_strain";           // of a family of several
+  Point region_min;                             // [m] empty: everywhere
+  Point region_max;                             // [m]
   bool operator==(const Material&) const = default;
 };
 
@@ -311,6 +322,7 @@ struct Scene {
   std::vector<Region> region;
   std::vector<OutlineSide> side;
   Load load;
+  Water water;
   std::vector<Cutout> cutout;
   Grading grading;
   std::vector<Refine> refine;

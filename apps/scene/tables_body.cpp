@@ -252,7 +252,9 @@ SceneTable material() {
              "material", &Scene::material,
              "A material. The first fills the body; each later one has a box "
              "and wins inside it over the earlier ones. Where there are [[region]]s, they say "
-             "where it is.")
+             "where it is. Of its values, cohesion and youngs_modulus may change linearly from "
+             "place "
+             "to place.")
       .required()
       .key("name", &Material::name,
            {.need = tables::Need::required,
@@ -277,8 +279,16 @@ SceneTable material() {
             .doc = "Weight per volume; density is this over gravity's acceleration, 9.81 m/s2 "
                    "down unless [gravity] says more.",
             .absent = "density says it"})
+      .key("saturated_unit_weight", &Material::saturated_unit_weight,
+           {.need = tables::Need::optional,
+            .unit = "N/m3",
+            .range = tables::positive(),
+            .doc = "Weight per volume below the water table, that of the water in it included.",
+            .absent = "the unit_weight"})
       .key("dilation_cutoff", &Material::dilation_cutoff,
            notes_of("dilation_cutoff", tables::Need::optional, "never"))
+      .key("tension_cutoff", &Material::tension_cutoff,
+           notes_of("tension_cutoff", tables::Need::optional, "none"))
       .key("match", &Material::match,
            {.doc = "Which Mohr-Coulomb states the Drucker-Prager cone meets; plane_strain holds in "
                    "2D only."})
@@ -324,7 +334,9 @@ SceneTable hourglass() {
                "in spacing. mixed: sub-points with one pressure plus a weak incremental control; "
                "collapse loads under a plate converge, narrow bands are borne too well. auto: "
                "stiffness if all is elastic, incremental under a load that grows, mixed in 2D "
-               "where all that yields is von_mises or drucker_prager, else incremental.",
+               "where all that yields is von_mises or drucker_prager without a tension cut-off, "
+               "else "
+               "incremental.",
            .source = "viscosity: Chen, Huang & Lyamin 2020, Eq. 15-20"})
       .key(
           "stiffness_ratio", &Hourglass::stiffness_ratio,

@@ -117,10 +117,34 @@ SceneTable load() {
       .build();
 }
 
+SceneTable water() {
+  return tables::TableBuilder<Scene, Water>(
+             "water", &Scene::water,
+             "Pore water whose pressure is given: it is not coupled to the ground, which does not "
+             "consolidate. Stress is then effective, and so are cohesion and friction; tractions, "
+             "pressures, reactions and a footing's pressure are in addition to the water's, which "
+             "presses on flooded faces by itself. Plane bodies only. fpm-limit reads the same.")
+      .key("table", &Water::table,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "Its level, a polyline from left to right over all of the ground. Pressure is "
+                   "hydrostatic below it and zero above; it may stand above the ground.",
+            .absent = "no table"})
+      .key("unit_weight", &Water::unit_weight,
+           {.unit = "N/m3", .range = tables::positive(), .doc = "Of water."})
+      .key("r_u", &Water::r_u,
+           {.need = tables::Need::optional,
+            .range = {.lower = 0.0, .upper = 1.0, .upper_open = true},
+            .doc = "Instead of a table: the pressure is this share of the weight of the ground "
+                   "straight above, over its area. Bodies of regions only.",
+            .absent = "the table says it"})
+      .build();
+}
+
 }  // namespace
 
 std::vector<SceneTable> ground_tables() {
-  return {mesh(), region(), side(), load()};
+  return {mesh(), region(), side(), load(), water()};
 }
 
 }  // namespace scene

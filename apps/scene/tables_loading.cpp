@@ -112,7 +112,8 @@ SceneTable initial_stress() {
                                                     "The stress before the first step.")
       .key("kind", &InitialStress::kind,
            {.doc =
-                "geostatic: vertical stress from the weight above, horizontal stress K0 times it. "
+                "geostatic: vertical stress from the weight above, horizontal stress K0 times it, "
+                "both effective under a water table, which is level then. "
                 "gravity: what is left when weight and dead loads have been switched on, of a body "
                 "of any shape."})
       .key("surface", &InitialStress::surface,
@@ -123,7 +124,7 @@ SceneTable initial_stress() {
       .key("K0", &InitialStress::K0,
            {.need = tables::Need::optional,
             .range = tables::at_least(0.0),
-            .doc = "Horizontal over vertical stress.",
+            .doc = "Horizontal over vertical stress, effective ones.",
             .absent = "nu / (1 - nu), laterally confined elasticity"})
       .key("surcharge", &InitialStress::surcharge,
            {.unit = "Pa",

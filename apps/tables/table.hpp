@@ -18,6 +18,18 @@ struct LinearField {
   double value = 0.0;
   std::array<double, 2> at{};
   std::array<double, 2> gradient{};
+
+  LinearField(double everywhere = 0.0)
+      : value(everywhere) {}  // NOLINT(google-explicit-constructor)
+  LinearField(double v, const std::array<double, 2>& place, const std::array<double, 2>& growth)
+      : value(v), at(place), gradient(growth) {}
+
+  [[nodiscard]] bool varies() const { return gradient != std::array<double, 2>{}; }
+  /// At a place, of which the first two coordinates count.
+  [[nodiscard]] double at_place(std::span<const double> place) const {
+    return value + gradient[0] * (place[0] - at[0]) + gradient[1] * (place[1] - at[1]);
+  }
+  bool operator==(const LinearField&) const = default;
 };
 
 /// A value as it stands in TOML: numbers are double, choices their names, points x0 y0 x1 y1 ...,

@@ -1,5 +1,6 @@
 #include "constitutive/material.hpp"
 
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -16,11 +17,14 @@ struct Registered {
 
 template <class M>
 void add(Registered& all) {
-  for (const ModelInfo& model : M::models) {
-    all.models.push_back(model);
-    all.makers.push_back([](const MaterialParameters& p, const ModelInfo& of) -> Material {
-      return M::make(p, of);
-    });
+  // A material that is only made of another one has no models of its own.
+  if constexpr (M::models.size() > 0) {
+    for (const ModelInfo& model : M::models) {
+      all.models.push_back(model);
+      all.makers.push_back([](const MaterialParameters& p, const ModelInfo& of) -> Material {
+        return M::make(p, of);
+      });
+    }
   }
 }
 
@@ -33,6 +37,20 @@ const Registered& registered() {
     return list;
   }();
   return all;
+}
+
+/// The cones have a material of their own for their tension cut-off; the others know it themselves.
+Material with_cutoff(const Material& made, double tension) {
+  if (const auto* clay = std::get_if<VonMises>(&made)) {
+    DruckerPrager cylinder;
+    cylinder.moduli = clay->moduli;
+    cylinder.cone = yield_cone<double>(*clay, 0);
+    return CutCone{clay->moduli, cylinder, tension};
+  }
+  if (const auto* soil = std::get_if<DruckerPrager>(&made)) {
+    return CutCone{soil->moduli, *soil, tension};
+  }
+  return made;
 }
 
 }  // namespace
@@ -49,7 +67,9 @@ Material make_material(const MaterialParameters& p) {
     throw std::invalid_argument(all);
   }
   const ModelInfo* model = find_model(p.model);
-  return registered().makers[static_cast<std::size_t>(model - material_models().data())](p, *model);
+  const auto number = static_cast<std::size_t>(model - material_models().data());
+  const Material made = registered().makers[number](p, *model);
+  return std::isfinite(p.tension_cutoff) ? with_cutoff(made, p.tension_cutoff) : made;
 }
 
 const ElasticModuli& moduli(const Material& material) {

@@ -14,7 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using P = MaterialParameters;
 // The range of Poisson's ratio is that of positive bulk and shear moduli.
-constexpr std::array<ParameterInfo, 7> infos{
+constexpr std::array<ParameterInfo, 8> infos{
     {{"youngs_modulus", "Pa", "Young's modulus E.", 0, infinity, true, false, Use::all,
       &P::youngs_modulus},
      {"poissons_ratio", "", "Poisson's ratio nu.", -1, 0.5, true, true, Use::all,
@@ -28,7 +28,11 @@ constexpr std::array<ParameterInfo, 7> infos{
       &P::density},
      {"dilation_cutoff", "",
       "Accumulated plastic volume strain at which dilation stops; 0 is never.", 0, infinity, false,
-      false, Use::frictional, &P::dilation_cutoff}}};
+      false, Use::frictional, &P::dilation_cutoff},
+     {"tension_cutoff", "Pa",
+      "Largest principal stress (Rankine); 0 is no tension at all, and beyond the apex it changes "
+      "nothing.",
+      0, infinity, false, false, Use::yielding, &P::tension_cutoff}}};
 
 std::string text_of(double value) {
   std::ostringstream text;
@@ -49,8 +53,9 @@ std::string joined_names() {
 bool ParameterInfo::holds(double value) const {
   const bool above = lower_open ? value > lower : value >= lower;
   const bool below = upper_open ? value < upper : value <= upper;
-  // Only the default of the cut-off is infinite: never.
-  return above && below && (std::isfinite(value) || member == &P::dilation_cutoff);
+  // Only the defaults of the cut-offs are infinite: never.
+  const bool cutoff = member == &P::dilation_cutoff || member == &P::tension_cutoff;
+  return above && below && (std::isfinite(value) || cutoff);
 }
 
 std::string ParameterInfo::allowed() const {

@@ -35,6 +35,10 @@ MaterialParameters drawn(const ModelInfo& model, std::mt19937_64& engine) {
     p.friction_angle = 50 * share(engine);
     p.dilation_angle = p.friction_angle * share(engine);
   }
+  // Every other material has a tension cut-off, from none at all to beyond the apex.
+  if (model.yields && share(engine) < 0.5) {
+    p.tension_cutoff = share(engine) < 0.2 ? 0 : 3 * share(engine) * p.cohesion;
+  }
   return p;
 }
 
@@ -70,7 +74,9 @@ void step(const Material& material, double allowed, const StrainVector<Dim>& inc
   const ElasticModuli& m = moduli(material);
   const double work = contract(s.stress, deviator(removed)) / (2 * m.shear) +
                       mean_stress(s.stress) * mean_stress(removed) / m.bulk;
-  const double largest = s.stress.norm() * removed.norm() * (1 / m.shear + 1 / m.bulk);
+  // Both are as exact as the trial's size lets a difference be; without tension the work is 0.
+  const double largest =
+      (trial.norm() + s.stress.norm()) * s.stress.norm() * (1 / m.shear + 1 / m.bulk);
   if (s.plastic_strain < s0.plastic_strain || work < -points::round_off * allowed * largest) {
     ++tally.backward;
   }

@@ -131,8 +131,8 @@ TEST(MaterialParameters, ListEveryFieldOnce) {
     names.insert(name);
     ++fields;
   });
-  EXPECT_EQ(fields, 8);
-  EXPECT_EQ(names.size(), 8u);
+  EXPECT_EQ(fields, 9);
+  EXPECT_EQ(names.size(), 9u);
 }
 
 TEST(Version, IsThatOfTheCMakePackage) {

@@ -7,8 +7,10 @@
 #include <boost/archive/text_oarchive.hpp>
 #include <boost/archive/xml_iarchive.hpp>
 #include <boost/archive/xml_oarchive.hpp>
+#include <boost/serialization/split_member.hpp>
 #include <constitutive/serialization.hpp>
 #include <sstream>
+#include <string_view>
 
 namespace newer {
 
@@ -23,6 +25,26 @@ struct Parameters {
 
 }  // namespace newer
 
+namespace older {
+
+// The record as it was before there was a tension cut-off: class version 1, eight fields.
+struct Parameters {
+  constitutive::MaterialParameters now;
+  template <class Archive>
+  void save(Archive& archive, unsigned int /*version*/) const {
+    now.for_each_field([&](const char* name, const auto& field) {
+      if (std::string_view(name) == "tension_cutoff") return;
+      constitutive::detail::FieldSaver<Archive>{archive}(name, field);
+    });
+  }
+  template <class Archive>
+  void load(Archive&, unsigned int) {}
+  BOOST_SERIALIZATION_SPLIT_MEMBER()
+};
+
+}  // namespace older
+
+BOOST_CLASS_VERSION(older::Parameters, 1)
 BOOST_CLASS_VERSION(newer::Parameters, constitutive::material_parameters_version + 1)
 
 namespace {
@@ -71,6 +93,7 @@ TYPED_TEST(Archives, ReturnMaterialParametersBitForBit) {
   p.density = 1850;
   EXPECT_EQ(round_trip<TypeParam>(p), p) << "with the infinite cut-off";
   p.dilation_cutoff = 0.05;
+  p.tension_cutoff = 0;
   EXPECT_EQ(round_trip<TypeParam>(p), p);
 }
 
@@ -118,6 +141,25 @@ TEST(Archive, OfANewerClassVersionIsRefused) {
   } catch (const boost::archive::archive_exception& refused) {
     EXPECT_EQ(refused.code, boost::archive::archive_exception::unsupported_class_version);
   }
+}
+
+TEST(Archive, OfARecordBeforeTheTensionCutoffIsReadWithoutOne) {
+  older::Parameters old;
+  old.now.model = "mohr_coulomb";
+  old.now.dilation_cutoff = 0.05;
+  old.now.tension_cutoff = 1e3;  // which such a record cannot hold
+  std::stringstream stream;
+  {
+    boost::archive::text_oarchive out(stream);
+    const older::Parameters& record = old;
+    out << record;
+  }
+  boost::archive::text_iarchive in(stream);
+  MaterialParameters p;
+  in >> p;
+  EXPECT_EQ(p.model, "mohr_coulomb");
+  EXPECT_EQ(p.dilation_cutoff, 0.05);
+  EXPECT_TRUE(std::isinf(p.tension_cutoff));
 }
 
 }  // namespace

@@ -25,6 +25,9 @@ TEST(HourglassControl, AutoFollowsMaterialAndDimension) {
   EXPECT_EQ(resolve_control(scene_of("drucker_prager")), C::mixed);
   EXPECT_EQ(resolve_control(scene_of("drucker_prager", 3)), C::incremental);
   EXPECT_EQ(resolve_control(scene_of("mohr_coulomb")), C::incremental);
+  Scene without_tension = scene_of("drucker_prager");
+  without_tension.material[0].tension_cutoff = 0.0;
+  EXPECT_EQ(resolve_control(without_tension), C::incremental) << "sub-points have no cut-off";
 }
 
 TEST(HourglassControl, AutoIsThatOfWhatYieldsWhateverElasticPartsThereAre) {

@@ -40,7 +40,7 @@ double reference_length_of(const scene::Scene& scene) {
 }
 
 double youngs_modulus_of(const scene::Scene& scene) {
-  return scene.material.at(0).youngs_modulus;
+  return scene.material.at(0).youngs_modulus.value;
 }
 
 }  // namespace verification

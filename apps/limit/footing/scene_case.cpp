@@ -11,6 +11,7 @@
 #include "limit/mesh/cut.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
+#include "scene/water.hpp"
 
 namespace limit::footing {
 
@@ -53,6 +54,8 @@ class Reader {
               "the footing does not reach from the mirror to a place on the top");
     }
     require(scene_.cutout.empty(), "cutout", "the body has cutouts");
+    require(!scene::has_water(scene_), "water",
+            "the ground is under water; in ground of [[region]]s it may be");
     take_supports();
     if (!diagnosis_.errors().empty()) return found_;
     take_tractions(drive.range_max[0]);
@@ -87,7 +90,11 @@ class Reader {
     require(scene::yields(material), table + "model", "an elastic material never yields");
     require(material.match == "plane_strain", table + "match",
             "only strengths matched in plane strain are those of Mohr-Coulomb");
-    found_.soils.push_back({material.cohesion.value_or(0.0),
+    require(!material.tension_cutoff, table + "tension_cutoff",
+            "the bounds are those of a soil without a tension cut-off");
+    require(!material.cohesion || !material.cohesion->varies(), table + "cohesion",
+            "it changes from place to place; in ground of [[region]]s it may");
+    found_.soils.push_back({material.cohesion.value_or(0.0).value,
                             material.friction_angle.value_or(0.0) * degree,
                             material.density * gravity});
     if (!diagnosis_.errors().empty()) return;

@@ -208,10 +208,13 @@ std::vector<std::string> assumptions_of(const GroundScene& scene, const problem:
   if (scene.load.kh != 0.0 || scene.load.kv != 0.0) {
     assumptions.emplace_back("an earthquake is a steady weight aslant (pseudo-static)");
   }
-  if (!scene.water.table.empty()) {
+  if (scene.water.is_there()) {
     assumptions.emplace_back(
-        "pore water is at rest or seeps as its table tells, hydrostatic below it; loads and "
-        "pressures are in addition to the water's, stresses effective");
+        std::string(scene.water.r_u ? "the pressure of pore water is r_u times the weight of the "
+                                      "ground straight above; "
+                                    : "pore water is at rest or seeps as its table tells, "
+                                      "hydrostatic below it; ") +
+        "loads and pressures are in addition to the water's, stresses effective");
   }
   if (scene.load.sought == Sought::strength) {
     assumptions.emplace_back(
@@ -242,10 +245,12 @@ void describe(const GroundScene& scene, problem::Case& result) {
         fmt::format("{}, phi = {:g} deg, {:g} {}", cohesion, material.soil.friction_angle / degree,
                     material.soil.unit_weight, scene.units.unit_weight()));
   }
-  if (!scene.water.table.empty()) {
-    result.data.emplace_back("water",
-                             fmt::format("{:g} {}, {} points of its table", scene.water.unit_weight,
-                                         scene.units.unit_weight(), scene.water.table.size()));
+  if (scene.water.is_there()) {
+    result.data.emplace_back(
+        "water", scene.water.r_u
+                     ? fmt::format("r_u = {:g}", *scene.water.r_u)
+                     : fmt::format("{:g} {}, {} points of its table", scene.water.unit_weight,
+                                   scene.units.unit_weight(), scene.water.table.size()));
   }
   if (scene.load.kh != 0.0 || scene.load.kv != 0.0) {
     result.data.emplace_back("earthquake",
@@ -335,7 +340,7 @@ std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagn
   GroundOutline outline = ground_outline(told, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   GroundScene scene = told;
-  if (!scene.water.table.empty()) {
+  if (scene.water.is_there()) {
     wet(scene, diagnosis);
     if (diagnosis.errors().empty()) outline = ground_outline(scene, diagnosis);
     if (!diagnosis.errors().empty()) return std::nullopt;

@@ -12,6 +12,7 @@
 #include "scene/ground.hpp"
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
+#include "scene/water.hpp"
 #include "tables/reader.hpp"
 
 namespace limit::ground {
@@ -52,6 +53,8 @@ class Reader {
       found_.regions.push_back(std::move(taken));
     }
     for (const scene::OutlineSide& side : scene_.side) take_side(side);
+    take_water();
+    if (diagnosis_.errors().empty()) tell_cohesions(found_, diagnosis_);
     check_supports();
     return std::move(found_);
   }
@@ -107,14 +110,20 @@ class Reader {
            "fpm-limit brackets collapse");
     refuse(material.match != "plane_strain", table + "match", "found " + material.match,
            "only strengths matched in plane strain are those of Mohr-Coulomb");
+    refuse(material.tension_cutoff.has_value(), table + "tension_cutoff",
+           fmt::format("found {:g}", material.tension_cutoff.value_or(0.0)),
+           "the bounds are those of a soil without a tension cut-off");
     GroundMaterial soil;
     soil.name = material.name;
     const auto parameters = scene::yields(material) ? scene::parameters_of(material)
                                                     : constitutive::MaterialParameters{};
-    soil.soil.cohesion = parameters.cohesion;
+    soil.cohesion = material.cohesion.value_or(parameters.cohesion);
     soil.soil.friction_angle = parameters.friction_angle * degree;
     soil.dilation_angle = parameters.dilation_angle * degree;
     soil.soil.unit_weight = material.density * weight_;
+    if (material.saturated_unit_weight) {
+      soil.saturated_unit_weight = scene::saturated_density(material) * weight_;
+    }
     found_.materials.push_back(soil);
   }
 
@@ -131,6 +140,16 @@ class Reader {
     taken.base = side.base == scene::Base::rough ? BaseKind::rough : BaseKind::smooth;
     taken.tension = side.tension;
     found_.sides.push_back(std::move(taken));
+  }
+
+  void take_water() {
+    found_.water.table = points_of(scene_.water.table);
+    found_.water.unit_weight = scene_.water.unit_weight;
+    found_.water.r_u = scene_.water.r_u;
+    const bool grows = found_.load.sought == Sought::gravity && found_.water.is_there();
+    refuse(grows && !scene_.load.sought, "drive.scales", "found gravity, in ground under water",
+           "in a run the water's weight grows, too, in fpm-limit it stays: say what is sought by "
+           "load.sought");
   }
 
   // Whatever is held is held by sides.

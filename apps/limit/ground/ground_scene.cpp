@@ -89,6 +89,11 @@ GroundTable water() {
       .key("table", &GroundWater::table,
            {.unit = "m", .doc = "its level from left to right, over all of the ground"})
       .key("unit_weight", &GroundWater::unit_weight, {.unit = "N/m3", .range = tables::positive()})
+      .key("r_u", &GroundWater::r_u,
+           {.need = Need::optional,
+            .range = {.lower = 0.0, .upper = 1.0, .upper_open = true},
+            .doc = "its pressure over the weight of the ground straight above, instead of a table",
+            .absent = "the table says it"})
       .build();
 }
 
@@ -184,9 +189,6 @@ void check_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagno
                     "each material has a name of its own");
   }
   const double friction = material.soil.friction_angle;
-  material.soil.cohesion = material.cohesion.value;
-  material.soil.centre = {material.cohesion.at[0], material.cohesion.at[1]};
-  material.soil.cohesion_gradient = {material.cohesion.gradient[0], material.cohesion.gradient[1]};
   if (!diagnosis.given(path + "dilation_angle")) material.dilation_angle = friction;
   if (material.dilation_angle > friction &&
       diagnosis.good({path + "dilation_angle", path + "friction_angle"})) {
@@ -194,7 +196,7 @@ void check_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagno
                     fmt::format("found {:g}", material.dilation_angle / degree),
                     fmt::format("allowed is 0 .. friction_angle ({:g})", friction / degree));
   }
-  if (material.soil.cohesion == 0.0 && !material.soil.varies() && friction == 0.0 &&
+  if (material.cohesion.value == 0.0 && !material.cohesion.varies() && friction == 0.0 &&
       diagnosis.good({path + "cohesion", path + "friction_angle"})) {
     diagnosis.error(path + "cohesion", "neither cohesion nor friction", "one must be positive");
   }
@@ -221,8 +223,12 @@ void find_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnos
 
 // A linear cohesion is least in a corner of a region. From here on it is told from the middle of
 // the corners, so that its value there is typical of the material.
-void check_cohesion(GroundScene& scene, std::size_t m, tables::Diagnosis& diagnosis) {
+void tell_cohesion(GroundScene& scene, std::size_t m, tables::Diagnosis& diagnosis) {
+  const tables::LinearField& told = scene.materials[m].cohesion;
   problem::Soil& soil = scene.materials[m].soil;
+  soil.cohesion = told.value;
+  soil.centre = {told.at[0], told.at[1]};
+  soil.cohesion_gradient = {told.gradient[0], told.gradient[1]};
   if (!soil.varies()) return;
   mesh::Point sum(0.0, 0.0);
   double corners = 0.0;
@@ -276,6 +282,10 @@ void check_side(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnosis)
 
 }  // namespace
 
+void tell_cohesions(GroundScene& scene, tables::Diagnosis& diagnosis) {
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) tell_cohesion(scene, m, diagnosis);
+}
+
 std::optional<GroundScene> read_ground_scene(std::string_view text,
                                              std::span<const std::string> settings,
                                              tables::Diagnosis& diagnosis,
@@ -286,9 +296,7 @@ std::optional<GroundScene> read_ground_scene(std::string_view text,
   scene::take_groups(scene.mesh, scene.regions, scene.sides, diagnosis);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) check_material(scene, i, diagnosis);
   for (std::size_t i = 0; i < scene.regions.size(); ++i) find_material(scene, i, diagnosis);
-  if (diagnosis.errors().empty()) {
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) check_cohesion(scene, i, diagnosis);
-  }
+  if (diagnosis.errors().empty()) tell_cohesions(scene, diagnosis);
   for (std::size_t i = 0; i < scene.sides.size(); ++i) check_side(scene, i, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   return scene;

@@ -86,10 +86,13 @@ struct GroundLoad {
                                // roller, whose mirror image completes it
 };
 
-/// Pore water, hydrostatic below its table.
+/// Pore water, hydrostatic below its table or a share of the overburden.
 struct GroundWater {
-  std::vector<mesh::Point> table;  // [m] from left to right; none: no water
+  std::vector<mesh::Point> table;  // [m] from left to right
   double unit_weight = 9810.0;     // [N/m3]
+  std::optional<double> r_u;       // its pressure over the overburden
+
+  [[nodiscard]] bool is_there() const { return !table.empty() || r_u.value_or(0.0) > 0.0; }
 };
 
 /// Ground of polygons, its sides and its load, as a scene of fpm-limit's own describes it.
@@ -103,6 +106,10 @@ struct GroundScene {
   std::vector<GroundSide> sides;
   GroundLoad load;
 };
+
+/// Gives the soils of a scene the cohesion of their materials. A linear one that is not more than
+/// zero wherever its material is is an error.
+void tell_cohesions(GroundScene& scene, tables::Diagnosis& diagnosis);
 
 /// Reads such a scene from TOML text, settings (`--set`) applied. Only what can be judged key by
 /// key is judged here. Nothing, if the diagnosis or `unreadable` has an error.

@@ -52,8 +52,7 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
     const double along = std::abs(way.dot(force));
     const double presses_on = way.x() * force.y() - way.y() * force.x();
     // What water lifts off the face has no strength at all.
-    const double across =
-        scene.water.table.empty() ? std::abs(presses_on) : std::max(0.0, presses_on);
+    const double across = scene.water.is_there() ? std::max(0.0, presses_on) : std::abs(presses_on);
     if (along <= level * across) continue;
     const double slides = std::tan(soil.friction_angle) * across / along;
     result.known_upper = std::min(result.known_upper.value_or(INFINITY), slides);
@@ -68,7 +67,7 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
         *result.known_upper));
   }
   const bool is_dry_sand =
-      !is_shaken && scene.water.table.empty() && gentlest == steepest && steepest > 0.0 &&
+      !is_shaken && !scene.water.is_there() && gentlest == steepest && steepest > 0.0 &&
       std::none_of(
           scene.sides.begin(), scene.sides.end(),
           [](const GroundSide& side) { return presses(side) || side.kind == SideKind::footing; }) &&

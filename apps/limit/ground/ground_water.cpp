@@ -6,7 +6,10 @@
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
+#include <set>
 #include <utility>
+
+#include "shape/water.hpp"
 
 namespace limit::ground {
 
@@ -60,40 +63,45 @@ Extent extent_of(const GroundScene& scene) {
   return extent;
 }
 
-bool covers(const std::vector<mesh::Point>& table, const Extent& ground,
-            tables::Diagnosis& diagnosis) {
-  for (std::size_t i = 0; i + 1 < table.size(); ++i) {
-    if (table[i].x() < table[i + 1].x()) continue;
-    diagnosis.error("water.table",
-                    fmt::format("found x = {:g} after {:g}", table[i + 1].x(), table[i].x()),
-                    "allowed are points from left to right, no two above each other");
-    return false;
-  }
-  if (table.size() > 1 && table.front().x() <= ground.low.x() &&
-      table.back().x() >= ground.high.x()) {
-    return true;
-  }
-  diagnosis.error(
-      "water.table",
-      fmt::format("found a table from x = {:g} to {:g}", table.front().x(), table.back().x()),
-      fmt::format("allowed is one over all of the ground, from {:g} or less to {:g} or more",
-                  ground.low.x(), ground.high.x()));
-  return false;
-}
-
 // No sliver, as is left where a region's outline and the table are one line.
 bool is_something(const Polygon& part, const Extent& ground) {
   constexpr double nothing = 1e-9;
   return boost::geometry::area(part) > nothing * (ground.high - ground.low).squaredNorm();
 }
 
-}  // namespace
+// The part of a region that is within a polygon becomes regions of another material.
+class Cutter {
+ public:
+  explicit Cutter(const Extent& ground) : ground_(ground) {}
 
-void wet(GroundScene& scene, tables::Diagnosis& diagnosis) {
+  /// @param material_at  index of the material around a place of the part
+  template <class MaterialAt>
+  void cut(const GroundRegion& whole, const std::vector<mesh::Point>& with,
+           MaterialAt&& material_at) {
+    std::vector<Polygon> parts;
+    boost::geometry::intersection(polygon_of(whole.outline, whole.holes), polygon_of(with), parts);
+    for (const Polygon& part : parts) {
+      if (!is_something(part, ground_)) continue;
+      Place centre(0.0, 0.0);
+      boost::geometry::centroid(part, centre);
+      GroundRegion& region = regions.emplace_back(whole);
+      constexpr double rounding = 1e-9;
+      const double one_place = rounding * (ground_.high - ground_.low).norm();
+      region.outline = outline_of(part.outer(), one_place);
+      region.holes.clear();
+      for (const Ring& hole : part.inners()) region.holes.push_back(outline_of(hole, one_place));
+      region.material = material_at(mesh::Point(centre.x(), centre.y()));
+    }
+  }
+
+  std::vector<GroundRegion> regions;
+
+ private:
+  const Extent& ground_;
+};
+
+void wet_below_table(GroundScene& scene, const Extent& ground) {
   const auto& table = scene.water.table;
-  if (table.empty()) return;
-  const Extent ground = extent_of(scene);
-  if (!covers(table, ground, diagnosis)) return;
   double low = ground.low.y(), high = ground.high.y();
   for (const mesh::Point& point : table) {
     low = std::min(low, point.y());
@@ -102,24 +110,9 @@ void wet(GroundScene& scene, tables::Diagnosis& diagnosis) {
   const double bottom = low - (high - low), top = high + (high - low);
   std::vector<mesh::Point> dry = table;
   dry.insert(dry.end(), {{table.back().x(), top}, {table.front().x(), top}});
-  std::vector<GroundRegion> regions;
-  const auto cut = [&](const GroundRegion& whole, const std::vector<mesh::Point>& with,
-                       std::size_t material) {
-    std::vector<Polygon> parts;
-    boost::geometry::intersection(polygon_of(whole.outline, whole.holes), polygon_of(with), parts);
-    for (const Polygon& part : parts) {
-      if (!is_something(part, ground)) continue;
-      GroundRegion& region = regions.emplace_back(whole);
-      constexpr double rounding = 1e-9;
-      const double one_place = rounding * (ground.high - ground.low).norm();
-      region.outline = outline_of(part.outer(), one_place);
-      region.holes.clear();
-      for (const Ring& hole : part.inners()) region.holes.push_back(outline_of(hole, one_place));
-      region.material = material;
-    }
-  };
+  Cutter cutter(ground);
   for (const GroundRegion& whole : scene.regions) {
-    cut(whole, dry, whole.material);
+    cutter.cut(whole, dry, [&](const mesh::Point&) { return whole.material; });
     for (std::size_t i = 0; i + 1 < table.size(); ++i) {
       const mesh::Point &from = table[i], &to = table[i + 1];
       GroundMaterial saturated = scene.materials[whole.material];
@@ -128,10 +121,69 @@ void wet(GroundScene& scene, tables::Diagnosis& diagnosis) {
       const double slope = (to.y() - from.y()) / (to.x() - from.x());
       soil.seepage = scene.water.unit_weight * mesh::Point(-slope, 1.0);
       scene.materials.push_back(std::move(saturated));
-      cut(whole, {from, {from.x(), bottom}, {to.x(), bottom}, to}, scene.materials.size() - 1);
+      cutter.cut(whole, {from, {from.x(), bottom}, {to.x(), bottom}, to},
+                 [&](const mesh::Point&) { return scene.materials.size() - 1; });
     }
   }
-  scene.regions = std::move(regions);
+  scene.regions = std::move(cutter.regions);
+}
+
+// Between uprights through all corners the weight above is linear in each part of a region.
+void wet_by_overburden(GroundScene& scene, const Extent& ground, tables::Diagnosis& diagnosis) {
+  std::vector<shape::HeavyRing> heavy;
+  std::set<double> corners;
+  for (const GroundRegion& region : scene.regions) {
+    const double weight = scene.materials[region.material].soil.unit_weight;
+    heavy.push_back({region.outline, weight});
+    for (const mesh::Point& corner : region.outline) corners.insert(corner.x());
+    for (const auto& hole : region.holes) {
+      heavy.push_back({hole, -weight});
+      for (const mesh::Point& corner : hole) corners.insert(corner.x());
+    }
+  }
+  if (!shape::has_overburden(heavy, "water.r_u", diagnosis)) return;
+  const mesh::Point size = ground.high - ground.low;
+  const double bottom = ground.low.y() - size.y(), top = ground.high.y() + size.y();
+  constexpr double rounding = 1e-9;
+  std::vector<double> uprights{ground.low.x() - size.x()};
+  for (const double x : corners) {
+    const bool inside = x > ground.low.x() && x < ground.high.x();
+    if (inside && x - uprights.back() > rounding * size.x()) uprights.push_back(x);
+  }
+  uprights.push_back(ground.high.x() + size.x());
+  Cutter cutter(ground);
+  for (const GroundRegion& whole : scene.regions) {
+    for (std::size_t i = 0; i + 1 < uprights.size(); ++i) {
+      const double left = uprights[i], right = uprights[i + 1];
+      cutter.cut(whole, {{left, bottom}, {right, bottom}, {right, top}, {left, top}},
+                 [&](const mesh::Point& centre) {
+                   GroundMaterial loaded = scene.materials[whole.material];
+                   loaded.soil.seepage =
+                       -*scene.water.r_u * shape::overburden(heavy, centre).gradient;
+                   scene.materials.push_back(std::move(loaded));
+                   return scene.materials.size() - 1;
+                 });
+    }
+  }
+  scene.regions = std::move(cutter.regions);
+}
+
+}  // namespace
+
+void wet(GroundScene& scene, tables::Diagnosis& diagnosis) {
+  if (!scene.water.is_there()) return;
+  const Extent ground = extent_of(scene);
+  if (scene.water.r_u && !scene.water.table.empty()) {
+    diagnosis.error("water.r_u", fmt::format("found {:g}, and a table", *scene.water.r_u),
+                    "the pressure is what one of them says: leave the other out");
+  } else if (scene.water.r_u && scene.load.sought == Sought::gravity) {
+    diagnosis.error("water.r_u", fmt::format("found {:g}, with gravity sought", *scene.water.r_u),
+                    "the water's force stays while weights grow: give a table");
+  } else if (scene.water.r_u) {
+    wet_by_overburden(scene, ground, diagnosis);
+  } else if (shape::is_water_table(scene.water.table, ground.low, ground.high, diagnosis)) {
+    wet_below_table(scene, ground);
+  }
 }
 
 }  // namespace limit::ground

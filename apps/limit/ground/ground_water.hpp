@@ -5,10 +5,11 @@
 namespace limit::ground {
 
 /// Cuts the regions of a scene with water along its table and below the corners of that, so that
-/// the pore pressure, hydrostatic below the table and none above, is linear in every part. Wet
-/// parts have materials of their own, of the same name, saturated and under the force of the water,
-/// less the gradient of its pressure. A table that is no such line over all of the ground is an
-/// error.
+/// the pore pressure, hydrostatic below the table and none above, is linear in every part; where it
+/// is r_u times the weight straight above, below all corners. Wet parts have materials of their
+/// own, of the same name, under the force of the water, less the gradient of its pressure, and
+/// below a table saturated. A table that is no such line over all of the ground is an error, and so
+/// is a weight above that jumps.
 void wet(GroundScene& scene, tables::Diagnosis& diagnosis);
 
 }  // namespace limit::ground

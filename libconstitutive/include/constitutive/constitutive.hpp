@@ -3,6 +3,7 @@
 // Everything but the Boost archives, which are in constitutive/serialization.hpp.
 #include "constitutive/cone.hpp"
 #include "constitutive/cone_update.hpp"
+#include "constitutive/cut_cone.hpp"
 #include "constitutive/drucker_prager.hpp"
 #include "constitutive/elastic.hpp"
 #include "constitutive/interface_law.hpp"
@@ -12,6 +13,8 @@
 #include "constitutive/mohr_coulomb.hpp"
 #include "constitutive/objective.hpp"
 #include "constitutive/parameters.hpp"
+#include "constitutive/rankine.hpp"
 #include "constitutive/state.hpp"
 #include "constitutive/tensor.hpp"
+#include "constitutive/utilisation.hpp"
 #include "constitutive/version.hpp"

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "constitutive/cone_update.hpp"
+#include "constitutive/cut_cone.hpp"
 #include "constitutive/drucker_prager.hpp"
 #include "constitutive/elastic.hpp"
 #include "constitutive/mohr_coulomb.hpp"
@@ -15,7 +16,7 @@ namespace constitutive {
 ///
 /// This is where materials are registered: each brings its models (`M::models`), is made by
 /// `M::make(parameters, model)`, and has `update` and `trial_tangent` beside it.
-using Material = std::variant<Elastic, VonMises, DruckerPrager, MohrCoulomb>;
+using Material = std::variant<Elastic, VonMises, DruckerPrager, MohrCoulomb, CutCone>;
 
 /// The material of valid parameters, its derived constants computed once.
 /// @throws std::invalid_argument with every message of `validate` (dimension 2) if there is one

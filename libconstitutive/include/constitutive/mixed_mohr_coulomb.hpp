@@ -134,7 +134,7 @@ struct [[nodiscard]] MixedCornerResult : MixedResult<M, Dim> {
 /// Returns a block to Mohr-Coulomb's surface: one pressure, M deviators, to round-off.
 /// @param weights  volume shares w_k >= 0 with sum 1
 /// @param plastic_volume_strain  accumulated at the beginning of the step (dilation cut-off)
-/// No allocation. Not finite -> status failed.
+/// No allocation. Not finite, or a material with a tension cut-off -> status failed.
 template <std::size_t M, int Dim>
 MixedCornerResult<M, Dim> mixed_return(const MohrCoulomb& material, const MixedTrial<M, Dim>& trial,
                                        const std::array<double, M>& weights,
@@ -145,7 +145,7 @@ MixedCornerResult<M, Dim> mixed_return(const MohrCoulomb& material, const MixedT
       material, PointState<Dim>{.plastic_volume_strain = plastic_volume_strain});
   MixedCornerResult<M, Dim> r;
   const auto sizes = detail::deviator_sizes(trial);
-  r.outcome.failed = !detail::all_finite(trial.pressure, sizes);
+  r.outcome.failed = !detail::all_finite(trial.pressure, sizes) || std::isfinite(material.tension);
   if (r.outcome.failed) return r;
   const auto deviator = detail::spectra(trial);
   detail::CornerBlock<M> block(material, sin_psi, trial.pressure, deviator, weights,

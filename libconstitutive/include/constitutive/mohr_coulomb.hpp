@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <type_traits>
 
 #include "constitutive/elastic.hpp"
+#include "constitutive/rankine.hpp"
 #include "constitutive/spectral.hpp"
 #include "constitutive/state.hpp"
 
@@ -30,6 +32,9 @@ struct MohrCoulomb {
   double sin_dilation = 0;
   /// No dilation (psi = 0) in a step that begins with plastic_volume_strain >= this [-].
   double dilation_cutoff = std::numeric_limits<double>::infinity();
+  /// No principal stress above it (Rankine's cut-off, associated) [Pa]; off at infinity and
+  /// wherever it lies beyond the apex. `mixed_return` is not for it.
+  double tension = std::numeric_limits<double>::infinity();
 
   static MohrCoulomb make(const MaterialParameters& p, const ModelInfo&) {
     const double phi = radians(p.friction_angle), psi = radians(p.dilation_angle);
@@ -38,7 +43,8 @@ struct MohrCoulomb {
             std::sin(phi),
             std::cos(phi),
             std::sin(psi),
-            p.dilation_cutoff};
+            p.dilation_cutoff,
+            p.tension_cutoff};
   }
 };
 
@@ -51,6 +57,7 @@ enum class MohrCoulombRegime : std::uint8_t {
   compression_edge,  ///< sigma_1 = sigma_2 > sigma_3.
   extension_edge,    ///< sigma_1 > sigma_2 = sigma_3.
   apex,
+  tension,  ///< sigma_1 is at the tension cut-off, on whatever part of it but its apex.
 };
 
 /// Return in principal stress space: stress, and its derivative by the trial.
@@ -102,13 +109,13 @@ inline bool return_to_edge(const MohrCoulomb& m, double sin_psi, const Eigen::Ve
   return m.sin_friction == 0 || r.stress[0] >= r.stress[2];
 }
 
-/// Return of sorted principal trial stresses (falling order) to the surface.
+/// Return of sorted principal trial stresses (falling order) to the pyramid without its cut-off.
 ///
 /// The surface and the potential consist of planes and the elasticity is linear, so every regime is
 /// closed form. Regimes are tried from the plane to the apex; the order of the returned principal
 /// stresses decides.
-inline PrincipalReturn return_principal(const MohrCoulomb& m, double sin_psi,
-                                        const Eigen::Vector3d& trial) {
+inline PrincipalReturn return_to_pyramid(const MohrCoulomb& m, double sin_psi,
+                                         const Eigen::Vector3d& trial) {
   PrincipalReturn r;
   r.stress = trial;
   r.jacobian.setIdentity();
@@ -133,6 +140,102 @@ inline PrincipalReturn return_principal(const MohrCoulomb& m, double sin_psi,
   r.stress.setConstant(m.cohesion * m.cos_friction / m.sin_friction);
   r.jacobian.setZero();
   return r;
+}
+
+/// The planes of the pyramid that meet sorted stresses, and those of the cut-off.
+struct CutPyramid {
+  std::array<PrincipalPlane, 6> planes;
+  enum : std::size_t { major, compression, extension, first, second, third };
+
+  CutPyramid(const MohrCoulomb& m, double sin_psi) {
+    const double strength = 2 * m.cohesion * m.cos_friction;
+    const auto pyramid = [&](int row, int other) {
+      return PrincipalPlane{plane_gradient(m.sin_friction, row, other),
+                            principal_flow(m.moduli, sin_psi, row, other), strength};
+    };
+    planes = {pyramid(0, 2),
+              pyramid(1, 2),
+              pyramid(0, 1),
+              rankine_plane(m.moduli, m.tension, 0),
+              rankine_plane(m.moduli, m.tension, 1),
+              rankine_plane(m.moduli, m.tension, 2)};
+  }
+
+  /// Whether the return to these planes is the one; equal stresses are made so to the last bit.
+  template <std::size_t N>
+  bool returns_to(const std::array<std::size_t, N>& active, const Eigen::Vector3d& trial,
+                  double looser, PrincipalReturn& r) const {
+    std::array<const PrincipalPlane*, N> chosen;
+    for (std::size_t i = 0; i < N; ++i) chosen[i] = &planes[active[i]];
+    const PlaneReturn found = return_to_planes<N>(chosen, trial, looser);
+    if (!found.found) return false;
+    r.regime = MohrCoulombRegime::tension;
+    r.stress = found.stress;
+    r.jacobian = found.jacobian;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      const PrincipalPlane& plane = planes[i];
+      if (std::find(active.begin(), active.end(), i) != active.end()) {
+        if (i >= first) r.stress[static_cast<int>(i - first)] = plane.bound;
+        continue;
+      }
+      const double allowed =
+          looser * plane_allowance(trial, plane.bound) * plane.normal.cwiseAbs().sum();
+      if (plane.normal.dot(r.stress) > plane.bound + allowed) return false;
+    }
+    return true;
+  }
+
+  /// Every part of the surface that has a plane of the cut-off, the larger ones first: the plane,
+  /// its edges with the main plane and with its neighbour, and the points where these end.
+  bool returns(const MohrCoulomb& m, const Eigen::Vector3d& trial, double looser,
+               PrincipalReturn& r) const {
+    if (returns_to<1>({first}, trial, looser, r) ||
+        returns_to<2>({major, first}, trial, looser, r) ||
+        returns_to<2>({first, second}, trial, looser, r)) {
+      return true;
+    }
+    const double least =
+        ((1 + m.sin_friction) * m.tension - 2 * m.cohesion * m.cos_friction) / (1 - m.sin_friction);
+    // Four planes meet where both largest stresses are T: two of three cover its cone of trials.
+    if (returns_to<3>({major, first, second}, trial, looser, r) ||
+        returns_to<3>({major, compression, first}, trial, looser, r)) {
+      r.stress = {m.tension, m.tension, least};
+      return true;
+    }
+    if (returns_to<3>({major, extension, first}, trial, looser, r)) {
+      r.stress = {m.tension, least, least};
+      return true;
+    }
+    if (!returns_to<3>({first, second, third}, trial, looser, r)) return false;
+    r.regime = MohrCoulombRegime::apex;
+    return true;
+  }
+};
+
+/// Return to the pyramid with its cut-off, where the pyramid's own lies beyond the latter.
+inline PrincipalReturn return_to_cut_pyramid(const MohrCoulomb& m, double sin_psi,
+                                             const Eigen::Vector3d& trial) {
+  const CutPyramid cut(m, sin_psi);
+  PrincipalReturn r;
+  // A trial between two parts may miss both by round-off, the more the flatter a corner is.
+  for (double looser = 1; looser < 1e9; looser *= 1e3) {
+    if (cut.returns(m, trial, looser, r)) return r;
+  }
+  r.regime = MohrCoulombRegime::apex;
+  r.stress.setConstant(m.tension);
+  r.jacobian.setZero();
+  return r;
+}
+
+/// Return of sorted principal trial stresses (falling order) to the surface.
+inline PrincipalReturn return_principal(const MohrCoulomb& m, double sin_psi,
+                                        const Eigen::Vector3d& trial) {
+  const PrincipalReturn r = return_to_pyramid(m, sin_psi, trial);
+  // No tension at all, as for nearly every soil, costs a comparison.
+  if (r.stress[0] <= m.tension || r.stress[0] <= m.tension + plane_allowance(trial, m.tension)) {
+    return r;
+  }
+  return return_to_cut_pyramid(m, sin_psi, trial);
 }
 
 template <int Dim>

@@ -21,6 +21,7 @@ struct MaterialParameters {
   double dilation_angle = 0;
   double density = 0;
   double dilation_cutoff = std::numeric_limits<double>::infinity();
+  double tension_cutoff = std::numeric_limits<double>::infinity();
 
   /// Calls visitor(name, field) for every field, in a fixed order.
   template <class Visitor>
@@ -47,6 +48,7 @@ struct MaterialParameters {
     visitor("dilation_angle", self.dilation_angle);
     visitor("density", self.density);
     visitor("dilation_cutoff", self.dilation_cutoff);
+    visitor("tension_cutoff", self.tension_cutoff);
   }
 };
 

@@ -8,6 +8,7 @@
 #include <boost/serialization/version.hpp>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "constitutive/material.hpp"
 #include "constitutive/state.hpp"
@@ -22,7 +23,7 @@
 namespace constitutive {
 
 /// Class version of an archived `MaterialParameters`; raised when its fields change.
-inline constexpr int material_parameters_version = 1;
+inline constexpr int material_parameters_version = 2;
 
 /// Class version of an archived `PointState`; raised when its fields change.
 inline constexpr int point_state_version = 1;
@@ -88,7 +89,14 @@ template <class Archive>
 void load(Archive& archive, constitutive::MaterialParameters& p, unsigned int version) {
   constitutive::detail::refuse_newer(version, constitutive::material_parameters_version,
                                      "constitutive::MaterialParameters");
-  p.for_each_field(constitutive::detail::FieldLoader<Archive>{archive});
+  const constitutive::detail::FieldLoader<Archive> loader{archive};
+  constexpr unsigned int with_tension_cutoff = 2;
+  p.for_each_field([&](const char* name, auto& field) {
+    if (version < with_tension_cutoff && std::string_view(name) == "tension_cutoff") {
+      return;  // a record from before there was one: it keeps its default
+    }
+    loader(name, field);
+  });
 }
 
 /// Boost's entry point for `MaterialParameters`.

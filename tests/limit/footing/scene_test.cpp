@@ -162,6 +162,11 @@ TEST(SceneCase, RefusesWhatIsNoSuchFootingByFileLineAndKey) {
   };
   EXPECT_THAT(refusal({"gravity.acceleration=[1.0, -9.81]", "material.0.density=1800.0"}),
               HasSubstr("gravity.acceleration"));
+  EXPECT_THAT(refusal({"material.0.tension_cutoff=0"}), HasSubstr("material.0.tension_cutoff"));
+  EXPECT_THAT(refusal({"material.0.cohesion={ at = [0, 0], value = 1e3, gradient = [0, -1e3] }"}),
+              HasSubstr("material.0.cohesion: it changes from place to place"));
+  EXPECT_THAT(refusal({"material.0.unit_weight=18e3", "water.table=[[0, 0], [5, 0]]"}),
+              HasSubstr("water: the ground is under water"));
   EXPECT_THAT(refusal({"drive.range_min=0.5"}), HasSubstr("drive.range_min"));
   EXPECT_THAT(refusal({"support.1.side=left"}), HasSubstr("support.1"));
   EXPECT_THAT(refusal({"support.1.directions=[\"y\"]"}), HasSubstr("test.toml"));

@@ -115,6 +115,41 @@ TEST(SceneOfBoth, SeeksWhatItSays) {
   EXPECT_NEAR(sought->materials[1].soil.unit_weight, 19e3, 1e-9);
 }
 
+std::string with(const std::string& what, const std::string& instead) {
+  std::string text = both;
+  return text.replace(text.find(what), what.size(), instead);
+}
+
+TEST(SceneOfBoth, HasTheSameWater) {
+  const auto ground =
+      ground_of(with("unit_weight = 19e3", "unit_weight = 19e3\nsaturated_unit_weight = 21e3") +
+                "[water]\nunit_weight = 10e3\ntable = [[-1, 1.5], [2, 1], [4, 1]]\n");
+  ASSERT_TRUE(ground);
+  EXPECT_EQ(ground->water.unit_weight, 10e3);
+  ASSERT_EQ(ground->water.table.size(), 3U);
+  EXPECT_EQ(ground->water.table[0], mesh::Point(-1.0, 1.5));
+  EXPECT_NEAR(ground->materials[1].saturated_unit_weight.value_or(0.0), 21e3, 1e-9);
+  EXPECT_FALSE(ground->materials[0].saturated_unit_weight);
+  const auto share = ground_of(both + "[water]\nr_u = 0.3\n");
+  ASSERT_TRUE(share);
+  EXPECT_EQ(share->water.r_u, 0.3);
+  EXPECT_TRUE(share->water.is_there());
+}
+
+TEST(SceneOfBoth, HasTheSameCohesionThatVaries) {
+  std::vector<std::string> errors;
+  const auto ground = ground_of(
+      with("cohesion = 5e3", "cohesion = { at = [0, 2], value = 5e3, gradient = [0, -1e3] }"),
+      &errors);
+  ASSERT_TRUE(ground) << errors.front();
+  EXPECT_NEAR(ground->materials[0].soil.cohesion_at({1.0, 1.25}), 5.75e3, 1e-9);
+  // Zero in a corner will do for fpm-run, whose particles are within.
+  EXPECT_FALSE(ground_of(
+      with("cohesion = 5e3", "cohesion = { at = [0, 2], value = 0, gradient = [0, -1e3] }"),
+      &errors));
+  EXPECT_THAT(errors, ElementsAre(HasSubstr("material.0.cohesion: 0 at (2, 2), in region crust")));
+}
+
 TEST(SceneOfBoth, SaysWhatFpmLimitDoesNotBracket) {
   std::vector<std::string> errors;
   EXPECT_FALSE(ground_of(both + "[[cutout]]\nname = \"tunnel\"\ncentre = [1, 0.5]\nradius = 0.2\n"
@@ -122,6 +157,18 @@ TEST(SceneOfBoth, SaysWhatFpmLimitDoesNotBracket) {
                          &errors));
   EXPECT_THAT(errors, ElementsAre(HasSubstr("cutout: the ground has cutouts"),
                                   HasSubstr("it holds something else than a side does")));
+  errors.clear();
+  EXPECT_FALSE(
+      ground_of(with("unit_weight = 19e3", "unit_weight = 19e3\ntension_cutoff = 0"), &errors));
+  EXPECT_THAT(errors, ElementsAre(HasSubstr("material.1.tension_cutoff: found 0; the bounds are "
+                                            "those of a soil without a tension cut-off")));
+  errors.clear();
+  std::string heavier = with("kind = \"displacement\"\ntarget = 0.01",
+                             "kind = \"load\"\nscales = [\"gravity\"]\n[programme]\nsteps = 2");
+  heavier.replace(heavier.find("kind = \"footing\"\nbase = \"smooth\""), 32, "kind = \"free\"");
+  heavier += "[water]\ntable = [[0, 1], [3, 1]]\n";
+  EXPECT_FALSE(ground_of(heavier, &errors));
+  EXPECT_THAT(errors, ElementsAre(HasSubstr("drive.scales: found gravity, in ground under water")));
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "limit/ground/ground_cases.hpp"
+#include "limit/ground/ground_water.hpp"
+#include "shape/outline.hpp"
 
 namespace {
 
@@ -137,13 +139,46 @@ TEST(Water, WeakensASlope) {
   EXPECT_GT(*flooded.lower, *dry.upper);
 }
 
-std::string complaint(const std::string& table) {
+// A share of the overburden is the pressure of seepage along the face: the same known factor, and
+// the same force everywhere.
+TEST(Water, IsAShareOfTheOverburdenAsWell) {
+  const std::string share = "[water]\nr_u = 0.5\n";
+  const auto skin = case_of(slope(0.0, share)), of_table = case_of(slope(0.0, along_the_face()));
+  ASSERT_TRUE(skin && skin->associated.known_upper && of_table);
+  EXPECT_NEAR(*skin->associated.known_upper, *of_table->associated.known_upper, 1e-9);
+  const auto wet_scene = [](const std::string& text) {
+    tables::Diagnosis diagnosis("scene");
+    std::optional<tables::Complaint> unreadable;
+    auto scene = ground::read_ground_scene(text, {}, diagnosis, unreadable);
+    ground::wet(*scene, diagnosis);
+    return *scene;
+  };
+  const ground::GroundScene shared = wet_scene(slope(1e3, share));
+  const ground::GroundScene seeping = wet_scene(slope(1e3, along_the_face()));
+  const auto force_at = [](const ground::GroundScene& scene, const mesh::Point& place) {
+    for (const ground::GroundRegion& region : scene.regions) {
+      if (shape::is_inside(region.outline, place)) {
+        return scene.materials[region.material].soil.seepage;
+      }
+    }
+    return mesh::Point(NAN, NAN);
+  };
+  for (const mesh::Point& place : {mesh::Point(-5.0, 3.0), mesh::Point(9.0, 2.0),
+                                   mesh::Point(20.0, -1.0), mesh::Point(32.0, -2.0)}) {
+    EXPECT_LT((force_at(shared, place) - force_at(seeping, place)).norm(), 1e-6) << place.x();
+  }
+}
+
+std::string complaint_of(const std::string& text) {
   tables::Diagnosis diagnosis("scene");
   std::optional<tables::Complaint> unreadable;
-  const auto scene =
-      ground::read_ground_scene(footing(20e3, water(table)), {}, diagnosis, unreadable);
+  const auto scene = ground::read_ground_scene(text, {}, diagnosis, unreadable);
   if (scene) static_cast<void>(ground::ground_case(*scene, diagnosis));
   return diagnosis.errors().empty() ? "" : diagnosis.errors().front().text();
+}
+
+std::string complaint(const std::string& table) {
+  return complaint_of(footing(20e3, water(table)));
 }
 
 TEST(Water, WhoseTableIsNoneIsRefusedInWords) {
@@ -152,6 +187,23 @@ TEST(Water, WhoseTableIsNoneIsRefusedInWords) {
       AllOf(HasSubstr("water.table"), HasSubstr("from x = 0 to 4"), HasSubstr("5 or more")));
   EXPECT_THAT(complaint("[[0, 0], [3, 0], [3, -1], [5, 0]]"), HasSubstr("x = 3 after 3"));
   EXPECT_THAT(complaint("[[0, 0]]"), HasSubstr("over all of the ground"));
+}
+
+TEST(Water, WhoseShareIsNoneIsRefusedInWords) {
+  const std::string share = "[water]\nr_u = 0.5\n";
+  EXPECT_THAT(complaint_of(footing(20e3, share + "table = [[0, 0], [5, 0]]\n")),
+              HasSubstr("water.r_u: found 0.5, and a table"));
+  std::string heavier = slope(1e3, share);
+  heavier.replace(heavier.find("\"strength\""), 10, "\"gravity\"");
+  EXPECT_THAT(complaint_of(heavier), HasSubstr("water.r_u: found 0.5, with gravity sought"));
+  // The face made upright.
+  std::string cut = slope(1e3, share);
+  const std::string toe = fmt::format("[{}, 0], [0, 10]", 10.0 / std::tan(20.0 * degree));
+  cut.replace(cut.find(toe), toe.size(), "[0, 0], [0, 10]");
+  const std::string back = fmt::format("[0, 10], [{}, 0]", 10.0 / std::tan(20.0 * degree));
+  cut.replace(cut.find(back), back.size(), "[0, 10], [0, 0]");
+  EXPECT_THAT(complaint_of(cut), HasSubstr("water.r_u: the weight above jumps by 200000 Pa below "
+                                           "the upright face at x = 0"));
 }
 
 }  // namespace

@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/check.hpp"
+#include "scene/names.hpp"
+#include "scene/water.hpp"
+
+namespace scene {
+namespace {
+
+void check_saturated(const Scene& scene, std::size_t m, tables::Diagnosis& diagnosis) {
+  const Material& material = scene.material[m];
+  const std::string key = fmt::format("material.{}.saturated_unit_weight", m);
+  if (!material.saturated_unit_weight || !diagnosis.good({key})) return;
+  const double weight = *material.saturated_unit_weight;
+  if (material.unit_weight.value_or(0.0) <= 0.0) {
+    diagnosis.error(key, fmt::format("found {} without a unit_weight", weight),
+                    "give the unit_weight above the water table, too");
+  } else if (scene.water.table.empty()) {
+    diagnosis.warning(key, fmt::format("found {} without a water table", weight),
+                      "it has no effect: only below water.table ground is saturated");
+  }
+}
+
+// Ground lighter than water has no stress that is geostatic, and none of gravity.
+void check_floats(const Scene& scene, tables::Diagnosis& diagnosis) {
+  for (std::size_t m = 0; m < scene.material.size() && !scene.water.table.empty(); ++m) {
+    const Material& material = scene.material[m];
+    const double dry = material.unit_weight.value_or(0.0);
+    const double weight = material.saturated_unit_weight.value_or(dry);
+    if (weight <= 0.0 || weight >= scene.water.unit_weight) continue;
+    diagnosis.warning(
+        fmt::format("material.{}.{}", m,
+                    material.saturated_unit_weight ? "saturated_unit_weight" : "unit_weight"),
+        fmt::format("found {}, less than the water's {}", weight, scene.water.unit_weight),
+        "it floats below the water table");
+  }
+}
+
+void check_table(const Scene& scene, tables::Diagnosis& diagnosis) {
+  if (!box_is_good(scene, diagnosis)) return;
+  shape::Point low(scene.geometry.min[0], scene.geometry.min[1]);
+  shape::Point high(scene.geometry.max[0], scene.geometry.max[1]);
+  if (!scene.region.empty()) {
+    // The box may be a part of a spacing wider.
+    low = high = {scene.region[0].outline[0].x(), scene.region[0].outline[0].y()};
+    for (const Region& region : scene.region) {
+      for (const PlanePoint& place : region.outline) {
+        low = low.cwiseMin(shape::Point(place.x(), place.y()));
+        high = high.cwiseMax(shape::Point(place.x(), place.y()));
+      }
+    }
+  }
+  shape::Ring table;
+  for (const PlanePoint& place : scene.water.table) table.emplace_back(place.x(), place.y());
+  if (!shape::is_water_table(table, low, high, diagnosis)) return;
+  const auto lowest = std::ranges::min(table, {}, [](const auto& point) { return point.y(); });
+  const auto highest = std::ranges::max(table, {}, [](const auto& point) { return point.y(); });
+  if (scene.initial_stress.kind == InitialStressKind::geostatic && lowest.y() != highest.y() &&
+      diagnosis.good({"initial_stress.kind"})) {
+    diagnosis.error("water.table",
+                    fmt::format("found levels from {} to {} with a geostatic initial stress",
+                                lowest.y(), highest.y()),
+                    "water that seeps leaves no geostatic stress: kind = \"gravity\", or a level "
+                    "table");
+  }
+}
+
+void check_share(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const char* const key = "water.r_u";
+  if (scene.region.empty()) {
+    diagnosis.error(key, fmt::format("found {} in a box", *scene.water.r_u),
+                    "it belongs to a body of [[region]]s; in a box give a table");
+  } else if (!scene.cutout.empty()) {
+    diagnosis.error(key, fmt::format("found {} in ground with a cutout", *scene.water.r_u),
+                    "there is no weight above it that was not borne by what is cut out: give a "
+                    "table");
+  } else {
+    static_cast<void>(shape::has_overburden(heavy_regions(scene), key, diagnosis));
+  }
+}
+
+}  // namespace
+
+void check_water(const Scene& scene, tables::Diagnosis& diagnosis) {
+  if (!diagnosis.good({"water", "water.table", "water.unit_weight", "water.r_u", "material",
+                       "geometry.dimension", "gravity.acceleration"})) {
+    return;
+  }
+  for (std::size_t m = 0; m < scene.material.size(); ++m) check_saturated(scene, m, diagnosis);
+  if (!has_water(scene)) return;
+  const std::string key = scene.water.r_u ? "water.r_u" : "water.table";
+  if (scene.water.r_u && !scene.water.table.empty()) {
+    diagnosis.error(key, fmt::format("found {}, and a table", *scene.water.r_u),
+                    "the pressure is what one of them says: leave the other out");
+  } else if (scene.geometry.dimension != 2) {
+    diagnosis.error(key, "found in 3D", "pore water is for plane bodies");
+  } else if (scene.gravity.acceleration.size() != 2 || scene.gravity.acceleration[1] >= 0.0) {
+    diagnosis.error(key, "found in ground without weight",
+                    "give materials a unit_weight, or gravity.acceleration downwards");
+  } else if (scene.water.r_u) {
+    check_share(scene, diagnosis);
+  } else {
+    check_table(scene, diagnosis);
+    check_floats(scene, diagnosis);
+  }
+}
+
+}  // namespace scene
