@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "model/build.hpp"
+#include "model/particle_fields.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
 
@@ -87,6 +88,21 @@ TEST(Laws, OfFacesChangeFromPlaceToPlaceAsWell) {
     }
   }
   EXPECT_EQ(points, uniform.interface_points());
+}
+
+// Pure shear of 400 Pa, as a share of what each place bears.
+TEST(Laws, SayHowMuchOfTheirStrengthIsUsed) {
+  const Model<2> model =
+      model_of({"material.0.cohesion={ at = [0, 0.5], value = 1e3, gradient = [0, -500] }"});
+  State<2> state = initial_state(model);
+  state.stress.row(3).setConstant(400.0);
+  const std::vector<std::string> wanted{"utilisation"};
+  const auto fields = particle_fields<2>(model, state, wanted);
+  ASSERT_EQ(fields.size(), 1U);
+  for (Eigen::Index a = 0; a < model.size(); ++a) {
+    EXPECT_NEAR(fields[0].values[static_cast<std::size_t>(a)], 400.0 / strength_of(model, a),
+                1e-12);
+  }
 }
 
 }  // namespace
