@@ -35,6 +35,7 @@ struct Attempt {
   double seconds = 0.0;             // of processor time, certificate included
   std::optional<double> certified;  // the bound, if the certificate holds
   double proposed = 0.0;            // what the solver claims; not a number if nothing
+  std::optional<double> factor{};   // that divided the strength, where one is sought
 };
 
 /// A certified bound, the mesh it was found on and the attempt that found it.

@@ -120,8 +120,11 @@ class Flank {
     once.fall_back = failures_ > 2;
     constexpr int enough = 120;  // what takes more, twice what most do, ends nowhere
     once.max_iterations = std::min(once.max_iterations, enough);
-    side_.attempt(found, once, watch);
-    attempts.insert(attempts.end(), found.attempts.begin(), found.attempts.end());
+    side_.attempt(found, once, [&](Attempt attempt) {
+      attempt.factor = factor;
+      attempts.push_back(attempt);
+      if (watch) watch(attempt);
+    });
     learn(factor, found);
     keep(factor, found);
   }
