@@ -52,6 +52,7 @@ class ConeSystem {
   [[nodiscard]] Solution left(const Eigen::VectorXd& first, const Eigen::VectorXd& second,
                               const Solution& at) const;
   [[nodiscard]] Eigen::VectorXd curve(const Eigen::VectorXd& x) const;  // H x
+  [[nodiscard]] Eigen::VectorXd stiffness() const;  // 1 + the diagonal of H
   // (H + little)^-1 x, 0 in the border.
   [[nodiscard]] Eigen::VectorXd uncurve(const Eigen::VectorXd& x) const;
 

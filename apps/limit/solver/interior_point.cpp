@@ -77,10 +77,15 @@ class InteriorPoint {
     }
     if (!(std::max(steps.primal, steps.dual) > 1e-6)) return false;
     const InteriorPoint::State before{x_, y_, z_};
+    const double off_before = off_equations_.lpNorm<Eigen::Infinity>();
     x_ += steps.primal * way.x;
     y_ += steps.dual * way.y;
     for (std::size_t k = 0; k < z_.size(); ++k) z_[k] += steps.dual * way.z[k];
     update();
+    // Of a whole step nothing is left but what the system could not solve.
+    constexpr double hardly = 0.1;
+    must_hold_ = steps.primal >= 1.0 && !equations_hold(none) &&
+                 off_equations_.lpNorm<Eigen::Infinity>() > hardly * off_before;
     if (is_inside() && (centres || is_feasible())) return true;
     std::tie(x_, y_, z_) = std::tie(before.x, before.y, before.z);
     update();
@@ -176,8 +181,9 @@ class InteriorPoint {
           scalings_[k].inverse_times(second_order_cone::quotient(wanted[k], scalings_[k].point));
       first.segment<3>(static_cast<Index>(3 * k)) -= form(k).cwiseProduct(fixed[k]);
     }
-    // While centring, what a direction lacks is left to the next.
-    ConeSystem::Solution solution = system_.solve(first, -share * off_equations_, is_feasible());
+    // While centring, what a direction lacks is left to the next, unless that gets nowhere.
+    ConeSystem::Solution solution =
+        system_.solve(first, -share * off_equations_, is_feasible() || must_hold_);
     Direction way{std::move(solution.x), std::move(solution.y), Cones(cones), Cones(cones)};
     const VectorXd strain = share * off_multipliers_ + program_.equations.transpose() * way.y;
     for (std::size_t k = 0; k < cones; ++k) {
@@ -219,6 +225,7 @@ class InteriorPoint {
   double gap_ = 0.0;
   double begun_with_ = 0.0;
   bool was_feasible_ = false;
+  bool must_hold_ = false;  // the equations after each direction, to rounding
   std::vector<Scaling> scalings_;
 };
 
