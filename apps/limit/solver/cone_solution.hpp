@@ -38,6 +38,7 @@ struct ConeSolution {
   SolverStatus status = SolverStatus::failed;
   std::string message;  // the solver's own word for it
   int iterations = 0;
+  double work = 0.0;  // operations, roughly: what it cost, the same each time
 };
 
 }  // namespace limit::solver

@@ -60,6 +60,7 @@ class InteriorPoint {
   [[nodiscard]] const VectorXd& variables() const { return x_; }
   [[nodiscard]] const VectorXd& multipliers() const { return y_; }
   [[nodiscard]] double gap() const { return gap_; }
+  [[nodiscard]] double work() const { return system_.work(); }
   [[nodiscard]] double scale() const { return std::max(1.0, std::abs(program_.cost.dot(x_))); }
   /// Whether both kinds of equations have held, and still do but for rounding.
   [[nodiscard]] bool is_feasible() const { return was_feasible_ && holds(little); }
@@ -234,8 +235,8 @@ class InteriorPoint {
 ConeSolution solve_by_interior_point(const programme::ConeProgram& program,
                                      const SolverOptions& options) {
   const ScaledProgram scaled(program);
-  constexpr double loosely = 100.0;
-  InteriorPoint point(scaled, loosely * options.cone_gap);
+  const double acceptable = std::max(1e-3, options.cone_gap);
+  InteriorPoint point(scaled, acceptable);
   ConeSolution solution;
   const std::clock_t began = std::clock();
   const auto seconds = [&] { return static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC; };
@@ -258,7 +259,7 @@ ConeSolution solve_by_interior_point(const programme::ConeProgram& program,
     } else if (point.advance()) {
       continue;
     } else {
-      const bool is_close = is_within(loosely * options.cone_gap);
+      const bool is_close = is_within(acceptable);
       solution.status = is_close ? SolverStatus::acceptable : SolverStatus::failed;
       solution.message =
           is_close ? "acceptable, no further step for rounding" : "no further step for rounding";
@@ -267,6 +268,7 @@ ConeSolution solve_by_interior_point(const programme::ConeProgram& program,
   }
   solution.variables = scaled.variables(point.variables());
   solution.multipliers = scaled.multipliers(point.multipliers());
+  solution.work = point.work();
   return solution;
 }
 

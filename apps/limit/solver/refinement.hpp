@@ -16,11 +16,12 @@ struct NewtonSolution {
 /// Iterative refinement by generalised conjugate residuals: each correction goes as far, and along
 /// with those before it, as leaves least of both sides. What a solve gets wrong in a few directions
 /// only, as one does whose matrix was made definite where equations nearly depend on each other, is
-/// gone after about as many corrections, however wrong. Goes on as long as what is left is halved by
-/// two of them, and returns the iterate that satisfies the equations, the second of them, best.
+/// gone after about as many corrections, however wrong. Goes on as long as what is left is halved
+/// by two of them, and returns the iterate that satisfies the equations, the second of them, best.
 /// @param solve  (first, second) -> NewtonSolution, roughly
 /// @param left   NewtonSolution -> what is left of both sides, as a NewtonSolution
-/// @param stiffness  of each x: what is left of the first equations counts as the error in x that it
+/// @param stiffness  of each x: what is left of the first equations counts as the error in x that
+/// it
 ///               is, for what curvature of 1e10 makes of x' last digits is none
 template <class Solve, class Left>
 [[nodiscard]] NewtonSolution refined(const Eigen::VectorXd& first, const Eigen::VectorXd& second,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "limit/bracket/bracket.hpp"
@@ -75,6 +76,31 @@ TEST(Budget, WhatIsLeftIsHandedFromSolveToSolve) {
   (void)bracket::bracket(strip(), strip(), options(budget), {}, workshop.means);
   EXPECT_EQ(workshop.given.size(), 6U);  // at 0, 8, .. 40 s
   expect_the_rest(workshop, budget);
+}
+
+// What is refined next is a matter of what was gained for how much work, not of who else keeps the
+// machine busy.
+TEST(Budget, WhatIsRefinedNextDoesNotDependOnTheClock) {
+  std::vector<std::vector<std::pair<bool, int>>> ways;
+  for (const double later : {0.1, 10.0}) {
+    double now = 0.0, takes = 1.0;
+    bracket::Means means;
+    means.seconds = [&now] { return now; };
+    means.solve = [&](const programme::ConeProgram& program, const solver::SolverOptions&) {
+      now += takes;
+      takes *= later;
+      return solver::solve(program, {});
+    };
+    bracket::BracketOptions once = options(1e30);
+    once.max_triangles = 800;
+    const bracket::Bracket found = bracket::bracket(strip(), strip(), once, {}, means);
+    std::vector<std::pair<bool, int>>& way = ways.emplace_back();
+    for (const bracket::Attempt& attempt : found.attempts) {
+      way.emplace_back(attempt.is_lower, attempt.triangles);
+    }
+  }
+  EXPECT_GT(ways[0].size(), 6U);
+  EXPECT_EQ(ways[0], ways[1]);
 }
 
 TEST(Budget, FallBacksShareItAndAreNotAskedWhenItIsSpent) {
