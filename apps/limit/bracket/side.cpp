@@ -72,6 +72,7 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
     solver.form = form;
     solver.max_iterations = options.max_iterations;
     solver.cone_gap = options.solver_gap;
+    solver.wants_interior = !is_lower_;
     const double start = means_.seconds();
     const double left = options.max_seconds - (start - began);
     if (left <= 0.0 && form != forms.front()) break;

@@ -355,7 +355,9 @@ class Reduction {
     const auto solve = [&](Flank& of, double factor) {
       if (remaining() <= 0.0) return false;
       BracketOptions rest = options_;
-      rest.max_seconds = remaining();
+      // What takes more than a good share of it ends nowhere, and another factor might.
+      constexpr double share = 0.3;
+      rest.max_seconds = std::min(remaining(), share * options_.max_seconds);
       rest.solver_gap = solver_gap();
       of.solve_at(factor, rest, watch_, result_.bracket.attempts);
       return gap() > options_.gap || !of.factor();

@@ -21,6 +21,9 @@ using Cones = std::vector<Vector3d>;
 // Residuals, relative to an objective of order one, that count as none when the descent begins, and
 // what rounding may make of them on the way; certificates mend that much.
 constexpr double none = 1e-9, little = 1e-8;
+// Where no multipliers well inside are wanted, the descent takes away so much of them, too, each
+// step as much as its length, as long as steps are no shorter than this.
+constexpr double rough = 1e-3, stuck = 0.1;
 
 // Where centring crawls though the equations hold, the multipliers it has to reach, which grow with
 // the load, are far above those of the start: it begins anew with more, at most with so many.
@@ -52,8 +55,9 @@ double damped(double largest, bool centres) {
 class InteriorPoint {
  public:
   /// @param acceptable  duality gap, as a share of the objective, to end at if it must
-  InteriorPoint(const ScaledProgram& program, double acceptable)
-      : program_(program), system_(program), acceptable_(acceptable) {
+  /// @param rough       residuals with which the descent may begin, to be taken away on it
+  InteriorPoint(const ScaledProgram& program, double acceptable, double rough)
+      : program_(program), system_(program), acceptable_(acceptable), rough_(rough) {
     begin(1.0);
   }
 
@@ -65,10 +69,13 @@ class InteriorPoint {
   /// Whether both kinds of equations have held, and still do but for rounding.
   [[nodiscard]] bool is_feasible() const { return was_feasible_ && holds(little); }
 
+  /// Whether the equations hold well enough to go down.
+  [[nodiscard]] bool descends() const { return is_feasible() || holds(rough_); }
+
   /// One iteration; nothing, with all as it was, if no step could be made.
   [[nodiscard]] bool advance() {
     if (!factorise()) return false;
-    const bool centres = !is_feasible();
+    const bool centres = !descends() || (is_stuck_ && !is_feasible());
     Direction way = centres ? direction(1.0, complementarity(1.0)) : predicted_and_corrected();
     const Steps steps{damped(largest_step(slacks_, way.slacks), centres),
                       damped(largest_step(z_, way.z), centres)};
@@ -87,7 +94,8 @@ class InteriorPoint {
     constexpr double hardly = 0.1;
     must_hold_ = steps.primal >= 1.0 && !equations_hold(none) &&
                  off_equations_.lpNorm<Eigen::Infinity>() > hardly * off_before;
-    if (is_inside() && (centres || is_feasible())) return true;
+    is_stuck_ = std::min(steps.primal, steps.dual) < stuck;
+    if (is_inside() && (is_feasible() || !was_feasible_)) return true;
     std::tie(x_, y_, z_) = std::tie(before.x, before.y, before.z);
     update();
     return false;
@@ -219,7 +227,7 @@ class InteriorPoint {
 
   const ScaledProgram& program_;
   ConeSystem system_;
-  double acceptable_;
+  double acceptable_, rough_;
   VectorXd x_, y_;
   Cones z_, slacks_;
   VectorXd off_equations_, off_multipliers_;
@@ -227,6 +235,7 @@ class InteriorPoint {
   double begun_with_ = 0.0;
   bool was_feasible_ = false;
   bool must_hold_ = false;  // the equations after each direction, to rounding
+  bool is_stuck_ = false;   // the last step was a short one
   std::vector<Scaling> scalings_;
 };
 
@@ -236,7 +245,7 @@ ConeSolution solve_by_interior_point(const programme::ConeProgram& program,
                                      const SolverOptions& options) {
   const ScaledProgram scaled(program);
   const double acceptable = std::max(1e-3, options.cone_gap);
-  InteriorPoint point(scaled, acceptable);
+  InteriorPoint point(scaled, acceptable, options.wants_interior ? none : rough);
   ConeSolution solution;
   const std::clock_t began = std::clock();
   const auto seconds = [&] { return static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC; };
