@@ -90,6 +90,7 @@ TEST(Earthquake, IsTheSameToProgrammesAndCertificates) {
     ASSERT_TRUE(problem);
     bracket::BracketOptions once;
     once.max_triangles = 1;
+    once.fall_back = false;
     const bracket::Solution found = bracket::solution_of(problem->associated, once, {});
     ASSERT_TRUE(found.lower && found.upper);
     ASSERT_EQ(found.bracket.attempts.size(), 2U);
