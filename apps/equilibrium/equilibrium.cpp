@@ -415,6 +415,7 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
     forces.external_work += (step_.load - state_.programme.load) * interface.drive.dot(held);
   }
   forces.external_work += interfaces_.work_of_plates(step_.load);
+  forces.settlement = interfaces_.settlement();
   extend_increment(increment);
   forces.hourglass_work = hourglass_work(loop_data());
   forces.external_work += step_.external.dot(increment);

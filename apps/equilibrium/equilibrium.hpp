@@ -29,6 +29,7 @@ struct StepForces {
   double external_work = 0.0;   // [J/m or J] of this step, by reactions and loads
   Eigen::Index plastic = 0;     // particles that yielded in this step
   double max_plastic_strain = 0.0;
+  double settlement = 0.0;  // [m] of a loaded plate, along its load, since the run began
 };
 
 /// Equilibrium of one step as a residual functor: r(du) = f_int + f_hourglass - f_ext, zeroed at

@@ -155,6 +155,16 @@ double InterfaceForces<Dim>::work_of_plates(double load) const {
 }
 
 template <int Dim>
+double InterfaceForces<Dim>::settlement() const {
+  for (std::size_t i = 0; i < model_.interfaces.size(); ++i) {
+    const auto& plate = model_.interfaces[i].plate;
+    if (!plate || plate->force.isZero(0.0)) continue;
+    return plate->force.normalized().dot(motion_[i].template head<Dim>());
+  }
+  return 0.0;
+}
+
+template <int Dim>
 void InterfaceForces<Dim>::commit(model::State<Dim>& state) const {
   state.interface_slip = slip_;
   state.interface_traction = traction_;

@@ -13,7 +13,8 @@ namespace record {
 struct CurveRow {
   std::int64_t step = 0;
   double load_parameter = 0.0;      // 0 .. 1 of the drive
-  double settlement = 0.0;          // [m] of the driven side along its direction
+  double settlement = 0.0;          // [m] of the driven side along its direction, or of a loaded
+                                    // plate along its load, where that acts
   double settlement_over_B = 0.0;   // over drive.reference_length
   double reaction = 0.0;            // [N/m], 3D [N], along the drive, positive against it
   double mean_pressure = 0.0;       // [Pa] reaction / width

@@ -52,14 +52,19 @@ std::string end_report(const scene::Scene& scene, const std::vector<std::string>
   std::int64_t evaluations = 0;
   for (const record::CurveRow& row : history) evaluations += row.evaluations;
   std::string load = fmt::format("{:.6g} of the programme", last.load_parameter);
-  if (scene.drive.kind == scene::DriveKind::displacement) {
+  const bool displaced = scene.drive.kind == scene::DriveKind::displacement;
+  if (displaced || scene::loads_plate(scene.drive)) {
     load += fmt::format(", settlement {:.6g} m", last.settlement);
     if (scene.drive.reference_length) load += fmt::format(", d/B {:.6g}", last.settlement_over_B);
     line("load", load);
-    line("pressure", scene.drive.width ? fmt::format("{:.6g} Pa mean, {:.6g} Pa energy-corrected",
-                                                     last.mean_pressure, last.corrected_pressure)
-                                       : fmt::format("reaction {:.6g} {}", last.reaction,
-                                                     scene.geometry.dimension == 2 ? "N/m" : "N"));
+    std::string pressure = fmt::format("reaction {:.6g} {}", last.reaction,
+                                       scene.geometry.dimension == 2 ? "N/m" : "N");
+    if (scene.drive.width) {
+      pressure = fmt::format("{:.6g} Pa mean", last.mean_pressure);
+      if (displaced)
+        pressure += fmt::format(", {:.6g} Pa energy-corrected", last.corrected_pressure);
+    }
+    line("pressure", pressure);
   } else {
     line("load", load);
   }

@@ -36,6 +36,7 @@ const std::string rough = "friction_angle = 40.0\nadhesion = 1e6\n";
 
 struct Result {
   fpm::Field<2> displacement;
+  stepping::StepRecord last;
   double force = 0.0;   // of the plate on the ground, downwards [N/m]
   double moment = 0.0;  // about a point of the plate [N m/m]
   bool open = false;    // anywhere below it
@@ -43,8 +44,8 @@ struct Result {
 
 Result result_of(const std::string& text, double at) {
   Run<2> run(scene_of(text));
-  run.complete();
-  Result result{run.state.displacement};
+  const stepping::StepRecord last = run.complete().back();
+  Result result{run.state.displacement, last};
   const auto& points = run.model.interfaces.front().faces.points;
   for (Eigen::Index c = 0; c < points.weight.size(); ++c) {
     const double down = -points.weight[c] * run.state.interface_traction(1, c);
@@ -70,6 +71,9 @@ TEST(Plate, LoadedByWhatItTookToPushItGoesAsFar) {
     EXPECT_NEAR(by_load.force / by_motion.force, 1.0, 1e-9);
     // The residual's tolerance by the condition of the small body.
     const double tolerance = 1e-6 * 1e-3;
+    // The curve has the plate's way where its load acts, and the load.
+    EXPECT_NEAR(by_load.last.settlement, 1e-3, tolerance);
+    EXPECT_NEAR(by_load.last.reaction / by_motion.force, 1.0, 1e-9);
     EXPECT_LT((by_load.displacement - by_motion.displacement).cwiseAbs().maxCoeff(), tolerance);
     for (const Result& result : {by_motion, by_load}) {
       EXPECT_LT(std::abs(result.moment), 1e-9 * result.force);
