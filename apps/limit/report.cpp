@@ -219,8 +219,10 @@ std::string attempt_line(const problem::Case& problem, const bracket::Attempt& a
       attempt.certified ? fmt::format("{:.7g}{}", *attempt.certified * problem.units.multiplier(),
                                       unit_text(problem))
                         : "no bound";
-  return fmt::format("{} {:5d} triangles: {}, {} ({} iterations, {:.1f} s)",
-                     attempt.is_lower ? "lower" : "upper", attempt.triangles, bound,
+  const std::string at =
+      attempt.factor ? fmt::format(", factor {:.6g}", *attempt.factor) : std::string();
+  return fmt::format("{} {:5d} triangles{}: {}, {} ({} iterations, {:.1f} s)",
+                     attempt.is_lower ? "lower" : "upper", attempt.triangles, at, bound,
                      attempt.message, attempt.iterations, attempt.seconds);
 }
 

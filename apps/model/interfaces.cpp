@@ -193,11 +193,11 @@ void add_between_materials(const scene::Scene& scene, Model<Dim>& model) {
     group[static_cast<std::size_t>(c)] = {pair_of(c), law_at(c).adhesion};
     first_of.try_emplace(group[static_cast<std::size_t>(c)], c);
   }
-  for (const auto& [alike, first] : first_of) {
+  for (const auto& entry : first_of) {
     const auto part = part_of<Dim>(
-        faces, [&](Eigen::Index c) { return group[static_cast<std::size_t>(c)] == alike; });
+        faces, [&](Eigen::Index c) { return group[static_cast<std::size_t>(c)] == entry.first; });
     model.interfaces.push_back(
-        interface_at(scene, model, part, rule_of(alike.first).contact, law_at(first)));
+        interface_at(scene, model, part, rule_of(entry.first.first).contact, law_at(entry.second)));
   }
 }
 

@@ -19,8 +19,8 @@ struct LinearField {
   std::array<double, 2> at{};
   std::array<double, 2> gradient{};
 
-  LinearField(double everywhere = 0.0)  // NOLINT(google-explicit-constructor)
-      : value(everywhere) {}
+  // NOLINTNEXTLINE(google-explicit-constructor): a number is such a field
+  LinearField(double everywhere = 0.0) : value(everywhere) {}
   LinearField(double v, const std::array<double, 2>& place, const std::array<double, 2>& growth)
       : value(v), at(place), gradient(growth) {}
 

@@ -19,6 +19,8 @@ struct BracketOptions {
   int max_triangles = 12000;   // of one mesh
   double max_seconds = 120.0;  // of processor time, for all attempts together
   int max_iterations = 300;    // of the solver, per attempt
+  double solver_gap =
+      1e-5;  // at which the interior-point method ends, as a share of the multiplier
   Engine engine = Engine::interior_point;
   bool wants_mechanism = false;  // a velocity field even where a turning block is a bound
   bool fall_back = true;         // ask the other engine, and other forms, where the first one fails
@@ -33,8 +35,10 @@ struct Attempt {
   std::string message;  // the solver's
   int iterations = 0;
   double seconds = 0.0;             // of processor time, certificate included
+  double work = 0.0;                // of the solver, in operations, roughly
   std::optional<double> certified;  // the bound, if the certificate holds
   double proposed = 0.0;            // what the solver claims; not a number if nothing
+  std::optional<double> factor{};   // that divided the strength, where one is sought
 };
 
 /// A certified bound, the mesh it was found on and the attempt that found it.

@@ -9,7 +9,7 @@
 namespace limit::bracket {
 
 /// Brackets the multiplier: solves and certifies a bound on each side, then refines in turn, where
-/// the soil flows most, the side whose last refinement brought more for its time, until the gap is
+/// the soil flows most, the side whose last refinement brought more for its work, until the gap is
 /// reached or the budget spent. The best certified bound of each side is kept, so that no
 /// refinement loosens the bracket. An attempt that fails is repeated with another form of the
 /// cones, and so by another solver. Each attempt is given what is left of the budget.

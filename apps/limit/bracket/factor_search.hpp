@@ -5,10 +5,15 @@
 namespace limit::bracket {
 
 /// Where a multiplier that falls as a factor grows, and is known at a few of them, is one. The
-/// values may come from anywhere: what is found here is only what to try next.
+/// values may come from anywhere: what is found here is only what to try next. Between two of them
+/// the multiplier's inverse is taken as linear in the factor, which it is for clay, in proportion,
+/// and for an infinite slope, from tan(phi) / tan(beta) on.
 class FactorSearch {
  public:
-  explicit FactorSearch(double first) : first_(first) {}
+  /// @param first  where to begin
+  /// @param reach  how far the root is from there at first sight, as a factor; what is not enclosed
+  ///               by then is looked for further and further away
+  explicit FactorSearch(double first, double reach = 3.0) : first_(first), reach_(reach) {}
 
   /// @param has_no_end  the multiplier is at least this, and was not followed any further
   void saw(double factor, double multiplier, bool has_no_end);
@@ -29,15 +34,17 @@ class FactorSearch {
 
  private:
   struct Seen {
-    double x, y;  // logarithms of factor and multiplier
+    double factor, inverse;  // of the multiplier
     bool has_no_end;
   };
+  void learn_slope(const Seen& now);
   [[nodiscard]] double enclosed_root() const;
 
-  double first_;
+  double first_, reach_;
   std::optional<Seen> carried_, failed_;  // the nearest to the root on either side
-  double slope_ = -1.5;                   // of y over x, as far as it is known
-  int stalled_ = 0;                       // times in a row that the enclosure was hardly narrowed
+  double without_end_ = 1.0 / 3.0;  // where the inverse would be nothing, over the factor seen
+  int again_ = 0;                   // times in a row that the same end of the enclosure has moved
+  bool was_carried_ = false;        // the last one seen
 };
 
 }  // namespace limit::bracket

@@ -66,17 +66,21 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
     return std::find(given_up_.begin(), given_up_.end(), form) != given_up_.end();
   });
   ++failures_;
+  work_ = 0.0;
   for (const solver::ConeForm form : forms) {
     solver::SolverOptions solver;
     solver.form = form;
     solver.max_iterations = options.max_iterations;
+    solver.cone_gap = options.solver_gap;
+    solver.wants_interior = !is_lower_;
     const double start = means_.seconds();
     const double left = options.max_seconds - (start - began);
     if (left <= 0.0 && form != forms.front()) break;
     solver.max_seconds = std::max(1.0, left);
     const solver::ConeSolution solution = means_.solve(program, solver);
     Attempt attempt{is_lower_,        triangles(),         form, solution.status,
-                    solution.message, solution.iterations, 0.0,  std::nullopt};
+                    solution.message, solution.iterations, 0.0,  solution.work,
+                    std::nullopt};
     attempt.proposed = solution.variables.size() > 0
                            ? solution.variables[solution.variables.size() - 1]
                            : std::numeric_limits<double>::quiet_NaN();
@@ -87,6 +91,7 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
       }
     }
     attempt.seconds = means_.seconds() - start;
+    work_ += attempt.work;
     bracket.attempts.push_back(attempt);
     if (watch) watch(attempt);
     if (is_good(attempt, before)) {
@@ -97,8 +102,7 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
     if (solution.status == solver::SolverStatus::timed_out || !options.fall_back) break;
   }
   const std::optional<double> after = best(bracket);
-  const double seconds = std::max(1e-3, means_.seconds() - began);
-  if (before && after) promise_ = std::abs(*after / *before - 1.0) / seconds;
+  if (before && after) promise_ = std::abs(*after / *before - 1.0) / std::max(1.0, work_);
 }
 
 // A bisected mesh holds every field of the mesh before: its optimum cannot be worse.

@@ -18,8 +18,11 @@ class Side {
   Side(problem::Problem problem, bool is_lower, Means means = {});
 
   [[nodiscard]] int triangles() const { return static_cast<int>(problem_.mesh.triangles.size()); }
-  /// Relative gain per second of the last attempt; infinite as long as it is not known.
+  /// Relative gain of the last attempt for its work; infinite as long as it is not known. By work
+  /// and not by time, so that what is refined next does not depend on what else a machine does.
   [[nodiscard]] double promise() const { return promise_; }
+  /// Of the last attempt, in all its forms.
+  [[nodiscard]] double work() const { return work_; }
   [[nodiscard]] bool can_refine() const { return !indicators_.empty(); }
   /// Attempts in a row without a good answer.
   [[nodiscard]] int failures() const { return failures_; }
@@ -47,6 +50,7 @@ class Side {
   std::vector<double> indicators_;
   std::vector<solver::ConeForm> given_up_;
   int failures_ = 0;
+  double work_ = 0.0;
   double promise_ = std::numeric_limits<double>::infinity();
 };
 

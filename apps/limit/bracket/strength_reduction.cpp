@@ -64,9 +64,10 @@ class Flank {
   [[nodiscard]] const std::optional<double>& factor() const { return factor_; }
   [[nodiscard]] int triangles() const { return side_.triangles(); }
   [[nodiscard]] bool can_refine() const { return side_.can_refine() && failures_ < most_failures; }
-  /// Gain of the last mesh per second; infinite as long as it is not known.
+  /// Gain of the last mesh for its work; infinite as long as it is not known.
   [[nodiscard]] double promise() const { return promise_; }
-  void start_from(double factor) { search_ = FactorSearch(factor); }
+  /// @param reach  how far off it may be, as a factor
+  void start_from(double factor, double reach) { search_ = FactorSearch(factor, reach); }
 
   /// With the best fields so far.
   void give(Bracket& bracket) const {
@@ -74,25 +75,30 @@ class Flank {
     if (best_.upper) bracket.upper = best_.upper;
   }
 
-  /// Finds the factor at which this mesh's bound of the multiplier is one, to a share `near`.
-  template <class Solve>
-  void settle(double near, const Solve& solve) {
-    const std::optional<double> before = factor_;
-    const double began = means_.seconds();
+  /// Finds the factor at which this mesh's bound of the multiplier is one.
+  /// @param nearness  -> how closely, as a share of it
+  /// @param solve     (*this, factor) -> whether to go on
+  template <class Nearness, class Solve>
+  void settle(const Nearness& nearness, const Solve& solve) {
+    const std::optional<double> before = settled_;
+    work_ = 0.0;
     constexpr int most_steps = 16;
-    // To the side on which the certificate decides, by less than what is asked for.
-    const double aside = std::exp((is_lower_ ? -0.25 : 0.25) * near);
     for (int step = 0; step < most_steps && failures_ < most_failures; ++step) {
-      const double target = next_factor() * aside;
+      const double near = nearness();
+      // To the side on which the certificate decides, by less than what is asked for.
+      const double target = next_factor() * std::exp((is_lower_ ? -0.25 : 0.25) * near);
       const bool is_near = factor_ && std::abs(std::log(target / *factor_)) < near;
-      if (is_near && step > 0) break;
+      // A multiplier that is far from one says that there is more to come, where it falls off.
+      constexpr double steep_enough = 4.0;
+      if (is_near && step > 0 && excess_ < steep_enough * near) break;
       if (factor_ && 2.0 * search_.width() < near && is_near) break;
       if (!solve(*this, target)) break;
     }
-    const double seconds = std::max(1e-3, means_.seconds() - began);
-    if (!before || !factor_) return;
-    gain_ = std::log(*factor_ / *before);
-    promise_ = std::abs(gain_) / seconds;
+    settled_ = search_.root();
+    if (!before) return;
+    // Of the mesh, whether it was certified or not.
+    gain_ = std::log(*settled_ / *before);
+    promise_ = std::abs(gain_) / std::max(1.0, work_);
   }
 
   /// @param wide  by how much the bracket is wider than asked for
@@ -120,8 +126,12 @@ class Flank {
     once.fall_back = failures_ > 2;
     constexpr int enough = 120;  // what takes more, twice what most do, ends nowhere
     once.max_iterations = std::min(once.max_iterations, enough);
-    side_.attempt(found, once, watch);
-    attempts.insert(attempts.end(), found.attempts.begin(), found.attempts.end());
+    side_.attempt(found, once, [&](Attempt attempt) {
+      attempt.factor = factor;
+      attempts.push_back(attempt);
+      if (watch) watch(attempt);
+    });
+    work_ += side_.work();
     learn(factor, found);
     keep(factor, found);
   }
@@ -206,6 +216,7 @@ class Flank {
     if (factor_ && (is_lower_ ? factor <= *factor_ : factor >= *factor_)) return;
     factor_ = factor;
     best_ = found;
+    excess_ = std::abs(std::log((is_lower_ ? found.lower_bound() : found.upper_bound()) / one_));
   }
 
   bool is_lower_;
@@ -216,11 +227,14 @@ class Flank {
   Side side_;
   FactorSearch search_;
   std::optional<double> factor_;
+  double excess_ = 0.0;  // how far the multiplier is from one there, as a logarithm
   Bracket best_;
   int failures_ = 0;
   bool rests_ = false;                 // whether soils have been put to rest
   double steepest_ = std::tan(steep);  // tangent of the friction that is left to them
+  std::optional<double> settled_;      // where the last mesh's multiplier should be one
   double gain_ = 0.0;                  // of the last mesh, as a logarithm
+  double work_ = 0.0;                  // for it
   double promise_ = std::numeric_limits<double>::infinity();
 };
 
@@ -263,26 +277,24 @@ class Reduction {
   }
 
   void search() {
-    // A first mesh is far off: not to more than is of use.
-    constexpr double first = 0.5, later = 0.2;
     look_for_block();
-    if (!result_.block) settle(above_, first);
-    if (upper()) below_.start_from(*upper());
-    if (case_.has_lower) settle(below_, first);
+    if (!result_.block) settle(above_);
+    if (upper()) below_.start_from(*upper(), close);
+    if (case_.has_lower) settle(below_);
     // A block that is not the right mechanism at all. It mostly is, closer than a mesh can be.
     constexpr double far = 0.1;
-    if (result_.block && (gap() > far || !case_.has_lower)) begin_above(first);
+    if (result_.block && (gap() > far || !case_.has_lower)) begin_above();
     while (case_.has_lower && gap() > options_.gap && remaining() > 0.0) {
       if (result_.block && !has_begun_above_ && below_.triangles() > most_without_above) {
-        begin_above(first);
+        begin_above();
         continue;
       }
       Flank* next = next_to_refine();
       if (next == nullptr) break;
       next->refine(gap() / options_.gap);
-      settle(*next, later);
+      settle(*next);
     }
-    if (options_.wants_mechanism && !above_.factor()) begin_above(first);
+    if (options_.wants_mechanism && !above_.factor()) begin_above();
   }
 
   void look_for_block() {
@@ -292,10 +304,14 @@ class Reduction {
         block_factor(scaled_, one, estimate(scaled_, one), share * options_.max_seconds, means_);
   }
 
-  void begin_above(double share_of_gap) {
+  // Between what is known: at the block's own factor, only the block is to be found again.
+  void begin_above() {
     has_begun_above_ = true;
-    if (upper()) above_.start_from(*upper());
-    settle(above_, share_of_gap);
+    if (upper()) {
+      const double below = below_.factor().value_or(*upper());
+      above_.start_from(std::sqrt(*upper() * below), std::max(close, std::sqrt(*upper() / below)));
+    }
+    settle(above_);
   }
 
   [[nodiscard]] double remaining() const {
@@ -322,14 +338,31 @@ class Reduction {
     return next;
   }
 
-  void settle(Flank& flank, double share_of_gap) {
-    flank.settle(share_of_gap * options_.gap, [&](Flank& of, double factor) {
+  // Not to more than is of use: the mesh may be what is far off.
+  [[nodiscard]] double nearness() const {
+    constexpr double of_wanted = 0.2, of_gap = 0.15, roughly = 0.03, most = 0.1;
+    const double known = std::isfinite(gap()) ? std::min(of_gap * gap(), most) : roughly;
+    return std::max(of_wanted * options_.gap, known);
+  }
+
+  // As a share of the multiplier, which the factor follows at most in proportion.
+  [[nodiscard]] double solver_gap() const {
+    constexpr double share = 0.02;
+    return share * nearness();
+  }
+
+  void settle(Flank& flank) {
+    const auto solve = [&](Flank& of, double factor) {
       if (remaining() <= 0.0) return false;
       BracketOptions rest = options_;
-      rest.max_seconds = remaining();
+      // What takes more than a good share of it ends nowhere, and another factor might.
+      constexpr double share = 0.3;
+      rest.max_seconds = std::min(remaining(), share * options_.max_seconds);
+      rest.solver_gap = solver_gap();
       of.solve_at(factor, rest, watch_, result_.bracket.attempts);
-      return true;
-    });
+      return gap() > options_.gap || !of.factor();
+    };
+    flank.settle([this] { return nearness(); }, solve);
   }
 
   const BracketOptions& options_;
@@ -340,6 +373,8 @@ class Reduction {
   problem::Problem scaled_;
   const problem::Case& case_;
   Solution result_;
+  // What stresses and mechanisms come to, mostly.
+  static constexpr double close = 1.05;
   // With a block for a bound, mechanisms of a mesh are sought only where stresses do not come near.
   static constexpr int most_without_above = 5000;
   bool has_begun_above_ = false;

@@ -1,6 +1,7 @@
 #include "limit/mesh/bisection.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -98,14 +99,41 @@ class Bisector {
     return best;
   }
 
+  [[nodiscard]] const Point& node(int index) const {
+    return mesh_.nodes[static_cast<std::size_t>(index)];
+  }
+
+  [[nodiscard]] Point middle_of(const Side& side) const {
+    return (node(side.first) + node(side.second)) / 2.0;
+  }
+
+  // Four sides meet in the new node. Where they are nearly two straight lines, equilibrium across
+  // them is nearly the same equation twice, and Newton systems lose the digits that tell them
+  // apart; where they are two, it is, and nothing is lost. So the node goes to where the line
+  // between the opposite nodes crosses the side, if that is next to its middle.
+  [[nodiscard]] Point crossing_of(const Side& side, int left, int right) const {
+    const Point along = node(side.second) - node(side.first), across = node(right) - node(left);
+    const Point way = node(left) - node(side.first);
+    const double share = (way.x() * across.y() - way.y() * across.x()) /
+                         (along.x() * across.y() - along.y() * across.x());
+    constexpr double next_to = 0.02;
+    return std::abs(share - 0.5) < next_to ? Point(node(side.first) + share * along)
+                                           : middle_of(side);
+  }
+
+  [[nodiscard]] int opposite(int triangle, const Side& side) const {
+    const auto& nodes = at(triangle).nodes;
+    return *std::find_if(nodes.begin(), nodes.end(),
+                         [&](int corner) { return corner != side.first && corner != side.second; });
+  }
+
   void split(const Side& side) {
     const int right = across(side);
     const int left = owner_.at(side);
     const auto middle = static_cast<int>(mesh_.nodes.size());
-    const auto& nodes = mesh_.nodes;
-    mesh_.nodes.push_back((nodes[static_cast<std::size_t>(side.first)] +
-                           nodes[static_cast<std::size_t>(side.second)]) /
-                          2.0);
+    mesh_.nodes.push_back(right < 0
+                              ? middle_of(side)
+                              : crossing_of(side, opposite(left, side), opposite(right, side)));
     halve(left, side, middle);
     if (right >= 0) {
       halve(right, {side.second, side.first}, middle);
@@ -121,13 +149,11 @@ class Bisector {
 
   void halve(int triangle, const Side& side, int middle) {
     const Triangle old = at(triangle);
-    const int opposite = *std::find_if(old.nodes.begin(), old.nodes.end(), [&](int node) {
-      return node != side.first && node != side.second;
-    });
+    const int corner = opposite(triangle, side);
     alive_[static_cast<std::size_t>(triangle)] = false;
     owner_.erase(side);
-    for (const Triangle& half : {Triangle{{side.first, middle, opposite}, old.region},
-                                 Triangle{{middle, side.second, opposite}, old.region}}) {
+    for (const Triangle& half : {Triangle{{side.first, middle, corner}, old.region},
+                                 Triangle{{middle, side.second, corner}, old.region}}) {
       mesh_.triangles.push_back(half);
       indicators_.push_back(indicators_[static_cast<std::size_t>(triangle)] / 2.0);
       alive_.push_back(true);

@@ -38,6 +38,7 @@ class AugmentedSystem {
   /// Zero for the free variables that are not in it.
   [[nodiscard]] NewtonSolution solve(const Eigen::VectorXd& first,
                                      const Eigen::VectorXd& second) const;
+  [[nodiscard]] double work() const { return factors_->work(); }
 
  private:
   const ScaledProgram& program_;

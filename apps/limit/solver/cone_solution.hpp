@@ -20,6 +20,7 @@ struct SolverOptions {
   double max_seconds = 600.0;  // of processor time, over all stages
   double gap = 1e-4;           // barrier: last duality gap over the objective's scale
   double cone_gap = 1e-5;      // cones: likewise
+  bool wants_interior = true;  // cones: multipliers of an early stage, well inside
 };
 
 /// How the solver ended.
@@ -38,6 +39,7 @@ struct ConeSolution {
   SolverStatus status = SolverStatus::failed;
   std::string message;  // the solver's own word for it
   int iterations = 0;
+  double work = 0.0;  // operations, roughly: what it cost, the same each time
 };
 
 }  // namespace limit::solver

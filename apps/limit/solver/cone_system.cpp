@@ -251,12 +251,20 @@ ConeSystem::Solution ConeSystem::left(const VectorXd& first, const VectorXd& sec
           second - program_.equations * at.x};
 }
 
+VectorXd ConeSystem::stiffness() const {
+  VectorXd result = VectorXd::Ones(program_.equations.cols());
+  for (std::size_t k = 0; k < curvature_.size(); ++k) {
+    result.segment<3>(static_cast<Index>(3 * k)) += curvature_[k].diagonal();
+  }
+  return result;
+}
+
 ConeSystem::Solution ConeSystem::solve_refined(const VectorXd& first,
                                                const VectorXd& second) const {
   return refined(
       first, second,
       [&](const VectorXd& rest, const VectorXd& other) { return solve_once(rest, other); },
-      [&](const Solution& at) { return left(first, second, at); });
+      [&](const Solution& at) { return left(first, second, at); }, stiffness());
 }
 
 ConeSystem::Solution ConeSystem::solve(const VectorXd& first, const VectorXd& second,

@@ -34,6 +34,10 @@ class ConeSystem {
   /// @param must_hold  the equations, to rounding, whatever it costs
   [[nodiscard]] Solution solve(const Eigen::VectorXd& first, const Eigen::VectorXd& second,
                                bool must_hold);
+  /// Of its factors, so far (SparseFactors).
+  [[nodiscard]] double work() const {
+    return factors_->work() + (augmented_ ? augmented_->work() : 0.0);
+  }
 
  private:
   [[nodiscard]] bool condense(const std::vector<second_order_cone::Scaling>& scalings);
@@ -52,6 +56,7 @@ class ConeSystem {
   [[nodiscard]] Solution left(const Eigen::VectorXd& first, const Eigen::VectorXd& second,
                               const Solution& at) const;
   [[nodiscard]] Eigen::VectorXd curve(const Eigen::VectorXd& x) const;  // H x
+  [[nodiscard]] Eigen::VectorXd stiffness() const;                      // 1 + the diagonal of H
   // (H + little)^-1 x, 0 in the border.
   [[nodiscard]] Eigen::VectorXd uncurve(const Eigen::VectorXd& x) const;
 

@@ -21,6 +21,9 @@ using Cones = std::vector<Vector3d>;
 // Residuals, relative to an objective of order one, that count as none when the descent begins, and
 // what rounding may make of them on the way; certificates mend that much.
 constexpr double none = 1e-9, little = 1e-8;
+// Where no multipliers well inside are wanted, the descent takes away so much of them, too, each
+// step as much as its length, as long as steps are no shorter than this.
+constexpr double rough = 1e-3, stuck = 0.1;
 
 // Where centring crawls though the equations hold, the multipliers it has to reach, which grow with
 // the load, are far above those of the start: it begins anew with more, at most with so many.
@@ -52,22 +55,27 @@ double damped(double largest, bool centres) {
 class InteriorPoint {
  public:
   /// @param acceptable  duality gap, as a share of the objective, to end at if it must
-  InteriorPoint(const ScaledProgram& program, double acceptable)
-      : program_(program), system_(program), acceptable_(acceptable) {
+  /// @param rough       residuals with which the descent may begin, to be taken away on it
+  InteriorPoint(const ScaledProgram& program, double acceptable, double rough)
+      : program_(program), system_(program), acceptable_(acceptable), rough_(rough) {
     begin(1.0);
   }
 
   [[nodiscard]] const VectorXd& variables() const { return x_; }
   [[nodiscard]] const VectorXd& multipliers() const { return y_; }
   [[nodiscard]] double gap() const { return gap_; }
+  [[nodiscard]] double work() const { return system_.work(); }
   [[nodiscard]] double scale() const { return std::max(1.0, std::abs(program_.cost.dot(x_))); }
   /// Whether both kinds of equations have held, and still do but for rounding.
   [[nodiscard]] bool is_feasible() const { return was_feasible_ && holds(little); }
 
+  /// Whether the equations hold well enough to go down.
+  [[nodiscard]] bool descends() const { return is_feasible() || holds(rough_); }
+
   /// One iteration; nothing, with all as it was, if no step could be made.
   [[nodiscard]] bool advance() {
     if (!factorise()) return false;
-    const bool centres = !is_feasible();
+    const bool centres = !descends() || (is_stuck_ && !is_feasible());
     Direction way = centres ? direction(1.0, complementarity(1.0)) : predicted_and_corrected();
     const Steps steps{damped(largest_step(slacks_, way.slacks), centres),
                       damped(largest_step(z_, way.z), centres)};
@@ -77,11 +85,17 @@ class InteriorPoint {
     }
     if (!(std::max(steps.primal, steps.dual) > 1e-6)) return false;
     const InteriorPoint::State before{x_, y_, z_};
+    const double off_before = off_equations_.lpNorm<Eigen::Infinity>();
     x_ += steps.primal * way.x;
     y_ += steps.dual * way.y;
     for (std::size_t k = 0; k < z_.size(); ++k) z_[k] += steps.dual * way.z[k];
     update();
-    if (is_inside() && (centres || is_feasible())) return true;
+    // Of a whole step nothing is left but what the system could not solve.
+    constexpr double hardly = 0.1;
+    must_hold_ = steps.primal >= 1.0 && !equations_hold(none) &&
+                 off_equations_.lpNorm<Eigen::Infinity>() > hardly * off_before;
+    is_stuck_ = std::min(steps.primal, steps.dual) < stuck;
+    if (is_inside() && (is_feasible() || !was_feasible_)) return true;
     std::tie(x_, y_, z_) = std::tie(before.x, before.y, before.z);
     update();
     return false;
@@ -176,8 +190,9 @@ class InteriorPoint {
           scalings_[k].inverse_times(second_order_cone::quotient(wanted[k], scalings_[k].point));
       first.segment<3>(static_cast<Index>(3 * k)) -= form(k).cwiseProduct(fixed[k]);
     }
-    // While centring, what a direction lacks is left to the next.
-    ConeSystem::Solution solution = system_.solve(first, -share * off_equations_, is_feasible());
+    // While centring, what a direction lacks is left to the next, unless that gets nowhere.
+    ConeSystem::Solution solution =
+        system_.solve(first, -share * off_equations_, is_feasible() || must_hold_);
     Direction way{std::move(solution.x), std::move(solution.y), Cones(cones), Cones(cones)};
     const VectorXd strain = share * off_multipliers_ + program_.equations.transpose() * way.y;
     for (std::size_t k = 0; k < cones; ++k) {
@@ -212,13 +227,15 @@ class InteriorPoint {
 
   const ScaledProgram& program_;
   ConeSystem system_;
-  double acceptable_;
+  double acceptable_, rough_;
   VectorXd x_, y_;
   Cones z_, slacks_;
   VectorXd off_equations_, off_multipliers_;
   double gap_ = 0.0;
   double begun_with_ = 0.0;
   bool was_feasible_ = false;
+  bool must_hold_ = false;  // the equations after each direction, to rounding
+  bool is_stuck_ = false;   // the last step was a short one
   std::vector<Scaling> scalings_;
 };
 
@@ -227,8 +244,8 @@ class InteriorPoint {
 ConeSolution solve_by_interior_point(const programme::ConeProgram& program,
                                      const SolverOptions& options) {
   const ScaledProgram scaled(program);
-  constexpr double loosely = 100.0;
-  InteriorPoint point(scaled, loosely * options.cone_gap);
+  const double acceptable = std::max(1e-3, options.cone_gap);
+  InteriorPoint point(scaled, acceptable, options.wants_interior ? none : rough);
   ConeSolution solution;
   const std::clock_t began = std::clock();
   const auto seconds = [&] { return static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC; };
@@ -251,7 +268,7 @@ ConeSolution solve_by_interior_point(const programme::ConeProgram& program,
     } else if (point.advance()) {
       continue;
     } else {
-      const bool is_close = is_within(loosely * options.cone_gap);
+      const bool is_close = is_within(acceptable);
       solution.status = is_close ? SolverStatus::acceptable : SolverStatus::failed;
       solution.message =
           is_close ? "acceptable, no further step for rounding" : "no further step for rounding";
@@ -260,6 +277,7 @@ ConeSolution solve_by_interior_point(const programme::ConeProgram& program,
   }
   solution.variables = scaled.variables(point.variables());
   solution.multipliers = scaled.multipliers(point.multipliers());
+  solution.work = point.work();
   return solution;
 }
 

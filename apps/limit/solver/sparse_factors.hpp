@@ -27,9 +27,16 @@ class SparseFactors {
   /// Overwrites the right side with the solution. After a `factorise` that held.
   void solve(Eigen::VectorXd& right_side);
 
+  /// Of all factorisations and solutions so far, in operations, roughly: what they cost, by a
+  /// measure that is the same each time.
+  [[nodiscard]] double work() const { return work_; }
+
  private:
   struct Mumps;
+  [[nodiscard]] double entries_in_factors() const;
+
   std::unique_ptr<Mumps> mumps_;
+  double work_ = 0.0;
 };
 
 }  // namespace limit::solver

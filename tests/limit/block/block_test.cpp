@@ -110,6 +110,53 @@ TEST(TurningBlock, CountsTheWeightOfEachLayer) {
   }
 }
 
+// A slope of 1:1 with tractions on its crest and on the rest of what is free.
+std::string loaded(double friction, const char* crest, const char* rest) {
+  return "[load]\nsought = \"gravity\"\n[[material]]\nname = \"soil\"\ncohesion = 20e3\n"
+         "unit_weight = 18e3\nfriction_angle = " +
+         std::to_string(friction) +
+         "\n[[region]]\nmaterial = \"soil\"\n"
+         "outline = [[-30, -10], [40, -10], [40, 0], [10, 0], [0, 10], [-30, 10]]\n"
+         "[[side]]\nname = \"crest\"\nkind = \"loaded\"\nalong = [[-30, 10], [0, 10]]\n" +
+         crest +
+         "\n[[side]]\nname = \"face\"\nkind = \"loaded\"\n"
+         "along = [[0, 10], [10, 0], [40, 0]]\n" +
+         rest +
+         "\n[[side]]\nname = \"rigid\"\nkind = \"fixed\"\n"
+         "along = [[-30, 10], [-30, -10], [40, -10], [40, 0]]\n";
+}
+
+// Tractions on the outline, given by the search piece by piece and by the certificate along rays,
+// in a mirror, too. A pressure on the crest drives, one of a fluid all round does no work on clay,
+// whose block turns on a circle: the same normal stress there would have no moment either.
+TEST(TurningBlock, CountsTheTractionsOnTheGround) {
+  constexpr double rounding = 1e-9;
+  const auto proved = [](const problem::Problem& ground) {
+    const block::Weakest found = weakest_of(ground);
+    const auto certificate = certificate::certify_block(ground, found.block);
+    EXPECT_EQ(certificate.objection, "");
+    EXPECT_NEAR(certificate.multiplier, found.multiplier, rounding * found.multiplier);
+    return found.multiplier;
+  };
+  const auto of = [&](double friction, const char* crest, const char* rest) {
+    const auto problem = case_of(loaded(friction, crest, rest));
+    EXPECT_TRUE(problem);
+    const problem::Case& slope = problem->associated;
+    return proved(scaled(slope)) * slope.units.multiplier();
+  };
+  const double clay = of(0.0, "", "");
+  constexpr double found_again = 1e-6;
+  EXPECT_NEAR(of(0.0, "pressure = 8e3", "pressure = 8e3"), clay, found_again * clay);
+  EXPECT_LT(of(0.0, "pressure = 8e3", ""), 0.99 * clay);
+  // Towards the face, and away from it.
+  const double one = of(20.0, "shear = 4e3", ""), other = of(20.0, "shear = -4e3", "");
+  EXPECT_GT(std::abs(std::log(one / other)), 0.02);
+  const auto problem = case_of(loaded(20.0, "shear = 4e3", ""));
+  ASSERT_TRUE(problem);
+  const double in_mirror = proved(block::mirrored(scaled(problem->associated)));
+  EXPECT_NEAR(in_mirror * problem->associated.units.multiplier(), one, rounding * one);
+}
+
 TEST(BlockCertificate, HoldsForNothingButAMechanism) {
   const auto problem = case_of(layers(14e3, 22e3));
   ASSERT_TRUE(problem);

@@ -79,6 +79,27 @@ TEST(FactorSearch, ExpectsOfAFinerMeshWhatTheLastOneMakesLikely) {
   EXPECT_DOUBLE_EQ(search.root(), 2.7);
 }
 
+// Two mechanisms, one deep, which strength hardly matters to, and a skin of next to no cohesion:
+// the multiplier falls slowly, and then off. A secant from one of them to the other creeps along
+// the first: in steps of a twentieth of what is left, 60 of them, where halving takes 12.
+TEST(FactorSearch, FindsWhereTheMultiplierFallsOff) {
+  const auto multiplier = [](double factor) {
+    const double deep = 3.0 / factor, skin = 1e-3 / std::max(1e-9, factor - 2.25);
+    return std::min(deep, skin);
+  };
+  EXPECT_LE(steps_to(2.251, 2.4, multiplier), 12);
+}
+
+// A bound of the other side is mostly close, and a step of a half back from it a waste.
+TEST(FactorSearch, GoesNoFurtherThanToldAtFirstAndFurtherEachTime) {
+  FactorSearch search(1.0, 1.05);
+  search.saw(1.0, 0.1, false);
+  EXPECT_NEAR(search.root(), 1.0 / 1.05, 1e-12);
+  search.saw(search.root(), 0.11, false);
+  EXPECT_LT(search.root(), 1.0 / 1.15);
+  EXPECT_GT(search.root(), 1.0 / 1.3);
+}
+
 // A solver's digits may contradict each other near the root: the last word counts.
 TEST(FactorSearch, IsNotLostWhereValuesContradictEachOther) {
   FactorSearch search(1.0);

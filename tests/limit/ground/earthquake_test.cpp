@@ -81,6 +81,27 @@ TEST(Earthquake, IsAWeightThatIsAslant) {
   }
 }
 
+// A programme's optimum is what it makes of the loads, a certificate's bound is counted anew: where
+// the one shakes the ground as the other does, they agree to the solver's digits, on either side.
+// With gravity, kh is live; where kh is sought, the weight is dead.
+TEST(Earthquake, IsTheSameToProgrammesAndCertificates) {
+  for (const char* sought : {"gravity", "earthquake"}) {
+    const auto problem = case_of(shaken(sought, 1.0));
+    ASSERT_TRUE(problem);
+    bracket::BracketOptions once;
+    once.max_triangles = 1;
+    once.fall_back = false;
+    const bracket::Solution found = bracket::solution_of(problem->associated, once, {});
+    ASSERT_TRUE(found.lower && found.upper);
+    ASSERT_EQ(found.bracket.attempts.size(), 2U);
+    for (const bracket::Attempt& attempt : found.bracket.attempts) {
+      ASSERT_TRUE(attempt.certified);
+      constexpr double digits = 1e-4;  // ten times the gap that the solver ends at
+      EXPECT_NEAR(*attempt.certified / attempt.proposed, 1.0, digits) << sought;
+    }
+  }
+}
+
 // Spirals turn with the ground. Mirror images turn the other way round, as their earthquakes do.
 TEST(Earthquake, TurnsBlocksAsAWeightAslantDoes) {
   constexpr double height = 2.0;

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "limit/mesh/bisection.hpp"
@@ -96,6 +97,28 @@ TEST(Bisection, KeepsAreaOutlineAndConformity) {
 }
 
 // Where all of the flow is at one point, a mesh would grow by a handful of triangles at a time.
+// Two sides that nearly continue each other in the new node would make equilibrium across them
+// nearly the same twice: they continue each other, to rounding. What is far from that stays so.
+TEST(Bisection, PutsTheNewNodeInLineWithTheNodesAcrossIfThatIsNextToTheMiddle) {
+  for (const double off : {0.0, 1e-5, 0.015, 0.1}) {
+    mesh::Mesh mesh = two_triangles();
+    mesh.nodes[1] += mesh::Point(off, 0.01);  // the diagonal remains the longest side
+    const mesh::Mesh halved = mesh::bisected(mesh, {true, false});
+    ASSERT_EQ(halved.nodes.size(), 5U);
+    EXPECT_NEAR(area(halved), area(mesh), rounding);
+    const mesh::Point middle = halved.nodes.back();
+    EXPECT_NEAR(middle.x(), middle.y(), rounding) << "on the diagonal";
+    const mesh::Point one = mesh.nodes[1] - middle, other = mesh.nodes[3] - middle;
+    const double turn = one.x() * other.y() - one.y() * other.x();
+    if (off < 0.05) {
+      EXPECT_NEAR(turn, 0.0, rounding) << off;
+    } else {
+      EXPECT_NEAR(middle.x(), 0.5, rounding) << off;
+      EXPECT_GT(std::abs(turn), 0.01) << off;
+    }
+  }
+}
+
 TEST(Bisection, GoesOnNearOnePointUntilTheMeshHasGrown) {
   mesh::Mesh mesh = mesh::fan_mesh(mesh::even_fan(4.0, 2.0, 24, 8, 1.5));
   std::vector<double> indicators(mesh.triangles.size(), 0.0);
