@@ -69,6 +69,14 @@ TEST(PoreWaterOfAModel, IsThatOfThePartBelowATableAslant) {
   EXPECT_NEAR(water[0], 10e3 * wet * 0.3, rounding * 1e4) << "it seeps to the right";
   EXPECT_NEAR(water[1], 10e3 * wet, rounding * 1e4);
   EXPECT_NEAR(model.mass.sum() * 9.81, 17e3 * dry + 20e3 * wet, rounding * 1e5);
+  // The table goes through this cell from its upper left corner to seven tenths of its right side.
+  Eigen::Index cell = 0;
+  (model.particles.position.rowwise() - Eigen::RowVector2d(1.05, 1.15))
+      .rowwise()
+      .squaredNorm()
+      .minCoeff(&cell);
+  EXPECT_NEAR(model.mass[cell] * 9.81, 0.01 * (17e3 * 0.15 + 20e3 * 0.85), rounding * 1e3);
+  EXPECT_NEAR(model.water_load[model.size() + cell], 0.01 * 10e3 * 0.85, rounding * 1e3);
 }
 
 TEST(PoreWaterOfAModel, IsThatOfAShareOfTheOverburden) {
