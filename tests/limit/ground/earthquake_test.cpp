@@ -83,10 +83,15 @@ TEST(Earthquake, IsAWeightThatIsAslant) {
 
 // A programme's optimum is what it makes of the loads, a certificate's bound is counted anew: where
 // the one shakes the ground as the other does, they agree to the solver's digits, on either side.
-// With gravity, kh is live; where kh is sought, the weight is dead.
+// With gravity, kh is live; where kh is sought, the weight is dead, and where a shear is, both are.
 TEST(Earthquake, IsTheSameToProgrammesAndCertificates) {
-  for (const char* sought : {"gravity", "earthquake"}) {
-    const auto problem = case_of(shaken(sought, 1.0));
+  for (const char* sought : {"gravity", "earthquake", "traction"}) {
+    std::string text = shaken(sought, 1.0);
+    const std::string free = "kind = \"free\"";
+    if (sought == std::string("traction")) {
+      text.replace(text.find(free), free.size(), "kind = \"loaded\"\nlive_shear = 1e3");
+    }
+    const auto problem = case_of(text);
     ASSERT_TRUE(problem);
     bracket::BracketOptions once;
     once.max_triangles = 1;
