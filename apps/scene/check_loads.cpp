@@ -43,7 +43,8 @@ void check_gravity(const Scene& scene, tables::Diagnosis& diagnosis) {
 
 /// Whether the weight above any place can be summed up.
 bool ground_is_good(const Scene& scene, const tables::Diagnosis& diagnosis) {
-  if (!box_is_good(scene, diagnosis) || !diagnosis.good({"geometry.spacing", "initial_stress"})) {
+  if (!box_is_good(scene, diagnosis) || scene.material.empty() ||
+      !diagnosis.good({"geometry.spacing", "initial_stress"})) {
     return false;
   }
   const auto n = dimension_of(scene);
