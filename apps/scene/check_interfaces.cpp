@@ -20,6 +20,7 @@ void check_thickness(const Scene& scene, const Material& material, const std::st
   constexpr double fewest = 3.0;
   const Geometry& geometry = scene.geometry;
   const double widths = geometry.layout == Layout::cell ? fewest - 0.5 : fewest - 1.0;
+  if (material.region_max.size() != material.region_min.size()) return;  // refused by itself
   for (std::size_t i = 0; i < material.region_min.size(); ++i) {
     const double from = std::max(material.region_min[i], geometry.min[i]);
     const double to = std::min(material.region_max[i], geometry.max[i]);

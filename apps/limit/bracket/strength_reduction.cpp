@@ -64,6 +64,11 @@ class Flank {
   [[nodiscard]] const std::optional<double>& factor() const { return factor_; }
   [[nodiscard]] int triangles() const { return side_.triangles(); }
   [[nodiscard]] bool can_refine() const { return side_.can_refine() && failures_ < most_failures; }
+  /// Whether soils would be put to rest if a solver failed at a factor.
+  [[nodiscard]] bool may_rest(double factor) const {
+    const auto steep_there = [&](const problem::Soil& soil) { return is_steep(soil, factor); };
+    return !rests_ && std::any_of(problem_.soils.begin(), problem_.soils.end(), steep_there);
+  }
   /// Gain of the last mesh for its work; infinite as long as it is not known.
   [[nodiscard]] double promise() const { return promise_; }
   /// @param reach  how far off it may be, as a factor
@@ -213,10 +218,10 @@ class Flank {
     const bool carries = is_lower_ && found.lower && found.lower_bound() >= one_;
     const bool fails = !is_lower_ && found.upper && found.upper_bound() <= one_;
     if (!carries && !fails) return;
+    excess_ = std::abs(std::log((is_lower_ ? found.lower_bound() : found.upper_bound()) / one_));
     if (factor_ && (is_lower_ ? factor <= *factor_ : factor >= *factor_)) return;
     factor_ = factor;
     best_ = found;
-    excess_ = std::abs(std::log((is_lower_ ? found.lower_bound() : found.upper_bound()) / one_));
   }
 
   bool is_lower_;
@@ -227,7 +232,7 @@ class Flank {
   Side side_;
   FactorSearch search_;
   std::optional<double> factor_;
-  double excess_ = 0.0;  // how far the multiplier is from one there, as a logarithm
+  double excess_ = 0.0;  // how far the multiplier is from one where it last decided, as a logarithm
   Bracket best_;
   int failures_ = 0;
   bool rests_ = false;                 // whether soils have been put to rest
@@ -355,9 +360,11 @@ class Reduction {
     const auto solve = [&](Flank& of, double factor) {
       if (remaining() <= 0.0) return false;
       BracketOptions rest = options_;
-      // What takes more than a good share of it ends nowhere, and another factor might.
-      constexpr double share = 0.3;
-      rest.max_seconds = std::min(remaining(), share * options_.max_seconds);
+      // What takes more than a good share of it ends nowhere, and another factor might, or, sooner,
+      // the same one with steep soils at rest.
+      constexpr double share = 0.3, before_rest = 0.1;
+      rest.max_seconds =
+          std::min(remaining(), (of.may_rest(factor) ? before_rest : share) * options_.max_seconds);
       rest.solver_gap = solver_gap();
       of.solve_at(factor, rest, watch_, result_.bracket.attempts);
       return gap() > options_.gap || !of.factor();
