@@ -412,6 +412,7 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
     const model::Interface<Dim>& interface = model_.interfaces[i];
     const fpm::Vector<Dim>& held = interfaces_.rigid_force()[i];
     forces.reaction += interface.measure.dot(held);
+    if (interface.plate) forces.reaction += step_.load * interface.plate->force.norm();
     forces.external_work += (step_.load - state_.programme.load) * interface.drive.dot(held);
   }
   forces.external_work += interfaces_.work_of_plates(step_.load);

@@ -24,7 +24,8 @@ struct EvaluationFailure {
 
 /// What a converged step leaves for the records.
 struct StepForces {
-  double reaction = 0.0;        // [N/m or N] along the measured direction, positive against it
+  double reaction = 0.0;        // [N/m or N] along the measured direction, positive against it; of
+                                // a loaded plate its load
   double hourglass_work = 0.0;  // [J/m or J] of this step
   double external_work = 0.0;   // [J/m or J] of this step, by reactions and loads
   Eigen::Index plastic = 0;     // particles that yielded in this step

@@ -105,7 +105,7 @@ std::vector<shape::Point> singular_corners(const Scene& scene) {
     for (const shape::OutlineSegment& after : outline.segments) {
       if (before.right >= 0 || after.right >= 0 || before.second != after.first) continue;
       const shape::Point in = way(before), out = way(after);
-      const double sine = in.x() * out.y() - in.y() * out.x();
+      const double sine = shape::cross(in, out);
       const OutlineSide& one = scene.side[static_cast<std::size_t>(before.side)];
       const OutlineSide& other = scene.side[static_cast<std::size_t>(after.side)];
       const bool both_free = !holds(one.kind) && !holds(other.kind);

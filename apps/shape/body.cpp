@@ -101,7 +101,7 @@ void add_part(const Polygon::ring_type& closed, const Point& lower, const Point&
   }
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Point &a = ring[k], &b = ring[(k + 1) % ring.size()];
-    const double twice = a.x() * b.y() - a.y() * b.x();
+    const double twice = cross(a, b);
     part.area += 0.5 * twice;
     part.centroid += twice / 6.0 * (a + b);
   }
@@ -117,7 +117,7 @@ std::vector<char> hollows_of(const Outline& outline) {
       if (before.right >= 0 || after.right >= 0 || before.second != after.first) continue;
       const Point in = (outline.at(before.second) - outline.at(before.first)).normalized();
       const Point out = (outline.at(after.second) - outline.at(after.first)).normalized();
-      if (in.x() * out.y() - in.y() * out.x() >= -round_off) continue;
+      if (cross(in, out) >= -round_off) continue;
       ++turns[i];
       ++turns[j];
     }

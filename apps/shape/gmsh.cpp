@@ -12,6 +12,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "shape/ring.hpp"
+
 namespace shape {
 namespace {
 
@@ -326,7 +328,7 @@ class Reader {
     double least = 0.0, most = 0.0, size = 0.0;
     for (std::size_t k = 0; k < face.nodes.size(); ++k) {
       const Point in = at(k + 1) - at(k), out = at(k + 2) - at(k + 1);
-      const double turn = in.x() * out.y() - in.y() * out.x();
+      const double turn = cross(in, out);
       least = k == 0 ? turn : std::min(least, turn);
       most = k == 0 ? turn : std::max(most, turn);
       size = std::max(size, in.squaredNorm());

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "shape/outline.hpp"
+#include "shape/ring.hpp"
 
 namespace shape {
 namespace {
@@ -18,8 +18,7 @@ constexpr double straight = 1e-9;  // of the length of the pieces
 // Whether a corner lies on the straight line between its neighbours.
 bool is_on_the_way(const Point& before, const Point& here, const Point& after) {
   const Point in = here - before, out = after - here;
-  const double turn = in.x() * out.y() - in.y() * out.x();
-  return in.dot(out) > 0.0 && std::abs(turn) <= straight * in.norm() * out.norm();
+  return in.dot(out) > 0.0 && std::abs(cross(in, out)) <= straight * in.norm() * out.norm();
 }
 
 std::vector<Point> places(const GmshMesh& mesh, const std::vector<int>& nodes) {
@@ -50,15 +49,6 @@ std::vector<Point> line_without_corners_on_lines(const std::vector<Point>& line)
   }
   kept.push_back(line.back());
   return kept;
-}
-
-double area_of(const Ring& ring) {
-  double twice = 0.0;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Point &a = ring[k], &b = ring[(k + 1) % ring.size()];
-    twice += a.x() * b.y() - a.y() * b.x();
-  }
-  return 0.5 * twice;
 }
 
 // The edges of a group's faces that have no other face of it beyond them, the faces to the left.
@@ -105,7 +95,7 @@ std::vector<Piece> pieces_of(const GmshMesh& mesh, int group) {
       loop.push_back(to);
     }
     const Ring ring = without_corners_on_lines(places(mesh, loop));
-    if (area_of(ring) > 0.0) {
+    if (signed_area(ring) > 0.0) {
       pieces.push_back({ring, {}});
     } else {
       holes.push_back(ring);
@@ -117,7 +107,8 @@ std::vector<Piece> pieces_of(const GmshMesh& mesh, int group) {
     const Point middle = 0.5 * (hole[0] + hole[1]);
     for (Piece& piece : pieces) {
       if (!is_inside(piece.outline, middle)) continue;
-      if (owner == nullptr || area_of(piece.outline) < area_of(owner->outline)) owner = &piece;
+      if (owner == nullptr || signed_area(piece.outline) < signed_area(owner->outline))
+        owner = &piece;
     }
     if (owner != nullptr) owner->holes.push_back(hole);
   }

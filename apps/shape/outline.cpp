@@ -13,30 +13,8 @@ namespace shape {
 
 namespace {
 
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 std::string text_of(const Point& at) {
   return fmt::format("({:.6g}, {:.6g})", at.x(), at.y());
-}
-
-double area_of(const std::vector<Point>& polygon) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
-  }
-  return twice / 2.0;
-}
-
-// Where two straight pieces cross within both, if they do; ends do not count.
-std::optional<Point> crossing(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const auto turns = [](const Point& p, const Point& q, const Point& r) {
-    return cross(q - p, r - p);
-  };
-  const double ac = turns(a, b, c), ad = turns(a, b, d), ca = turns(c, d, a), cb = turns(c, d, b);
-  if (!(ac * ad < 0.0 && ca * cb < 0.0)) return std::nullopt;
-  return Point(a + ca / (ca - cb) * (b - a));
 }
 
 class Arranger {
@@ -59,7 +37,7 @@ class Arranger {
     if (is_good()) check_connection();
     if (is_good()) name_sides();
     for (std::size_t r = 0; r < result_.regions.size(); ++r) {
-      for (const Ring& ring : result_.rings(r)) result_.area += area_of(ring);
+      for (const Ring& ring : result_.rings(r)) result_.area += signed_area(ring);
     }
     return std::move(result_);
   }
@@ -138,7 +116,7 @@ class Arranger {
     if (ring.size() > 1 && (ring.front() - ring.back()).norm() <= result_.tolerance()) {
       ring.pop_back();
     }
-    if (sign * area_of(ring) < 0.0) std::reverse(ring.begin(), ring.end());
+    if (sign * signed_area(ring) < 0.0) std::reverse(ring.begin(), ring.end());
     Loop loop;
     for (const Point& point : ring) loop.push_back(id_of(point));
     if (loop.size() < 3) {
@@ -400,7 +378,7 @@ class Arranger {
         break;
       }
     }
-    return area_of(loop) < 0.0;
+    return signed_area(loop) < 0.0;
   }
 
   std::span<const NamedRegion> regions_;
@@ -411,12 +389,6 @@ class Arranger {
 
 }  // namespace
 
-double distance(const Point& place, const Point& first, const Point& second) {
-  const Point along = second - first;
-  const double share = std::clamp((place - first).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (place - first - share * along).norm();
-}
-
 std::vector<Ring> Outline::rings(std::size_t region) const {
   std::vector<Ring> rings;
   for (const Loop& loop : regions[region]) {
@@ -424,24 +396,6 @@ std::vector<Ring> Outline::rings(std::size_t region) const {
     for (const int point : loop) ring.push_back(at(point));
   }
   return rings;
-}
-
-bool is_inside(const Ring& polygon, const Point& place) {
-  bool inside = false;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    if ((a.y() > place.y()) == (b.y() > place.y())) continue;
-    const double x = a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-    if (place.x() < x) inside = !inside;
-  }
-  return inside;
-}
-
-bool is_inside(std::span<const Ring> rings, const Point& place) {
-  return std::count_if(rings.begin(), rings.end(),
-                       [&](const Ring& ring) { return is_inside(ring, place); }) %
-             2 ==
-         1;
 }
 
 Outline join_regions(std::span<const NamedRegion> regions, std::span<const NamedLine> sides,

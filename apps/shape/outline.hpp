@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "shape/point.hpp"
+#include "shape/ring.hpp"
 #include "tables/diagnosis.hpp"
 
 namespace shape {
@@ -55,12 +56,5 @@ struct Outline {
 /// outline; outline (of a hole, too) without a side.
 [[nodiscard]] Outline join_regions(std::span<const NamedRegion> regions,
                                    std::span<const NamedLine> sides, tables::Diagnosis& diagnosis);
-
-/// Distance of a place from the straight piece between two others.
-[[nodiscard]] double distance(const Point& place, const Point& first, const Point& second);
-
-/// Whether a place is inside a polygon, or one with holes; either, on its outline.
-[[nodiscard]] bool is_inside(const Ring& polygon, const Point& place);
-[[nodiscard]] bool is_inside(std::span<const Ring> rings, const Point& place);
 
 }  // namespace shape

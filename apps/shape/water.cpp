@@ -6,25 +6,17 @@
 #include <cmath>
 #include <vector>
 
+#include "shape/ring.hpp"
+
 namespace shape {
 namespace {
-
-// Whether a ring goes around counterclockwise.
-bool is_counterclockwise(const Ring& ring) {
-  double twice = 0.0;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Point a = ring[k] - ring.front(), b = ring[(k + 1) % ring.size()] - ring.front();
-    twice += a.x() * b.y() - a.y() * b.x();
-  }
-  return twice > 0.0;
-}
 
 // Calls visit(left, right, weight) for each edge that is not upright, `weight` being that of the
 // ring if the edge is an upper one, and less than nothing if it is a lower one.
 template <class Visitor>
 void for_each_edge(std::span<const HeavyRing> ground, Visitor&& visit) {
   for (const HeavyRing& part : ground) {
-    const double sign = is_counterclockwise(part.ring) ? 1.0 : -1.0;
+    const double sign = signed_area(part.ring) > 0.0 ? 1.0 : -1.0;
     for (std::size_t k = 0; k < part.ring.size(); ++k) {
       const Point &from = part.ring[k], &to = part.ring[(k + 1) % part.ring.size()];
       if (from.x() > to.x()) visit(to, from, sign * part.unit_weight);

@@ -280,14 +280,13 @@ void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
   const double reference = scene_.drive.reference_length.value_or(0.0);
   record.settlement_over_B = reference > 0.0 ? record.settlement / reference : 0.0;
   record.increment = length * increment;
-  const Eigen::Map<const Eigen::VectorXd> force(
-      scene_.drive.force.data(), static_cast<Eigen::Index>(scene_.drive.force.size()));
-  record.reaction = displaced ? forces.reaction : programme.load * force.norm();
-  const double width = scene_.drive.width.value_or(0.0);
-  if (width > 0.0) record.mean_pressure = record.reaction / width;
-  if (displaced && width > 0.0) {
-    record.corrected_pressure =
-        (forces.reaction - forces.hourglass_work / record.increment) / width;
+  record.reaction = forces.reaction;
+  if (const double width = scene_.drive.width.value_or(0.0); width > 0.0) {
+    record.mean_pressure = forces.reaction / width;
+    if (displaced) {
+      record.corrected_pressure =
+          (forces.reaction - forces.hourglass_work / record.increment) / width;
+    }
   }
   record.evaluations = record.residual_evaluations + record.jacobian_actions;
   record.plastic_particles = forces.plastic;

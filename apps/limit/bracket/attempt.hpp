@@ -19,8 +19,7 @@ struct BracketOptions {
   int max_triangles = 12000;   // of one mesh
   double max_seconds = 120.0;  // of processor time, for all attempts together
   int max_iterations = 300;    // of the solver, per attempt
-  double solver_gap =
-      1e-5;  // at which the interior-point method ends, as a share of the multiplier
+  double solver_gap = 1e-5;    // at which the interior-point method ends, over the multiplier
   Engine engine = Engine::interior_point;
   bool wants_mechanism = false;  // a velocity field even where a turning block is a bound
   bool fall_back = true;         // ask the other engine, and other forms, where the first one fails

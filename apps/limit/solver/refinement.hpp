@@ -20,9 +20,8 @@ struct NewtonSolution {
 /// by two of them, and returns the iterate that satisfies the equations, the second of them, best.
 /// @param solve  (first, second) -> NewtonSolution, roughly
 /// @param left   NewtonSolution -> what is left of both sides, as a NewtonSolution
-/// @param stiffness  of each x: what is left of the first equations counts as the error in x that
-/// it
-///               is, for what curvature of 1e10 makes of x' last digits is none
+/// @param stiffness  of each x. What is left of the first equations counts over it, as an error in
+///   x: what curvature of 1e10 makes of x' last digits is none.
 template <class Solve, class Left>
 [[nodiscard]] NewtonSolution refined(const Eigen::VectorXd& first, const Eigen::VectorXd& second,
                                      const Solve& solve, const Left& left,
