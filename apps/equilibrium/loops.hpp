@@ -128,6 +128,7 @@ struct LoopsOf {
       const Mask<Real> could =
           Law::linearise(material, particle_start<Real>(data, a), increment, tangent);
       keep_configuration<Real>(data, a, increment.gradient);
+      tangent.stress *= Real(1.0 / data.tangents.unit);
       StressTangents<size>::put(data.tangents.stress.data(), a, tangent.stress.data());
       if (data.state.layout.incremental) {
         RotationTangents<Dim>::put(data.tangents.rotation.data(), a, tangent.rotation.data());
@@ -144,11 +145,11 @@ struct LoopsOf {
     static constexpr bool wide = true;
     // The first `Count` rows and columns of a tangent on as many strains.
     template <int Count, class Real>
-    static Eigen::Matrix<Real, Count, 1> product(const double* tangent,
+    static Eigen::Matrix<Real, Count, 1> product(const float* tangent,
                                                  const Eigen::Matrix<Real, size, 1>& strain) {
       Eigen::Matrix<Real, Count, 1> sum = Eigen::Matrix<Real, Count, 1>::Zero();
       for (int j = 0; j < Count; ++j) {
-        for (int i = 0; i < Count; ++i, tangent += lane_count) {
+        for (int i = 0; i < Count; ++i, tangent += StressTangents<size>::group) {
           sum[i] += load<Real>(tangent) * strain[j];
         }
       }
@@ -163,7 +164,9 @@ struct LoopsOf {
       if constexpr (Law::mixed) {
         strain.template tail<second_size>() = detail::flat(direction.second_gradient);
       }
-      const auto stress =
+      const Real unit = data.tangents.unit;
+      const Eigen::Matrix<Real, size, 1> stress =
+          unit *
           product<size, Real>(data.tangents.stress.data() + StressTangents<size>::at(a, 0), strain);
       const Tensor<Real> nominal = Eigen::Map<const Tensor<Real>>(stress.data());
       Second<Real> second;

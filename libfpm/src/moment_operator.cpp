@@ -141,14 +141,14 @@ void MomentOperator<Dim>::gather(Index block, const double* extended, double* mo
   const detail::KernelRows rows{segments + forward_.block_begin[b],
                                 segments + forward_.block_begin[b + 1], forward_.ids.data(),
                                 forward_.weights.data()};
-  detail::gather_kernel<Dim>(channels_)(rows, extended, stride(), block_first(block), moments,
-                                        block_stride);
+  detail::kernels<Dim>(channels_).gather(rows, extended, stride(), block_first(block), moments,
+                                         block_stride);
 }
 
 template <int Dim>
 void MomentOperator<Dim>::scatter(const double* stress, const double* v, const double* x,
                                   double* force) const {
-  const auto kernel = detail::scatter_kernel<Dim>(channels_);
+  const auto kernel = detail::kernels<Dim>(channels_).scatter;
   const auto* segments = transposed_.segments.data();
   const auto blocks = static_cast<Index>(transposed_.block_begin.size()) - 1;
 #pragma omp parallel for schedule(static)
