@@ -6,13 +6,7 @@
 #include <concepts>
 #include <cstdint>
 
-// One binary serves every x86-64: what is hot is compiled for several instruction sets, with lanes
-// as wide as their registers, and chosen when the program runs.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__)
-#define EQUILIBRIUM_WIDE_LOOPS
-#define EQUILIBRIUM_AVX2 __attribute__((target("arch=x86-64-v3")))
-#define EQUILIBRIUM_AVX512 __attribute__((target("arch=x86-64-v4")))
-#endif
+#include "equilibrium/instruction_sets.hpp"
 
 /// Several particles side by side: a number type for the templates of libfpm and libconstitutive.
 ///
@@ -42,11 +36,7 @@ struct Registers;
     }                                                                                           \
   }
 EQUILIBRIUM_REGISTERS(4, );
-#ifdef EQUILIBRIUM_WIDE_LOOPS
 EQUILIBRIUM_REGISTERS(8, EQUILIBRIUM_AVX512);
-#else
-EQUILIBRIUM_REGISTERS(8, );
-#endif
 #undef EQUILIBRIUM_REGISTERS
 
 }  // namespace detail

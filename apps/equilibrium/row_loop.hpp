@@ -5,6 +5,7 @@
 #include <limits>
 #include <variant>
 
+#include "equilibrium/instruction_sets.hpp"
 #include "equilibrium/row_data.hpp"
 
 namespace equilibrium {
@@ -52,7 +53,6 @@ struct RowLoop {
   }
 
 #ifdef EQUILIBRIUM_WIDE_LOOPS
-  // With everything inlined, as what is called would be compiled for any processor.
   template <class Work, class Material>
   EQUILIBRIUM_AVX512 __attribute__((flatten)) static fpm::Index avx512_rows(
       const LoopData<Dim>& data, fpm::Index begin, fpm::Index end, const double* moments,

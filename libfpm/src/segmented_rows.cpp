@@ -138,6 +138,11 @@ SegmentedRows segment(const WeightedRows& rows, Index block_rows, Index sources)
     flush(end);
   }
   out.block_begin.push_back(static_cast<Index>(out.segments.size()));
+  // Kept for the whole run, and half of it may be room to grow.
+  out.segments.shrink_to_fit();
+  out.block_begin.shrink_to_fit();
+  out.ids.shrink_to_fit();
+  out.weights.shrink_to_fit();
   return out;
 }
 
