@@ -262,6 +262,18 @@ void load_columns(const double* column, Lanes<Width>* out) {
   detail::load_columns_from<Count, 0>(column, out);
 }
 
+/// Writes them back.
+template <int Count>
+void store_columns(double* column, const double* values) {
+  for (int k = 0; k < Count; ++k) column[k] = values[k];
+}
+template <int Count, int Width>
+void store_columns(double* column, const Lanes<Width>* values) {
+  for (int lane = 0; lane < Width; ++lane) {
+    for (int k = 0; k < Count; ++k) column[lane * Count + k] = values[k][lane];
+  }
+}
+
 }  // namespace equilibrium
 
 namespace Eigen {
