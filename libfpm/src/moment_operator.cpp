@@ -166,7 +166,7 @@ template <int Dim>
 double MomentOperator<Dim>::shared_share() const {
   double shared = 0.0;
   for (const auto& segment : forward_.segments) {
-    if (segment.shared) shared += segment.count;
+    if (segment.kind == SegmentedRows::Kind::shared) shared += segment.count;
   }
   return size_ == 0 ? 0.0 : shared / size_;
 }

@@ -40,7 +40,7 @@ FPM_INLINE void store(double* p, const Lanes<Width>& v, Index count) {
 }
 
 // How the entries of a register of rows are reached: one shared stencil at a constant offset from
-// the row, or indices and weights of their own.
+// the row, or weights of their own, side by side or anywhere.
 template <int Width>
 struct SharedEntries {
   static constexpr int width = Width;
@@ -53,6 +53,17 @@ struct SharedEntries {
   template <int Count>
   FPM_INLINE Lanes<Width> weight(Index k, int channel) const {
     return weights[k * Count + channel] - Lanes<Width>{};
+  }
+};
+
+struct AlignedEntries {
+  static constexpr int width = own_width;
+  const Index* ids;
+  const double* weights;
+  FPM_INLINE Lanes<width> field(const double* p, Index k) const { return load<width>(p + ids[k]); }
+  template <int Count>
+  FPM_INLINE Lanes<width> weight(Index k, int channel) const {
+    return load<width>(weights + (k * Count + channel) * width);
   }
 };
 
@@ -165,8 +176,12 @@ FPM_INLINE void for_each_register(const KernelRows& rows, const Work& work) {
   for (const Segment* s = rows.begin; s != rows.end; ++s) {
     const Index* ids = rows.ids + s->id_begin;
     const double* weights = rows.weights + s->weight_begin;
-    if (!s->shared) {
+    if (s->kind == SegmentedRows::Kind::own) {
       work(OwnEntries{ids, weights}, s->width, s->first, s->count);
+      continue;
+    }
+    if (s->kind == SegmentedRows::Kind::aligned) {
+      work(AlignedEntries{ids, weights}, s->width, s->first, s->count);
       continue;
     }
     Index r = 0;

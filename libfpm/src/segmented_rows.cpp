@@ -40,18 +40,20 @@ class Layout {
       const auto weights = rows_.weights(first);
       out_.weights.insert(out_.weights.end(), weights.begin(), weights.end());
     }
-    out_.segments.push_back({first, count, static_cast<Index>(ids.size()), true, known->second.id,
-                             known->second.weight});
+    out_.segments.push_back({first, count, static_cast<Index>(ids.size()),
+                             SegmentedRows::Kind::shared, known->second.id, known->second.weight});
   }
 
   void add_own(Index first, Index count) {
     std::size_t width = 0;
     for (Index r = first; r < first + count; ++r) width = std::max(width, rows_.width(r));
     const auto m = static_cast<std::size_t>(rows_.channels);
-    out_.segments.push_back(
-        {first, count, static_cast<Index>(width), false, out_.ids.size(), out_.weights.size()});
+    const bool aligned = are_aligned(first, count);
+    out_.segments.push_back({first, count, static_cast<Index>(width),
+                             aligned ? SegmentedRows::Kind::aligned : SegmentedRows::Kind::own,
+                             out_.ids.size(), out_.weights.size()});
     for (std::size_t k = 0; k < width; ++k) {
-      for (Index lane = 0; lane < lanes; ++lane) {
+      for (Index lane = 0; lane < (aligned ? 1 : lanes); ++lane) {
         const Index row = std::min(first + lane, first + count - 1);
         const auto ids = rows_.ids(row);
         out_.ids.push_back(k < ids.size() ? ids[k] : std::min(row, sources_ - 1));
@@ -70,6 +72,18 @@ class Layout {
     std::size_t id;
     std::size_t weight;
   };
+  // Whether the entries of four rows stand side by side as the rows do.
+  bool are_aligned(Index first, Index count) const {
+    if (count != lanes) return false;
+    const auto ids = rows_.ids(first);
+    for (Index lane = 1; lane < lanes; ++lane) {
+      const auto others = rows_.ids(first + lane);
+      const auto follows = [&](Index id, Index other) { return other == id + lane; };
+      if (!std::ranges::equal(ids, others, follows)) return false;
+    }
+    return true;
+  }
+
   const WeightedRows& rows_;
   Index sources_;
   SegmentedRows& out_;
