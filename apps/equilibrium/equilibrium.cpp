@@ -106,6 +106,17 @@ LoopData<Dim> Equilibrium<Dim>::loop_data() {
 template <int Dim>
 void Equilibrium<Dim>::rebuild_operator() {
   operator_ = fpm::MomentOperator<Dim>(state_.rows, model_.ghosts, model_.channels, correction_);
+  pair_up();
+}
+
+template <int Dim>
+void Equilibrium<Dim>::follow_re_search(const std::vector<fpm::Index>& rows) {
+  operator_.update(state_.rows, rows, correction_);
+  pair_up();
+}
+
+template <int Dim>
+void Equilibrium<Dim>::pair_up() {
   if (model_.control != scene::HourglassControl::viscosity) return;
   Eigen::VectorXd modulus(model_.size());
   for (Eigen::Index a = 0; a < modulus.size(); ++a) {

@@ -66,6 +66,13 @@ class MomentOperator {
   MomentOperator(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Channels channels,
                  const ConsistencyCorrection<Dim>& correction = {});
 
+  /// Follows rows that have been re-searched or corrected since, in proportion to their number:
+  /// what gather and scatter give is what they give when built anew, to the bit.
+  /// @param changed  those rows, ascending
+  /// @param correction  as at first
+  void update(const Rows<Dim>& rows, const std::vector<Index>& changed,
+              const ConsistencyCorrection<Dim>& correction = {});
+
   Index size() const { return size_; }
   Channels channels() const { return channels_; }
   int channel_count() const { return channels_.count(Dim); }
@@ -132,6 +139,8 @@ class MomentOperator {
   double shared_share() const;
 
  private:
+  std::vector<char> summed_channels() const;
+
   Index size_ = 0;
   Channels channels_;
   Ghosts<Dim> ghosts_;
