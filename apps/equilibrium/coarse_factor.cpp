@@ -32,6 +32,13 @@ double envelope(const Sparse& matrix) {
   return numbers;
 }
 
+// Ordered for little fill; says how much that is before it is made.
+class SparseFactorisation : public Eigen::SimplicialLLT<Sparse> {
+ public:
+  explicit SparseFactorisation(const Sparse& matrix) { analyzePattern(matrix); }
+  double numbers() const { return static_cast<double>(m_matrix.nonZeros()); }
+};
+
 template <class Factorisation>
 Eigen::SparseMatrix<float> lower(const Factorisation& factorisation) {
   if (factorisation.info() != Eigen::Success) {
@@ -50,15 +57,15 @@ CoarseFactor::CoarseFactor(const Sparse& matrix, const std::vector<int>& sorted)
   for (int k = 0; k < n; ++k) sweep.indices()[sorted[static_cast<std::size_t>(k)]] = k;
   Sparse swept(n, n);
   swept = matrix.twistedBy(sweep);
-  const Eigen::SimplicialLLT<Sparse> filling(matrix);
-  sparse_ = lower(filling);
-  if (envelope(swept) <= most_fill * static_cast<double>(sparse_.nonZeros())) {
-    sparse_ = {};
+  SparseFactorisation sparse(matrix);
+  if (envelope(swept) <= most_fill * sparse.numbers()) {
     order_ = sweep;
     rows_ = rows_of(
         lower(Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>>(swept)));
   } else {
-    order_ = filling.permutationP();
+    sparse.factorize(matrix);
+    sparse_ = lower(sparse);
+    order_ = sparse.permutationP();
   }
   work_.setZero(rounded_down(n + width - 1, width));
 }
