@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "constitutive/strength_reduction.hpp"
 #include "equilibrium/given_unknowns.hpp"
 #include "equilibrium/hourglass_work.hpp"
 #include "equilibrium/local_response.hpp"
@@ -69,10 +70,12 @@ double energy_unit(const model::Model<Dim>& model) {
 }  // namespace
 
 template <int Dim>
-Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>& state)
+Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>& state,
+                              std::optional<InitialBalance<Dim>> rest)
     : model_(model),
       state_(state),
       given_(given_unknowns(model.prescribed)),
+      laws_(model.reduced_laws.empty() ? std::vector<constitutive::Material>() : model.laws),
       loops_(choose_loops<Dim>(model.layout)),
       interfaces_(model),
       vectors_(model.size()) {
@@ -82,7 +85,9 @@ Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>&
     correction_ = fpm::consistency_correction(initial, model_.ghosts, model_.area_vector);
   }
   rebuild_operator();
-  if (model_.initial_stress.size() > 0 && state_.programme.balanced != 0) {
+  if (rest) {
+    balance_ = std::move(*rest);
+  } else if (model_.initial_stress.size() > 0 && state_.programme.balanced != 0) {
     balance_ = balance_initial_stress(model_, initial_operator());
   }
   const ArraySizes sizes = array_sizes(model_, operator_);
@@ -100,7 +105,8 @@ fpm::MomentOperator<Dim> Equilibrium<Dim>::initial_operator() const {
 
 template <int Dim>
 LoopData<Dim> Equilibrium<Dim>::loop_data() {
-  return {operator_, model_.laws, model_.law, state_, step_, evaluation_, tangents_};
+  return {operator_, laws_.empty() ? model_.laws : laws_, model_.law, state_, step_, evaluation_,
+          tangents_};
 }
 
 template <int Dim>
@@ -126,11 +132,35 @@ void Equilibrium<Dim>::pair_up() {
 }
 
 template <int Dim>
-void Equilibrium<Dim>::begin_step(double load) {
+void Equilibrium<Dim>::reduce_strength(double factor) {
+  if (factor == reduction_) return;
+  for (const model::ReducedLaw& reduced : model_.reduced_laws) {
+    laws_[reduced.law] =
+        constitutive::make_material(constitutive::with_strength_over(reduced.parameters, factor));
+  }
+  reduction_ = factor;
+}
+
+template <int Dim>
+std::optional<fpm::Field<Dim>> Equilibrium<Dim>::unbalanced(double load, double reduction) {
+  begin_step(load, 1.0, reduction);
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(model_.unknowns());
+  Eigen::VectorXd residual(nothing.size());
+  if ((*this)(nothing, residual) != jfnk::Evaluation::ok) return std::nullopt;
+  return Eigen::Map<const fpm::Field<Dim>>(residual.data(), model_.size(), Dim);
+}
+
+template <int Dim>
+void Equilibrium<Dim>::begin_step(double load, double progress, double reduction) {
   step_.load = rigid_load_ = load;
+  reduce_strength(reduction);
   interfaces_.begin_step(state_);
   step_.external = model_.constant_load + load * model_.scaled_load;
   if (balance_.load.size() > 0) step_.external += balance_.load;
+  if (state_.unbalanced.size() > 0 && progress < 1.0) {
+    step_.external += (1.0 - progress) * Eigen::Map<const Eigen::VectorXd>(
+                                             state_.unbalanced.data(), state_.unbalanced.size());
+  }
   external_norm_ = step_.external.norm();
   step_.start_position = model_.particles.position + state_.displacement;
   place_particles();

@@ -14,7 +14,8 @@ namespace run {
 
 /// From which checkpoint a run goes on.
 struct ResumeFrom {
-  std::filesystem::path checkpoint;  // empty: the newest usable one in the output folder
+  std::filesystem::path checkpoint;       // or a run's folder; empty: the output folder: its newest
+  std::optional<std::size_t> stage = {};  // with which it goes on, from the end of the one before
 };
 
 /// How accurate a run is to be, in the words of the user; fpm-study sees to it.

@@ -88,6 +88,8 @@ const std::vector<Case> cases{
       "material.0.tension_cutoff=500"},
      20},
     {"graded_cutouts", &tunnel, {"geometry.spacing=0.125", "grading.enabled=true"}, 8},
+    {"stages", &staged, {}, 20, true},
+    {"stages_of_a_load", &staged_load, {"re_search.enabled=false"}, 20},
     {"block_3d", &block, {}, 6},
     {"mixed_block_3d",
      &block,

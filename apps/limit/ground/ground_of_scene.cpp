@@ -39,6 +39,10 @@ class Reader {
            "fpm-limit knows regions alone: let their outlines go around what is cut out");
     refuse(!scene_.traction.empty(), "traction", "the ground has a traction on a face of its box",
            "give the [[side]] there kind = \"loaded\"");
+    refuse(!scene_.stage.empty(), "stage", "the ground changes in stages",
+           "fpm-limit bounds one ground: give it what is there at the stage in question");
+    refuse(!scene_.drive.weakened.empty(), "drive.weakened", "only some materials are weakened",
+           "fpm-limit divides the strength of all");
     take_load();
     for (std::size_t m = 0; m < scene_.material.size(); ++m) take_material(m);
     for (std::size_t r = 0; r < scene_.region.size(); ++r) {
@@ -72,6 +76,7 @@ class Reader {
     if (drive.kind == scene::DriveKind::displacement || scene::loads_plate(drive)) {
       return Sought::footing;
     }
+    if (drive.kind == scene::DriveKind::strength) return Sought::strength;
     const auto grows = [&](scene::LoadKind kind) {
       return drive.kind == scene::DriveKind::load && std::ranges::count(drive.scales, kind) > 0;
     };

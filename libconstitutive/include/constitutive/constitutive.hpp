@@ -15,6 +15,7 @@
 #include "constitutive/parameters.hpp"
 #include "constitutive/rankine.hpp"
 #include "constitutive/state.hpp"
+#include "constitutive/strength_reduction.hpp"
 #include "constitutive/tensor.hpp"
 #include "constitutive/utilisation.hpp"
 #include "constitutive/version.hpp"

@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "constitutive/strength_reduction.hpp"
+
+namespace constitutive {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+// Mohr-Coulomb's shear strength c + p tan(phi) is divided at every pressure, the dilation with it.
+TEST(StrengthReduction, DividesTheShearStrengthAtEveryPressure) {
+  MaterialParameters whole;
+  whole.cohesion = 10e3;
+  whole.friction_angle = 30.0;
+  whole.dilation_angle = 30.0;
+  whole.youngs_modulus = 1e7;
+  const MaterialParameters half = with_strength_over(whole, 2.0);
+  for (const double pressure : {0.0, 1e3, 1e6}) {
+    const auto strength = [&](const MaterialParameters& p) {
+      return p.cohesion + pressure * std::tan(p.friction_angle * degree);
+    };
+    EXPECT_DOUBLE_EQ(strength(half), 0.5 * strength(whole));
+  }
+  EXPECT_DOUBLE_EQ(half.dilation_angle, half.friction_angle);
+  EXPECT_EQ(half.youngs_modulus, whole.youngs_modulus);
+}
+
+TEST(StrengthReduction, ByOneChangesNoBit) {
+  MaterialParameters whole;
+  whole.cohesion = 10.1e3;
+  whole.friction_angle = 33.3;
+  whole.dilation_angle = 11.1;
+  EXPECT_EQ(with_strength_over(whole, 1.0), whole);
+}
+
+}  // namespace
+}  // namespace constitutive
