@@ -73,6 +73,25 @@ constitutive::MaterialParameters soil(const std::string& model, double phi, doub
   return p;
 }
 
+constitutive::MaterialParameters softening(constitutive::MaterialParameters p) {
+  p.residual_strain = 0.01;
+  p.residual_cohesion = 0.4 * p.cohesion;
+  if (p.friction_angle > 0.0) p.residual_friction_angle = 0.8 * p.friction_angle;
+  return p;
+}
+
+constitutive::MaterialParameters clay() {
+  constitutive::MaterialParameters p;
+  p.model = "modified_cam_clay";
+  p.youngs_modulus = 20e6;
+  p.poissons_ratio = 0.3;
+  p.compression_index = 0.1;
+  p.swelling_index = 0.02;
+  p.critical_stress_ratio = 1.0;
+  p.preconsolidation_pressure = 150e3;
+  return p;
+}
+
 }  // namespace
 
 std::vector<ErrorMapCase> error_map_cases() {
@@ -88,6 +107,12 @@ std::vector<ErrorMapCase> error_map_cases() {
        soil("mohr_coulomb", phi, psi), confined, compression},
       {"mohr_coulomb_shear", "Mohr-Coulomb, phi = 30, psi = 10 degrees, from shear",
        soil("mohr_coulomb", phi, psi), confined, shear},
+      {"softening_von_mises", "von Mises, cohesion to 40 % over 1 % of plastic strain",
+       softening(soil("von_mises", 0.0, 0.0)), 0.0, shear},
+      {"softening_mohr_coulomb", "Mohr-Coulomb from shear, cohesion to 40 and phi to 80 % over 1 %",
+       softening(soil("mohr_coulomb", phi, psi)), confined, shear},
+      {"modified_cam_clay", "Modified Cam Clay, wet of critical, p = p_c / 1.5", clay(), confined,
+       compression},
   };
 }
 

@@ -80,6 +80,15 @@ void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
   }
 }
 
+bool is_consolidated(const scene::Material& material) {
+  return scene::model_of(material).critical_state;
+}
+
+// Whether particles of a material may differ in their law.
+bool changes(const scene::Material& material) {
+  return scene::varies(material) || is_consolidated(material);
+}
+
 // The laws of particles. Equal values are one law, so that rows of a lattice along which nothing
 // changes go on to be worked on side by side.
 template <int Dim>
@@ -98,18 +107,25 @@ void assign_laws(const scene::Scene& scene, Model<Dim>& model) {
   std::vector<LawIndex> uniform(scene.material.size());
   for (std::size_t m = 0; m < scene.material.size(); ++m) {
     const scene::Material& material = scene.material[m];
-    if (!scene::varies(material)) uniform[m] = add(material, scene::parameters_of(material));
+    if (!changes(material)) uniform[m] = add(material, scene::parameters_of(material));
   }
   model.law.resize(model.material.size());
-  std::map<std::tuple<MaterialIndex, double, double>, LawIndex> known;
+  std::map<std::tuple<MaterialIndex, double, double, double>, LawIndex> known;
   for (Eigen::Index a = 0; a < model.size(); ++a) {
     const MaterialIndex m = model.material[static_cast<std::size_t>(a)];
     model.law[static_cast<std::size_t>(a)] = uniform[m];
-    if (!scene::varies(scene.material[m])) continue;
+    if (!changes(scene.material[m])) continue;
     const fpm::Vector<Dim> place = model.particles.position.row(a).transpose();
-    const auto parameters = scene::parameters_at(scene.material[m], {place.data(), Dim});
-    const auto [at, is_new] =
-        known.try_emplace({m, parameters.cohesion, parameters.youngs_modulus}, 0);
+    auto parameters = scene::parameters_at(scene.material[m], {place.data(), Dim});
+    if (is_consolidated(scene.material[m])) {
+      parameters.preconsolidation_pressure =
+          *scene.material[m].overconsolidation_ratio *
+          constitutive::yield_pressure<Dim>(parameters.critical_stress_ratio,
+                                            geostatic_stress<Dim>(scene, place, m));
+    }
+    const auto [at, is_new] = known.try_emplace(
+        {m, parameters.cohesion, parameters.youngs_modulus, parameters.preconsolidation_pressure},
+        0);
     if (is_new) at->second = add(scene.material[m], parameters);
     model.law[static_cast<std::size_t>(a)] = at->second;
   }

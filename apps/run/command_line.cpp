@@ -68,6 +68,13 @@ po::options_description options() {
       ("quantity", po::value<std::string>()->value_name("QUANTITY"),
        "of --accuracy: what the answer is, as fpm-study --help says; default: the mean pressure, "
        "the reaction or the largest displacement")  //
+      ("far", po::value<std::string>()->value_name("SIDES"),
+       "of --accuracy: sides, as left,bottom, that are only where the ground that is looked at "
+       "ends; "
+       "what they do is part of the error bar")  //
+      ("quality", po::value<std::string>()->value_name("WORD"),
+       "draft, normal or fine: coarser, as, or finer than the scene says; share/doc/trade.md has "
+       "what each costs and how far off it is")  //
       ("threads", po::value<int>()->value_name("N"),
        "threads, at least 1; results do not depend on it; default: OpenMP's choice")  //
       ("max-wall", po::value<std::string>()->value_name("TIME"),
@@ -113,17 +120,23 @@ std::optional<AccuracyWish> accuracy_of(const po::variables_map& values) {
     return values.count(name) != 0 ? std::optional(values[name].as<std::string>()) : std::nullopt;
   };
   const auto accuracy = text("accuracy");
-  for (const char* name : {"budget", "quantity"}) {
+  for (const char* name : {"budget", "quantity", "far"}) {
     if (accuracy || values.count(name) == 0) continue;
     throw program::UsageError(fmt::format("--{}: it is one of --accuracy", name));
   }
-  if (!accuracy) return std::nullopt;
-  if (values.count("resume") != 0 || values.count("max-wall") != 0 || values["check"].as<bool>()) {
-    throw program::UsageError(
-        "--accuracy: it goes with neither --resume, --max-wall nor --check; interrupted, the same "
-        "command goes on");
+  const auto quality = text("quality");
+  if (!accuracy && !quality) return std::nullopt;
+  if (accuracy && quality) {
+    throw program::UsageError("--quality: --accuracy says itself how fine the scene runs");
   }
-  return AccuracyWish{*accuracy, text("budget"), text("quantity")};
+  if (values.count("resume") != 0 || values.count("max-wall") != 0 || values["check"].as<bool>()) {
+    throw program::UsageError(fmt::format(
+        "--{}: it goes with neither --resume, --max-wall nor --check; interrupted, the same "
+        "command goes on",
+        accuracy ? "accuracy" : "quality"));
+  }
+  if (quality) return std::nullopt;
+  return AccuracyWish{*accuracy, text("budget"), text("quantity"), text("far")};
 }
 
 RunRequest request_of(const po::variables_map& values) {
@@ -136,6 +149,7 @@ RunRequest request_of(const po::variables_map& values) {
   request.settings = program::texts(values, "set");
   if (values.count("resume") != 0) request.resume = ResumeFrom{values["resume"].as<std::string>()};
   request.accuracy = accuracy_of(values);
+  if (values.count("quality") != 0) request.quality = values["quality"].as<std::string>();
   request.check_only = values["check"].as<bool>();
   if (values.count("draw") != 0) {
     request.drawing = values["draw"].as<std::string>();

@@ -10,6 +10,7 @@
 #include <memory>
 #include <thread>
 
+#include "bounds/accuracy_note.hpp"
 #include "bounds/limit_check.hpp"
 #include "files/durable_file.hpp"
 #include "model/build.hpp"
@@ -299,6 +300,8 @@ class Run {
               bounds::LimitCheck& limit) const {
     recorder.say(end_report(scene_, measures_->columns(), recorder.history(), recorder.elapsed(),
                             folder, recorder.last_checkpoint()));
+    const std::string accuracy = bounds::accuracy_note(folder.path(), scene_);
+    if (!accuracy.empty()) recorder.say(fmt::format("  {:<12} {}", "accuracy", accuracy));
     if (limit.pending()) recorder.say("waiting for fpm-limit; it may be interrupted and resumed");
     wait_for(limit, [&](const std::string& line) { recorder.say(line); });
     const std::string verdict = limit.verdict(recorder.history());

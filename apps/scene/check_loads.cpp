@@ -93,7 +93,8 @@ void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
   for (std::size_t i = 0; i < scene.material.size(); ++i) {
     const Material& material = scene.material[i];
     const std::string table = fmt::format("material.{}", i);
-    if (!yields(material) ||
+    // What a clay in critical states bears follows from this stress.
+    if (!yields(material) || model_of(material).critical_state ||
         !diagnosis.good({table + ".cohesion", table + ".friction_angle", table + ".poissons_ratio",
                          table + ".region_min", table + ".region_max", table + ".density"})) {
       continue;

@@ -32,7 +32,17 @@ constitutive::MaterialParameters parameters_of(const Material& material) {
   p.dilation_angle = material.dilation_angle.value_or(p.dilation_angle);
   p.density = material.density;
   p.dilation_cutoff = material.dilation_cutoff.value_or(p.dilation_cutoff);
-  if (model.yields) p.tension_cutoff = material.tension_cutoff.value_or(p.tension_cutoff);
+  const auto take = [&](const char* name, const std::optional<double>& value) {
+    const constitutive::ParameterInfo& info = constitutive::parameter_info(name);
+    if (value && info.is_used_by(model)) p.*info.member = *value;
+  };
+  take("tension_cutoff", material.tension_cutoff);
+  take("residual_strain", material.residual_strain);
+  take("residual_cohesion", material.residual_cohesion);
+  take("residual_friction_angle", material.residual_friction_angle);
+  take("compression_index", material.compression_index);
+  take("swelling_index", material.swelling_index);
+  take("critical_stress_ratio", material.critical_stress_ratio);
   // The scene has been warned of what has no effect. An elastic material is archived with it.
   if (model.yields && !model.frictional) p.friction_angle = p.dilation_angle = 0.0;
   return p;
@@ -79,10 +89,11 @@ HourglassControl resolve_control(const Scene& scene) {
   // Loads that grow end in a mechanism of narrow bands, which sub-points bear too well.
   if (ends_in_collapse(scene)) return HourglassControl::incremental;
   // What does not yield is at home with either: it must not decide for the ground that does.
-  const bool has_sub_points = scene.geometry.dimension == 2 && all([](const Material& m) {
-                                const bool one = model_of(m).one_pressure && !m.tension_cutoff;
-                                return one || !yields(m);
-                              });
+  const bool has_sub_points =
+      scene.geometry.dimension == 2 && all([](const Material& m) {
+        const bool one = model_of(m).one_pressure && !m.tension_cutoff && !m.residual_strain;
+        return one || !yields(m);
+      });
   return has_sub_points ? HourglassControl::mixed : HourglassControl::incremental;
 }
 

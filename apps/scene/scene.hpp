@@ -140,17 +140,24 @@ struct Material {
   std::string model = "elastic";       // a family of models of libconstitutive
   tables::LinearField youngs_modulus;  // [Pa]
   double poissons_ratio = 0.0;
-  std::optional<tables::LinearField> cohesion;  // [Pa] present for every yielding model
-  std::optional<double> friction_angle;         // [deg] present for the frictional models
-  std::optional<double> dilation_angle;         // [deg] present for the frictional models
-  double density = 0.0;                         // [kg/m3]
-  std::optional<double> unit_weight;            // [N/m3] which says the same
-  std::optional<double> saturated_unit_weight;  // [N/m3] below the water table
-  std::optional<double> dilation_cutoff;        // accumulated plastic volume strain
-  std::optional<double> tension_cutoff;         // [Pa] largest principal stress
-  std::string match = "plane_strain";           // of a family of several
-  Point region_min;                             // [m] empty: everywhere
-  Point region_max;                             // [m]
+  std::optional<tables::LinearField> cohesion;    // [Pa] present for every yielding model
+  std::optional<double> friction_angle;           // [deg] present for the frictional models
+  std::optional<double> dilation_angle;           // [deg] present for the frictional models
+  double density = 0.0;                           // [kg/m3]
+  std::optional<double> unit_weight;              // [N/m3] which says the same
+  std::optional<double> saturated_unit_weight;    // [N/m3] below the water table
+  std::optional<double> dilation_cutoff;          // accumulated plastic volume strain
+  std::optional<double> tension_cutoff;           // [Pa] largest principal stress
+  std::optional<double> residual_strain;          // equivalent plastic strain
+  std::optional<double> residual_cohesion;        // [Pa]
+  std::optional<double> residual_friction_angle;  // [deg]
+  std::optional<double> compression_index;        // present for models of critical states
+  std::optional<double> swelling_index;           // as is this,
+  std::optional<double> critical_stress_ratio;    // this
+  std::optional<double> overconsolidation_ratio;  // and this
+  std::string match = "plane_strain";             // of a family of several
+  Point region_min;                               // [m] empty: everywhere
+  Point region_max;                               // [m]
   bool operator==(const Material&) const = default;
 };
 

@@ -37,6 +37,12 @@ tables::FieldNotes notes_of_strength(std::string_view name) {
   return notes_of(name, tables::Need::optional, absent);
 }
 
+constexpr std::string_view without_critical_states = "only without modified_cam_clay";
+
+tables::FieldNotes notes_of_critical_states(std::string_view name) {
+  return notes_of(name, tables::Need::optional, without_critical_states);
+}
+
 /// Each name once, in the order of the models.
 std::vector<std::string_view> names_of_models(std::string_view constitutive::ModelInfo::*name) {
   std::vector<std::string_view> all;
@@ -289,6 +295,23 @@ SceneTable material() {
            notes_of("dilation_cutoff", tables::Need::optional, "never"))
       .key("tension_cutoff", &Material::tension_cutoff,
            notes_of("tension_cutoff", tables::Need::optional, "none"))
+      .key("residual_strain", &Material::residual_strain,
+           notes_of("residual_strain", tables::Need::optional, "the strength stays"))
+      .key("residual_cohesion", &Material::residual_cohesion,
+           notes_of("residual_cohesion", tables::Need::optional, "the cohesion"))
+      .key("residual_friction_angle", &Material::residual_friction_angle,
+           notes_of("residual_friction_angle", tables::Need::optional, "the friction_angle"))
+      .key("compression_index", &Material::compression_index,
+           notes_of_critical_states("compression_index"))
+      .key("swelling_index", &Material::swelling_index, notes_of_critical_states("swelling_index"))
+      .key("critical_stress_ratio", &Material::critical_stress_ratio,
+           notes_of_critical_states("critical_stress_ratio"))
+      .key("overconsolidation_ratio", &Material::overconsolidation_ratio,
+           {.need = tables::Need::optional,
+            .range = tables::at_least(1.0),
+            .doc = "Preconsolidation over that at which the initial stress would just yield, at "
+                   "every place.",
+            .absent = without_critical_states})
       .key("match", &Material::match,
            {.doc = "Which Mohr-Coulomb states the Drucker-Prager cone meets; plane_strain holds in "
                    "2D only."})

@@ -118,6 +118,11 @@ class Reader {
     refuse(material.tension_cutoff.has_value(), table + "tension_cutoff",
            fmt::format("found {:g}", material.tension_cutoff.value_or(0.0)),
            "the bounds are those of a soil without a tension cut-off");
+    refuse(material.residual_strain.has_value(), table + "residual_strain",
+           fmt::format("found {:g}", material.residual_strain.value_or(0.0)),
+           "the bounds are those of a soil whose strength stays");
+    refuse(scene::model_of(material).critical_state, table + "model", "found " + material.model,
+           "the bounds are those of a soil whose strength stays");
     GroundMaterial soil;
     soil.name = material.name;
     const auto parameters = scene::yields(material) ? scene::parameters_of(material)
