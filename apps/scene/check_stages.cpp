@@ -16,6 +16,11 @@
 namespace scene {
 namespace {
 
+// Whether a material's strength is made of what stages change and a reduction divides.
+bool has_cohesion(const Material& material) {
+  return yields(material) && !model_of(material).critical_state;
+}
+
 using Names = std::vector<std::string>;
 
 std::string key_of(std::size_t stage, const char* name) {
@@ -201,9 +206,11 @@ void check_values(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosi
   }
   for (const std::string& name : stage.materials) {
     const auto material = std::ranges::find(scene.material, name, &Material::name);
-    if (yields(*material)) continue;
+    if (has_cohesion(*material)) continue;
     diagnosis.error(key_of(s, "materials"), fmt::format("found \"{}\"", name),
-                    "an elastic material has no strength that could change");
+                    fmt::format("material model {} has no cohesion or friction angle that could "
+                                "change",
+                                material->model));
   }
   constexpr double right_angle = 90.0;
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -287,8 +294,16 @@ void check_reduction(const Scene& scene, tables::Diagnosis& diagnosis) {
     return;
   }
   const bool any = std::ranges::any_of(scene.material, [&](const Material& material) {
-    return yields(material) && is_weakened(scene, material.name);
+    return has_cohesion(material) && is_weakened(scene, material.name);
   });
+  for (const Material& material : scene.material) {
+    if (!yields(material) || has_cohesion(material) || !is_weakened(scene, material.name)) continue;
+    diagnosis.error("drive.weakened", fmt::format("would weaken \"{}\"", material.name),
+                    fmt::format("what is divided is cohesion and tan(phi), and material model {} "
+                                "has neither: name the others",
+                                material.model));
+    return;
+  }
   if (!any && diagnosis.good({"drive.weakened", "material"})) {
     diagnosis.error("drive.weakened", "no material of them has a strength",
                     "what is divided is cohesion and tan(phi)");

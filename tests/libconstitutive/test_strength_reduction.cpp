@@ -28,6 +28,22 @@ TEST(StrengthReduction, DividesTheShearStrengthAtEveryPressure) {
   EXPECT_EQ(half.youngs_modulus, whole.youngs_modulus);
 }
 
+TEST(StrengthReduction, DividesWhatIsLeftOfItLikewise) {
+  MaterialParameters whole;
+  whole.cohesion = 10e3;
+  whole.friction_angle = 30.0;
+  whole.residual_strain = 0.1;
+  whole.residual_cohesion = 2e3;
+  whole.residual_friction_angle = 20.0;
+  const MaterialParameters half = with_strength_over(whole, 2.0);
+  EXPECT_DOUBLE_EQ(half.residual_cohesion, 1e3);
+  EXPECT_DOUBLE_EQ(std::tan(half.residual_friction_angle * degree), 0.5 * std::tan(20.0 * degree));
+  EXPECT_EQ(half.residual_strain, 0.1);
+  // Absent is absent.
+  whole.residual_friction_angle = MaterialParameters{}.residual_friction_angle;
+  EXPECT_EQ(with_strength_over(whole, 2.0).residual_friction_angle, whole.residual_friction_angle);
+}
+
 TEST(StrengthReduction, ByOneChangesNoBit) {
   MaterialParameters whole;
   whole.cohesion = 10.1e3;

@@ -7,8 +7,8 @@
 
 namespace constitutive {
 
-/// A material whose cohesion and tan(phi) are divided by a factor, and tan(psi) with them, so that
-/// flow that is associated stays so.
+/// A material whose cohesion and tan(phi), residual ones included, are divided by a factor, and
+/// tan(psi) with them, so that flow that is associated stays so.
 /// @param factor  > 0; below 1 it strengthens
 [[nodiscard]] inline MaterialParameters with_strength_over(MaterialParameters parameters,
                                                            double factor) {
@@ -20,6 +20,10 @@ namespace constitutive {
   parameters.cohesion /= factor;
   parameters.friction_angle = divided(parameters.friction_angle);
   parameters.dilation_angle = divided(parameters.dilation_angle);
+  parameters.residual_cohesion /= factor;
+  if (std::isfinite(parameters.residual_friction_angle)) {
+    parameters.residual_friction_angle = divided(parameters.residual_friction_angle);
+  }
   return parameters;
 }
 
