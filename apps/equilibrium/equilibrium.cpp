@@ -55,6 +55,17 @@ ArraySizes array_sizes(const model::Model<Dim>& model, const fpm::MomentOperator
   return sizes;
 }
 
+// A power of two about as large as the stiffest particle's modulus times volume, so that single
+// precision has numbers about one whatever the scene's units.
+template <int Dim>
+double energy_unit(const model::Model<Dim>& model) {
+  double largest = 0.0;
+  for (Eigen::Index a = 0; a < model.size(); ++a) {
+    largest = std::max(largest, model.youngs_modulus_of(a) * model.particles.volume[a]);
+  }
+  return std::exp2(std::round(std::log2(largest)));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -95,6 +106,17 @@ LoopData<Dim> Equilibrium<Dim>::loop_data() {
 template <int Dim>
 void Equilibrium<Dim>::rebuild_operator() {
   operator_ = fpm::MomentOperator<Dim>(state_.rows, model_.ghosts, model_.channels, correction_);
+  pair_up();
+}
+
+template <int Dim>
+void Equilibrium<Dim>::follow_re_search(const std::vector<fpm::Index>& rows) {
+  operator_.update(state_.rows, rows, correction_);
+  pair_up();
+}
+
+template <int Dim>
+void Equilibrium<Dim>::pair_up() {
   if (model_.control != scene::HourglassControl::viscosity) return;
   Eigen::VectorXd modulus(model_.size());
   for (Eigen::Index a = 0; a < modulus.size(); ++a) {
@@ -285,7 +307,10 @@ bool Equilibrium<Dim>::linearise(const Eigen::VectorXd& increment) {
   failure_ = {};
   extend_increment(increment);
   evaluation_.base_increment = increment;
-  if (tangents_.stress.size() == 0) allocate(tangents_, step_.sizes);
+  if (tangents_.stress.size() == 0) {
+    allocate(tangents_, step_.sizes);
+    tangents_.unit = energy_unit(model_);
+  }
   if (!interfaces_.empty()) {
     evaluation_.displacement = state_.displacement + Eigen::Map<const fpm::Field<Dim>>(
                                                          increment.data(), model_.size(), Dim);
@@ -449,9 +474,9 @@ template <int Dim>
 std::vector<model::MemoryPart> Equilibrium<Dim>::memory(bool to_come) const {
   const ArraySizes& sizes = step_.sizes;
   const std::size_t tangents =
-      to_come ? static_cast<std::size_t>(sizes.tangent_entries + sizes.rotation_entries) *
-                    sizeof(double)
-              : bytes_of(tangents_);
+      to_come
+          ? static_cast<std::size_t>(sizes.tangent_entries + sizes.rotation_entries) * sizeof(float)
+          : bytes_of(tangents_);
   return {{"stencils", operator_.bytes() + correction_.bytes()},
           {"arrays of a step", bytes_of(step_)},
           {"arrays of an evaluation",

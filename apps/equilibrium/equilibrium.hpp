@@ -46,8 +46,11 @@ class Equilibrium {
   Equilibrium(const Equilibrium&) = delete;
   Equilibrium& operator=(const Equilibrium&) = delete;
 
-  /// Rebuilds the operator from the state's rows; call after a re-search.
+  /// Builds the operator from the state's rows.
   void rebuild_operator();
+  /// The same after a re-search, in proportion to the rows that it changed.
+  /// @param changed  those rows, ascending
+  void follow_re_search(const std::vector<fpm::Index>& changed);
 
   /// Prepares a step that ends at load parameter `load`.
   void begin_step(double load);
@@ -100,6 +103,7 @@ class Equilibrium {
   std::vector<model::MemoryPart> memory(bool to_come) const;
 
  private:
+  void pair_up();
   fpm::MomentOperator<Dim> initial_operator() const;
   LoopData<Dim> loop_data();
   void add_to_images(const fpm::Field<Dim>& motion, Eigen::VectorXd& extended) const;

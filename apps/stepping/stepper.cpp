@@ -324,9 +324,11 @@ Eigen::Index LoadStepper<Dim>::re_search() {
   for (fpm::Vector<Dim>& motion : plane_motion) motion *= state_.programme.load;
   const auto rebuilt =
       state_.rows.research(rows, position, volume, model_.driven_particle, plane_motion);
+  std::vector<fpm::Index> changed = rebuilt;
   if (model_.consistency) {
-    fpm::carry_consistency<Dim>(equilibrium_->moment_operator(), model_.ghosts, rebuilt,
-                                {volume, state_.deformation_gradient}, state_.rows);
+    changed = fpm::carry_consistency<Dim>(equilibrium_->moment_operator(), model_.ghosts, rebuilt,
+                                          {volume, state_.deformation_gradient}, state_.rows)
+                  .rows;
   }
   for (const fpm::Index a : rebuilt) {
     state_.searched_volume_ratio[a] *= ratio[a];
@@ -336,7 +338,7 @@ Eigen::Index LoadStepper<Dim>::re_search() {
   for (const fpm::Index a : rows) {
     state_.plastic_strain_at_search[a] = state_.plastic_strain[a];
   }
-  if (!rebuilt.empty()) equilibrium_->rebuild_operator();
+  if (!rebuilt.empty()) equilibrium_->follow_re_search(changed);
   ++state_.programme.re_searches;
   return static_cast<Eigen::Index>(rebuilt.size());
 }

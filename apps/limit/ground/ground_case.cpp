@@ -192,6 +192,32 @@ GroundFineness fineness_of(const GroundScene& scene, const GroundOutline& outlin
   return {(12.0 + 15.0 * steepest) / pi, 4, 2.0, longest};
 }
 
+// The meshes of triangles longer than high; none where the ground is too narrow for them.
+void add_long_meshes(const GroundScene& scene, const GroundOutline& outline, double length,
+                     problem::Case& result) {
+  // A soil of friction phi is squeezed along one axis by next to nothing as it grows across it; its
+  // lines of slip, at 45 - phi / 2 to that axis, are at 45 degrees where that axis is squeezed by
+  // tan(45 + phi / 2): 4 at 62 degrees, 16 at 83.
+  for (const double stretch : {4.0, 16.0}) {  // powers of two: nothing is rounded
+    GroundOutline squeezed = outline;
+    for (mesh::Point& point : squeezed.points) point.x() /= stretch;
+    squeezed.area /= stretch;
+    const auto add = [&](bool is_lower, std::vector<mesh::Mesh>& meshes) {
+      mesh::Mesh mesh =
+          ground_mesh(scene, squeezed, fineness_of(scene, squeezed, length, is_lower));
+      for (mesh::Point& node : mesh.nodes) node.x() *= stretch;
+      mesh.stretch = stretch;
+      meshes.push_back(std::move(mesh));
+    };
+    try {
+      add(true, result.long_lower);
+      add(false, result.long_upper);
+    } catch (const GroundTooFine&) {
+      continue;
+    }
+  }
+}
+
 std::vector<std::string> assumptions_of(const GroundScene& scene, const problem::Problem& problem,
                                         const std::optional<Base>& base) {
   std::vector<std::string> assumptions{
@@ -324,6 +350,10 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
                     narrow.place.x(), narrow.place.y(), most_first_triangles),
         "triangles are as small as the narrowest place near them; layers and gaps are wider, or "
         "left out");
+    return result;
+  }
+  if (result.seeks_strength && scene.materials.size() > 1) {
+    add_long_meshes(scene, outline, length, result);
   }
   return result;
 }

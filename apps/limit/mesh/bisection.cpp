@@ -54,6 +54,7 @@ class Bisector {
   Mesh result() const {
     Mesh mesh;
     mesh.nodes = mesh_.nodes;
+    mesh.stretch = mesh_.stretch;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       if (alive_[t]) mesh.triangles.push_back(mesh_.triangles[t]);
     }
@@ -87,9 +88,8 @@ class Bisector {
       const Side side(nodes[i], nodes[(i + 1) % 3]);
       const auto [low, high] = std::minmax(side.first, side.second);
       // From the lower node to the higher one, so that both neighbours round alike.
-      const double length =
-          (mesh_.nodes[static_cast<std::size_t>(high)] - mesh_.nodes[static_cast<std::size_t>(low)])
-              .squaredNorm();
+      const Point way = node(high) - node(low);
+      const double length = Point(way.x() / mesh_.stretch, way.y()).squaredNorm();
       if (length > most || (length == most && std::minmax(side.first, side.second) <
                                                   std::minmax(best.first, best.second))) {
         most = length;

@@ -35,6 +35,8 @@ struct Case {
   std::vector<HandFormula> hand;
   Units units;
   Problem lower, upper;  // in SI units, on the meshes to begin with
+  /// Meshes of longer triangles for the same ground, to be tried where its soils become steep.
+  std::vector<mesh::Mesh> long_lower, long_upper;
 };
 
 /// A collapse problem and, if a soil in it dilates by less than its friction angle, its twin of

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limit/bracket/side.hpp"
+#include "limit/bracket/weakened.hpp"
 #include "limit/ground/ground_cases.hpp"
 
 namespace {
@@ -170,6 +172,72 @@ TEST(Slope, OfASandyFaceNamesMaterialAndSideAndHasAnUpperBound) {
   EXPECT_THAT(problem->associated.notes,
               ::testing::Contains(::testing::AllOf(::testing::HasSubstr("\"soil\""),
                                                    ::testing::HasSubstr("\"surface\""))));
+}
+
+// Soft clay is squeezed out under strong ground, whose friction is 80 degrees and more at such a
+// factor: it bends like a plate, squeezed along itself by next to nothing as it grows across.
+// Triangles as long as they are high do not show that, nor the thrust in it.
+TEST(SteepSoil, IsBorneBetterByLongTriangles) {
+  const auto cases = case_of(R"([load]
+sought = "strength"
+[[material]]
+name = "top"
+cohesion = 37e3
+friction_angle = 46
+unit_weight = 13e3
+[[material]]
+name = "middle"
+cohesion = 98e3
+friction_angle = 15
+unit_weight = 13e3
+[[material]]
+name = "clay"
+cohesion = 250
+friction_angle = 0
+unit_weight = 21e3
+[[region]]
+material = "top"
+outline = [[-50, 6], [4.8, 6], [0, 15], [-50, 15]]
+[[region]]
+material = "middle"
+outline = [[-50, -2], [58, -2], [58, 0], [8, 0], [4.8, 6], [-50, 6]]
+[[region]]
+material = "clay"
+outline = [[-50, -10], [58, -10], [58, -2], [-50, -2]]
+[[side]]
+name = "surface"
+kind = "free"
+along = [[-50, 15], [0, 15], [8, 0], [58, 0]]
+[[side]]
+name = "walls"
+kind = "roller"
+along = [[-50, 15], [-50, -10]]
+[[side]]
+name = "base"
+kind = "fixed"
+along = [[-50, -10], [58, -10]]
+[[side]]
+name = "right"
+kind = "roller"
+along = [[58, -10], [58, 0]]
+)");
+  ASSERT_TRUE(cases);
+  const problem::Case& of = cases->associated;
+  ASSERT_EQ(of.long_lower.size(), 2U);
+  std::vector<double> carried;
+  for (const mesh::Mesh& mesh : {of.lower.mesh, of.long_lower.back()}) {
+    problem::Problem lower = of.lower;
+    lower.mesh = mesh;
+    lower = problem::in_units(lower, of.units);
+    lower.soils = bracket::weakened(lower.soils, 0.05);
+    bracket::Side side(lower, true);
+    bracket::Bracket found;
+    side.attempt(found, {}, {});
+    ASSERT_TRUE(found.lower);
+    carried.push_back(found.lower_bound());
+  }
+  EXPECT_LE(of.long_lower.back().triangles.size(), of.lower.mesh.triangles.size());
+  EXPECT_GT(carried[1], 2.0 * carried[0]);
 }
 
 }  // namespace

@@ -139,6 +139,31 @@ TEST(Water, WeakensASlope) {
   EXPECT_GT(*flooded.lower, *dry.upper);
 }
 
+bracket::Solution solution_of_shipped(const char* scene, const std::vector<std::string>& settings) {
+  const auto problem = shipped(scene, settings);
+  EXPECT_TRUE(problem);
+  bracket::BracketOptions options;
+  options.gap = 0.07;
+  return problem ? bracket::solution_of(problem->associated, options, {}) : bracket::Solution{};
+}
+
+// The reservoir presses on the face as the pore water does in it: what is left is the buoyant
+// weight. Emptied at once, with the pore water where it was, the slope is weaker than it is dry.
+TEST(Water, OfAReservoirHoldsASlopeUntilItIsDrawnDown) {
+  const std::string none = "water.table=[[-20, -6], [35, -6]]";
+  const bracket::Solution full = solution_of_shipped("drawdown_full", {});
+  const bracket::Solution light =
+      solution_of_shipped("drawdown_full", {none, "material.soil.unit_weight=10190"});
+  ASSERT_TRUE(full.lower && full.upper && light.lower && light.upper);
+  EXPECT_LE(*full.lower, *light.upper);
+  EXPECT_LE(*light.lower, *full.upper);
+  const bracket::Solution dry = solution_of_shipped("drawdown_full", {none});
+  const bracket::Solution rapid = solution_of_shipped("drawdown_rapid", {});
+  ASSERT_TRUE(dry.lower && dry.upper && rapid.lower && rapid.upper);
+  EXPECT_LT(*dry.upper, *full.lower);
+  EXPECT_LT(*rapid.upper, *dry.lower);
+}
+
 // A share of the overburden is the pressure of seepage along the face: the same known factor, and
 // the same force everywhere.
 TEST(Water, IsAShareOfTheOverburdenAsWell) {

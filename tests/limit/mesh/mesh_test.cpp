@@ -119,6 +119,19 @@ TEST(Bisection, PutsTheNewNodeInLineWithTheNodesAcrossIfThatIsNextToTheMiddle) {
   }
 }
 
+// Of a flat triangle the base is the longest side, unless lengths along it count for less.
+TEST(Bisection, TakesSidesAlongAStretchedMeshForShorterThanTheyAre) {
+  mesh::Mesh mesh;
+  mesh.nodes = {{0.0, 0.0}, {2.0, 0.0}, {1.0, 0.7}};
+  mesh.triangles = {{{0, 1, 2}, 0}};
+  mesh.boundary = {{0, 1, 0}, {1, 2, 0}, {2, 0, 0}};
+  EXPECT_EQ(mesh::bisected(mesh, {true}).nodes.back().y(), 0.0);
+  mesh.stretch = 4.0;
+  const mesh::Mesh halved = mesh::bisected(mesh, {true});
+  EXPECT_EQ(halved.nodes.back().y(), 0.35);
+  EXPECT_EQ(halved.stretch, 4.0);
+}
+
 TEST(Bisection, GoesOnNearOnePointUntilTheMeshHasGrown) {
   mesh::Mesh mesh = mesh::fan_mesh(mesh::even_fan(4.0, 2.0, 24, 8, 1.5));
   std::vector<double> indicators(mesh.triangles.size(), 0.0);

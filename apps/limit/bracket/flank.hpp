@@ -1,0 +1,253 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "limit/bracket/attempt.hpp"
+#include "limit/bracket/factor_search.hpp"
+#include "limit/bracket/means.hpp"
+#include "limit/bracket/side.hpp"
+#include "limit/bracket/weakened.hpp"
+#include "limit/problem/at_rest.hpp"
+
+namespace limit::bracket {
+
+/// Where the search of a factor begins, near enough for slopes: friction against the mean
+/// inclination of what is free, and Taylor's stability number. One, if there is no face.
+/// @param one  the multiplier of the loads as they are
+[[nodiscard]] double estimated_factor(const problem::Problem& problem, double one);
+
+/// One bound of the factor.
+class Flank {
+ public:
+  Flank(const problem::Problem& problem, bool is_lower, double one, const Means& means)
+      : is_lower_(is_lower),
+        means_(&means),
+        problem_(problem),
+        one_(one),
+        most_(problem.most_multiplier.value()),
+        side_(problem, is_lower, means),
+        search_(estimated_factor(problem, one)) {}
+
+  /// The best one certified so far.
+  [[nodiscard]] const std::optional<double>& factor() const { return factor_; }
+  [[nodiscard]] int triangles() const { return side_.triangles(); }
+  [[nodiscard]] bool can_refine() const { return side_.can_refine() && failures_ < most_failures; }
+  /// Whether a factor leaves some soil so much friction that solvers may lose themselves in it.
+  [[nodiscard]] bool is_steep_at(double factor) const {
+    const auto steep_there = [&](const problem::Soil& soil) { return is_steep(soil, factor); };
+    return std::any_of(problem_.soils.begin(), problem_.soils.end(), steep_there);
+  }
+  /// Whether soils would be put to rest, or more of them, if a solver failed at a factor.
+  [[nodiscard]] bool may_rest(double factor) const {
+    return resting_ != Resting::all && is_steep_at(factor);
+  }
+  /// Gain of the last mesh for its work; infinite as long as it is not known.
+  [[nodiscard]] double promise() const { return promise_; }
+  /// @param reach  how far off it may be, as a factor
+  void start_from(double factor, double reach) { search_ = FactorSearch(factor, reach); }
+
+  /// With the best fields so far.
+  void give(Bracket& bracket) const {
+    if (best_.lower) bracket.lower = best_.lower;
+    if (best_.upper) bracket.upper = best_.upper;
+  }
+
+  /// Finds the factor at which this mesh's bound of the multiplier is one.
+  /// @param nearness  -> how closely, as a share of it
+  /// @param solve     (*this, factor) -> whether to go on
+  template <class Nearness, class Solve>
+  void settle(const Nearness& nearness, const Solve& solve) {
+    const std::optional<double> before = settled_;
+    work_ = 0.0;
+    constexpr int most_steps = 16;
+    for (int step = 0; step < most_steps && failures_ < most_failures; ++step) {
+      const double near = nearness();
+      // To the side on which the certificate decides, by less than what is asked for.
+      const double target = next_factor() * std::exp((is_lower_ ? -0.25 : 0.25) * near);
+      const bool is_near = factor_ && std::abs(std::log(target / *factor_)) < near;
+      // A multiplier that is far from one says that there is more to come, where it falls off.
+      constexpr double steep_enough = 4.0;
+      if (is_near && step > 0 && excess_ < steep_enough * near) break;
+      if (factor_ && 2.0 * search_.width() < near && is_near) break;
+      if (!solve(*this, target)) break;
+    }
+    settled_ = search_.root();
+    if (!before) return;
+    // Of the mesh, whether it was certified or not.
+    gain_ = std::log(*settled_ / *before);
+    promise_ = std::abs(gain_) / std::max(1.0, work_);
+  }
+
+  /// @param wide  by how much the bracket is wider than asked for
+  void refine(double wide) {
+    // More than where every mesh is solved once.
+    constexpr double least = 1.25, most = 2.0;
+    side_.refine(std::clamp(std::sqrt(wide), least, most));
+    // As steep as the solver goes along with: the more strength there is, the more is carried.
+    constexpr double steeper = 1.5;
+    if (failures_ == 0) steepest_ *= steeper;
+    // A finer mesh gains less than the last one did, by about half.
+    search_.begin_anew(std::exp(gain_ / 2.0));
+  }
+
+  /// Bounds the multiplier of the loads with the strength divided by the factor.
+  void solve_at(double factor, const BracketOptions& options,
+                const std::function<void(const Attempt&)>& watch, std::vector<Attempt>& attempts) {
+    if (failures_ > 0 && resting_ != Resting::all) put_to_rest(factor);
+    std::vector<problem::Soil> soils = problem_.soils;
+    for (problem::Soil& soil : soils) soil = weakened(soil, weakening(soil, factor));
+    side_.set_soils(soils);
+    Bracket found;
+    BracketOptions once = options;
+    // Another factor close by costs less than another solver, and mostly helps.
+    once.fall_back = failures_ > 2;
+    constexpr int enough = 120;  // what takes more, twice what most do, ends nowhere
+    once.max_iterations = std::min(once.max_iterations, enough);
+    side_.attempt(found, once, [&](Attempt attempt) {
+      attempt.factor = factor;
+      attempts.push_back(attempt);
+      if (watch) watch(attempt);
+    });
+    work_ += side_.work();
+    learn(factor, found);
+    keep(factor, found);
+  }
+
+ private:
+  static constexpr int most_failures = 4;  // in a row
+  // Soft clay beside sand: what divides the clay's strength to almost nothing, makes the sand's
+  // friction so steep that solvers lose themselves in it.
+  static constexpr double steep = 70.0 * std::numbers::pi / 180.0;
+
+  [[nodiscard]] static bool is_steep(const problem::Soil& soil, double factor) {
+    return std::tan(soil.friction_angle) > factor * std::tan(steep);
+  }
+
+  // A stress field of soils that are weaker than they must be is one of theirs.
+  [[nodiscard]] double weakening(const problem::Soil& soil, double factor) const {
+    if (!is_lower_ || resting_ == Resting::none) return factor;
+    return std::max(factor, std::tan(soil.friction_angle) / steepest_);
+  }
+
+  // Soils that are nowhere at a side that is free to move.
+  [[nodiscard]] std::vector<bool> buried() const {
+    std::vector<bool> are(problem_.soils.size(), true);
+    for (const mesh::Edge& edge : mesh::edges_of(problem_.mesh)) {
+      if (edge.boundary < 0) continue;
+      const problem::Boundary& side = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
+      const auto& triangle = problem_.mesh.triangles[static_cast<std::size_t>(edge.left)];
+      if (side.normal == problem::Known::traction) {
+        are[static_cast<std::size_t>(triangle.region)] = false;
+      }
+    }
+    return are;
+  }
+
+  // Steep soils that the solver has failed with stay at rest from here on, if anything else moves:
+  // first those below others, as strong ground under soft, if it fails again all of them.
+  void put_to_rest(double factor) {
+    if (!is_lower_ && resting_ == Resting::none && rest(factor, buried())) {
+      resting_ = Resting::buried;
+    } else if (rest(factor, std::vector<bool>(problem_.soils.size(), true))) {
+      resting_ = Resting::all;
+    }
+  }
+
+  // @param may  whether each soil may be at rest
+  // @return whether some are, and others not
+  bool rest(double factor, const std::vector<bool>& may) {
+    std::vector<bool> rests;
+    for (std::size_t i = 0; i < may.size(); ++i) {
+      rests.push_back(may[i] && is_steep(problem_.soils[i], factor));
+    }
+    const auto moves = [&](const mesh::Triangle& triangle) {
+      return !rests[static_cast<std::size_t>(triangle.region)];
+    };
+    const auto& triangles = problem_.mesh.triangles;
+    if (std::all_of(triangles.begin(), triangles.end(), moves) ||
+        std::none_of(triangles.begin(), triangles.end(), moves)) {
+      return false;
+    }
+    steepest_ = std::tan(steep);
+    failures_ = 0;
+    if (is_lower_) return true;  // weakened instead
+    side_ = Side(problem::with_soils_at_rest(problem_, rests), false, *means_);
+    search_ = FactorSearch(factor);
+    return true;
+  }
+
+  // Away from where a solver has just failed, to the side on which an answer is a bound. Where next
+  // to no cohesion makes the multiplier of the loads a matter of all or nothing, solvers fail
+  // between the two, and what either side of them decides is all there is to know.
+  [[nodiscard]] double next_factor() const {
+    constexpr double step = 0.004, share = 0.2;
+    const double away = 1.0 + (is_lower_ ? -step : step) * failures_;
+    return search_.root_towards(is_lower_, share * failures_) * away;
+  }
+
+  // What a solver certified before it failed may be far from the multiplier. But if it decides for
+  // this factor there is nothing to go back from; and between a mechanism and the stresses proposed
+  // with it lies the multiplier.
+  [[nodiscard]] bool is_of_use(const Attempt& attempt) const {
+    if (!attempt.certified) return false;
+    constexpr double close = 0.01;
+    const double bound = *attempt.certified;
+    if (is_lower_) return bound >= one_;
+    return bound <= one_ || std::abs(bound - attempt.proposed) <= close * bound;
+  }
+
+  void learn(double factor, const Bracket& found) {
+    const Attempt& last = found.attempts.back();
+    const bool is_solved = last.status == solver::SolverStatus::solved ||
+                           last.status == solver::SolverStatus::acceptable;
+    if (!(is_solved || is_of_use(last)) || !std::isfinite(last.proposed)) {
+      ++failures_;
+      if (resting_ != Resting::none) steepest_ = std::tan(steep);
+      return;
+    }
+    failures_ = 0;
+    constexpr double rounding = 1e-3;
+    const double multiplier = last.certified.value_or(last.proposed);
+    const bool has_no_end = multiplier >= (1.0 - rounding) * most_;
+    search_.saw(factor, std::min(multiplier, most_) / one_, has_no_end);
+  }
+
+  // As every stress field may be scaled down, a multiplier beyond one decides for one.
+  void keep(double factor, const Bracket& found) {
+    const bool carries = is_lower_ && found.lower && found.lower_bound() >= one_;
+    const bool fails = !is_lower_ && found.upper && found.upper_bound() <= one_;
+    if (!carries && !fails) return;
+    excess_ = std::abs(std::log((is_lower_ ? found.lower_bound() : found.upper_bound()) / one_));
+    if (factor_ && (is_lower_ ? factor <= *factor_ : factor >= *factor_)) return;
+    factor_ = factor;
+    best_ = found;
+  }
+
+  bool is_lower_;
+  const Means* means_;
+  problem::Problem problem_;
+  double one_;   // the multiplier of the loads as they are, in its unit
+  double most_;  // where it is not followed any further, likewise
+  Side side_;
+  FactorSearch search_;
+  std::optional<double> factor_;
+  double excess_ = 0.0;  // how far the multiplier is from one where it last decided, as a logarithm
+  Bracket best_;
+  int failures_ = 0;
+  enum class Resting { none, buried, all };
+  Resting resting_ = Resting::none;    // which steep soils have been put to rest
+  double steepest_ = std::tan(steep);  // tangent of the friction that is left to them
+  std::optional<double> settled_;      // where the last mesh's multiplier should be one
+  double gain_ = 0.0;                  // of the last mesh, as a logarithm
+  double work_ = 0.0;                  // for it
+  double promise_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace limit::bracket
