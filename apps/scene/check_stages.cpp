@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "constitutive/parameters.hpp"
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
 #include "scene/ground.hpp"
