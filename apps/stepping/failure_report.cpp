@@ -17,14 +17,22 @@ namespace {
 
 constexpr std::size_t most_places = 3;
 
-std::string what_ended_it(const StepResult& result, double load) {
+// How far the drive has come, or, with stages, the one at hand.
+std::string how_far(const scene::Scene& scene, double load, double progress) {
+  return scene.stage.empty() ? fmt::format("load {:.6g}", load)
+                             : fmt::format("{:.6g} of the stage", progress);
+}
+
+std::string what_ended_it(const scene::Scene& scene, const StepResult& result,
+                          const model::ProgrammeState& programme) {
+  const std::string reached = how_far(scene, programme.load, programme.progress);
   if (result.outcome == StepOutcome::hopeless) {
     return fmt::format(
-        "no hope after load {:.6g}: {} attempts at a step since load {:.6g} have not gained one "
+        "no hope after {}: {} attempts at a step since {} have not gained one "
         "nominal step (programme.patience)",
-        load, result.attempts, result.patience_mark);
+        reached, result.attempts, how_far(scene, result.patience_mark, result.patience_mark));
   }
-  return fmt::format("no convergence at the smallest increment after load {:.6g}", load);
+  return fmt::format("no convergence at the smallest increment after {}", reached);
 }
 
 std::string what_limits(const StepResult& result) {
@@ -76,6 +84,9 @@ std::string advice(const scene::Scene& scene, const model::State<Dim>& state,
   }
   if (scene.drive.kind == scene::DriveKind::load) {
     return "the load may be beyond what the body carries: drive a displacement instead";
+  }
+  if (scene.course.reduction_end != scene.course.reduction_begin) {
+    return "the strength may be less than the body needs: that is its factor";
   }
   if (scene.drive.kind == scene::DriveKind::none && state.layout.plastic) {
     return "the loads may be beyond what the body carries: let them grow, drive.kind = \"load\"";
@@ -165,7 +176,7 @@ std::string failure_report(const scene::Scene& scene, const model::Model<Dim>& m
     causes += fmt::format("\n  likely: {}.", cause);
   }
   return fmt::format("{}: {}.\n  limits: {}.{}{}\n  advice: {}{}.",
-                     what_ended_it(result, state.programme.load), result.reason,
+                     what_ended_it(scene, result, state.programme), result.reason,
                      what_limits(result), where(model, state, result), causes,
                      causes.empty() ? "" : "if that is not it, ", advice(scene, state, result));
 }

@@ -101,7 +101,7 @@ std::string sudden_weight(const scene::Scene& scene, bool plastic, double load) 
       scene.drive.kind == scene::DriveKind::load &&
       std::find(scales.begin(), scales.end(), scene::LoadKind::gravity) != scales.end();
   if (!heavy || grows || !plastic || load > 0.0 ||
-      scene.initial_stress.kind == scene::InitialStressKind::geostatic) {
+      scene.initial_stress.kind != scene::InitialStressKind::none) {
     return "";
   }
   return "the whole weight comes on ground without stress in the first step, and makes it yield: "
