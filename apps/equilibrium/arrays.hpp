@@ -96,8 +96,9 @@ struct EvaluationArrays {
 /// as many a method never asks for one.
 struct TangentArrays {
   ArraySizes sizes;
-  Eigen::VectorXd stress;    // d(P, T) / d(gradient, second gradient)
-  Eigen::VectorXd rotation;  // dQ / d(gradient), with the incremental control
+  double unit = 1.0;         // [J] that `stress` is measured in
+  Eigen::VectorXf stress;    // d(P, T) / d(gradient, second gradient)
+  Eigen::VectorXf rotation;  // dQ / d(gradient), with the incremental control
 
   template <class Self, class Visitor>
   static void for_each_array(Self& self, Visitor&& visit) {
@@ -119,7 +120,7 @@ template <class Arrays>
 std::size_t bytes_of(const Arrays& arrays) {
   std::size_t sum = 0;
   Arrays::for_each_array(arrays, [&](const char*, const auto& array, Eigen::Index, Eigen::Index) {
-    sum += static_cast<std::size_t>(array.size()) * sizeof(double);
+    sum += static_cast<std::size_t>(array.size()) * sizeof(*array.data());
   });
   return sum;
 }

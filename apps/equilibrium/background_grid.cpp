@@ -1,8 +1,9 @@
 #include "equilibrium/background_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <stdexcept>
+#include <numeric>
 
 #include "equilibrium/box_mesh.hpp"
 #include "equilibrium/elastic_block.hpp"
@@ -12,6 +13,38 @@ namespace equilibrium {
 namespace {
 
 constexpr double penalty_factor = 10.0;  // times E, on the grid, for prescribed unknowns
+
+// The unknowns of the free nodes, from one end of the body's longest extent to the other, and
+// along its shorter ones where they are as far.
+template <class Mesh>
+std::vector<int> sorted_along(const Mesh& mesh) {
+  const fpm::Index nodes = mesh.free_nodes();
+  using Place = decltype(mesh.place(0));
+  constexpr int dim = Place::SizeAtCompileTime;
+  Place low = mesh.place(0), high = low;
+  for (fpm::Index node = 1; node < nodes; ++node) {
+    low = low.cwiseMin(mesh.place(node));
+    high = high.cwiseMax(mesh.place(node));
+  }
+  std::array<int, dim> axes{};
+  std::iota(axes.begin(), axes.end(), 0);
+  const Place extent = high - low;
+  std::ranges::sort(axes, [&](int i, int j) { return extent[i] > extent[j]; });
+  std::vector<fpm::Index> order(static_cast<std::size_t>(nodes));
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, [&](fpm::Index a, fpm::Index b) {
+    const Place p = mesh.place(a), q = mesh.place(b);
+    for (const int i : axes) {
+      if (p[i] != q[i]) return p[i] < q[i];
+    }
+    return false;
+  });
+  std::vector<int> unknowns;
+  for (const fpm::Index node : order) {
+    for (int i = 0; i < dim; ++i) unknowns.push_back(node * dim + i);
+  }
+  return unknowns;
+}
 
 }  // namespace
 
@@ -39,14 +72,7 @@ void BackgroundGrid<Dim>::build(const model::Model<Dim>& model, const Mesh& mesh
   // Grid nodes that no particle sees keep a row of their own.
   const double floor = 1e-10 * stiffness.diagonal().maxCoeff();
   for (Eigen::Index k = 0; k < stiffness.rows(); ++k) stiffness.coeffRef(k, k) += floor;
-  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factorisation(stiffness);
-  if (factorisation.info() != Eigen::Success) {
-    throw std::runtime_error(
-        "the elastic stiffness of the background grid is not positive definite: "
-        "is the body supported against every rigid motion?");
-  }
-  factor_ = factorisation.matrixL().nestedExpression().template cast<float>();
-  permutation_ = factorisation.permutationP();
+  factor_ = CoarseFactor(stiffness, sorted_along(mesh));
   coarse_.resize(mesh.nodes() * Dim);
   index_by_nodes(mesh.nodes());
   coarse_single_.resize(size);
@@ -209,11 +235,9 @@ void BackgroundGrid<Dim>::solve(const Eigen::VectorXd& r) {
     coarse_.setZero();
     return;
   }
-  coarse_single_.noalias() = permutation_ * (free / scale).template cast<float>();
-  factor_.template triangularView<Eigen::Lower>().solveInPlace(coarse_single_);
-  factor_.transpose().template triangularView<Eigen::Upper>().solveInPlace(coarse_single_);
-  coarse_.head(coarse_single_.size()) =
-      (permutation_.transpose() * coarse_single_).template cast<double>() * scale;
+  coarse_single_.noalias() = (free / scale).template cast<float>();
+  factor_.solve(coarse_single_);
+  coarse_.head(coarse_single_.size()) = coarse_single_.template cast<double>() * scale;
   for (const Dependence& each : dependences_)
     coarse_.template segment<Dim>(each.node * Dim).setZero();
   for (const Dependence& each : dependences_) {
@@ -230,10 +254,8 @@ std::size_t BackgroundGrid<Dim>::bytes() const {
   };
   return bytes_of(corner_) + begin_.size() * sizeof(std::size_t) +
          place_.size() * sizeof(std::uint32_t) + dependences_.size() * sizeof(Dependence) +
-         bytes_of(weight_) + bytes_of(coarse_) + bytes_of(coarse_single_) +
-         bytes_of(permutation_.indices()) + prescribed_.size() +
-         static_cast<std::size_t>(factor_.nonZeros()) * (sizeof(float) + sizeof(int)) +
-         static_cast<std::size_t>(factor_.outerSize()) * sizeof(int);
+         bytes_of(weight_) + bytes_of(coarse_) + bytes_of(coarse_single_) + prescribed_.size() +
+         factor_.bytes();
 }
 
 template class BackgroundGrid<2>;

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <cstdint>
 #include <vector>
 
+#include "equilibrium/coarse_factor.hpp"
 #include "model/model.hpp"
 
 namespace equilibrium {
@@ -46,7 +46,6 @@ class BackgroundGrid {
     fpm::Index node, parent;
     double share;
   };
-  using FloatMatrix = Eigen::SparseMatrix<float>;
   void index_by_nodes(fpm::Index nodes);
   void restrict_loads(const Eigen::VectorXd& r);
   template <class Mesh>
@@ -68,8 +67,7 @@ class BackgroundGrid {
   // [begin_[k], begin_[k + 1]), each (particle << Dim) + corner.
   std::vector<std::size_t> begin_;
   std::vector<std::uint32_t> place_;
-  FloatMatrix factor_;  // lower, single precision
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation_;
+  CoarseFactor factor_;
   Eigen::VectorXd coarse_;
   Eigen::VectorXf coarse_single_;
 };

@@ -34,12 +34,21 @@ GridPoint<Dim> BoxMesh<Dim>::at(const Eigen::Matrix<double, 1, Dim>& place) cons
 }
 
 template <int Dim>
-bool BoxMesh<Dim>::is_on(const fpm::GhostPlane<Dim>& plane, fpm::Index node) const {
+fpm::Vector<Dim> BoxMesh<Dim>::place(fpm::Index node) const {
+  fpm::Vector<Dim> place;
   for (int i = 0; i < Dim; ++i) {
-    const double x = origin_[i] + cell_[i] * (node % (cells_[i] + 1));
+    place[i] = origin_[i] + cell_[i] * (node % (cells_[i] + 1));
     node /= cells_[i] + 1;
-    const bool on = i == plane.axis ? std::abs(x - plane.position) < 0.5 * cell_[i]
-                                    : x >= plane.range_min[i] && x <= plane.range_max[i];
+  }
+  return place;
+}
+
+template <int Dim>
+bool BoxMesh<Dim>::is_on(const fpm::GhostPlane<Dim>& plane, fpm::Index node) const {
+  const fpm::Vector<Dim> at = place(node);
+  for (int i = 0; i < Dim; ++i) {
+    const bool on = i == plane.axis ? std::abs(at[i] - plane.position) < 0.5 * cell_[i]
+                                    : at[i] >= plane.range_min[i] && at[i] <= plane.range_max[i];
     if (!on) return false;
   }
   return true;

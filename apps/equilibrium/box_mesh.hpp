@@ -21,6 +21,9 @@ class BoxMesh {
   /// Nodes that have unknowns: the first ones.
   fpm::Index free_nodes() const { return nodes_; }
 
+  /// [m] Place of a node.
+  fpm::Vector<Dim> place(fpm::Index node) const;
+
   /// Where a place is; of one outside the box, in the nearest element.
   GridPoint<Dim> at(const Eigen::Matrix<double, 1, Dim>& place) const;
 

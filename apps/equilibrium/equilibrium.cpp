@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "constitutive/strength_reduction.hpp"
 #include "equilibrium/given_unknowns.hpp"
 #include "equilibrium/hourglass_work.hpp"
 #include "equilibrium/local_response.hpp"
@@ -55,13 +56,26 @@ ArraySizes array_sizes(const model::Model<Dim>& model, const fpm::MomentOperator
   return sizes;
 }
 
+// A power of two about as large as the stiffest particle's modulus times volume, so that single
+// precision has numbers about one whatever the scene's units.
+template <int Dim>
+double energy_unit(const model::Model<Dim>& model) {
+  double largest = 0.0;
+  for (Eigen::Index a = 0; a < model.size(); ++a) {
+    largest = std::max(largest, model.youngs_modulus_of(a) * model.particles.volume[a]);
+  }
+  return std::exp2(std::round(std::log2(largest)));
+}
+
 }  // namespace
 
 template <int Dim>
-Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>& state)
+Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>& state,
+                              std::optional<InitialBalance<Dim>> rest)
     : model_(model),
       state_(state),
       given_(given_unknowns(model.prescribed)),
+      laws_(model.reduced_laws.empty() ? std::vector<constitutive::Material>() : model.laws),
       loops_(choose_loops<Dim>(model.layout)),
       interfaces_(model),
       vectors_(model.size()) {
@@ -71,7 +85,9 @@ Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>&
     correction_ = fpm::consistency_correction(initial, model_.ghosts, model_.area_vector);
   }
   rebuild_operator();
-  if (model_.initial_stress.size() > 0 && state_.programme.balanced != 0) {
+  if (rest) {
+    balance_ = std::move(*rest);
+  } else if (model_.initial_stress.size() > 0 && state_.programme.balanced != 0) {
     balance_ = balance_initial_stress(model_, initial_operator());
   }
   const ArraySizes sizes = array_sizes(model_, operator_);
@@ -89,12 +105,24 @@ fpm::MomentOperator<Dim> Equilibrium<Dim>::initial_operator() const {
 
 template <int Dim>
 LoopData<Dim> Equilibrium<Dim>::loop_data() {
-  return {operator_, model_.laws, model_.law, state_, step_, evaluation_, tangents_};
+  return {operator_, laws_.empty() ? model_.laws : laws_, model_.law, state_, step_, evaluation_,
+          tangents_};
 }
 
 template <int Dim>
 void Equilibrium<Dim>::rebuild_operator() {
   operator_ = fpm::MomentOperator<Dim>(state_.rows, model_.ghosts, model_.channels, correction_);
+  pair_up();
+}
+
+template <int Dim>
+void Equilibrium<Dim>::follow_re_search(const std::vector<fpm::Index>& rows) {
+  operator_.update(state_.rows, rows, correction_);
+  pair_up();
+}
+
+template <int Dim>
+void Equilibrium<Dim>::pair_up() {
   if (model_.control != scene::HourglassControl::viscosity) return;
   Eigen::VectorXd modulus(model_.size());
   for (Eigen::Index a = 0; a < modulus.size(); ++a) {
@@ -104,11 +132,35 @@ void Equilibrium<Dim>::rebuild_operator() {
 }
 
 template <int Dim>
-void Equilibrium<Dim>::begin_step(double load) {
+void Equilibrium<Dim>::reduce_strength(double factor) {
+  if (factor == reduction_) return;
+  for (const model::ReducedLaw& reduced : model_.reduced_laws) {
+    laws_[reduced.law] =
+        constitutive::make_material(constitutive::with_strength_over(reduced.parameters, factor));
+  }
+  reduction_ = factor;
+}
+
+template <int Dim>
+std::optional<fpm::Field<Dim>> Equilibrium<Dim>::unbalanced(double load, double reduction) {
+  begin_step(load, 1.0, reduction);
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(model_.unknowns());
+  Eigen::VectorXd residual(nothing.size());
+  if ((*this)(nothing, residual) != jfnk::Evaluation::ok) return std::nullopt;
+  return Eigen::Map<const fpm::Field<Dim>>(residual.data(), model_.size(), Dim);
+}
+
+template <int Dim>
+void Equilibrium<Dim>::begin_step(double load, double progress, double reduction) {
   step_.load = rigid_load_ = load;
+  reduce_strength(reduction);
   interfaces_.begin_step(state_);
   step_.external = model_.constant_load + load * model_.scaled_load;
   if (balance_.load.size() > 0) step_.external += balance_.load;
+  if (state_.unbalanced.size() > 0 && progress < 1.0) {
+    step_.external += (1.0 - progress) * Eigen::Map<const Eigen::VectorXd>(
+                                             state_.unbalanced.data(), state_.unbalanced.size());
+  }
   external_norm_ = step_.external.norm();
   step_.start_position = model_.particles.position + state_.displacement;
   place_particles();
@@ -285,7 +337,10 @@ bool Equilibrium<Dim>::linearise(const Eigen::VectorXd& increment) {
   failure_ = {};
   extend_increment(increment);
   evaluation_.base_increment = increment;
-  if (tangents_.stress.size() == 0) allocate(tangents_, step_.sizes);
+  if (tangents_.stress.size() == 0) {
+    allocate(tangents_, step_.sizes);
+    tangents_.unit = energy_unit(model_);
+  }
   if (!interfaces_.empty()) {
     evaluation_.displacement = state_.displacement + Eigen::Map<const fpm::Field<Dim>>(
                                                          increment.data(), model_.size(), Dim);
@@ -449,9 +504,9 @@ template <int Dim>
 std::vector<model::MemoryPart> Equilibrium<Dim>::memory(bool to_come) const {
   const ArraySizes& sizes = step_.sizes;
   const std::size_t tangents =
-      to_come ? static_cast<std::size_t>(sizes.tangent_entries + sizes.rotation_entries) *
-                    sizeof(double)
-              : bytes_of(tangents_);
+      to_come
+          ? static_cast<std::size_t>(sizes.tangent_entries + sizes.rotation_entries) * sizeof(float)
+          : bytes_of(tangents_);
   return {{"stencils", operator_.bytes() + correction_.bytes()},
           {"arrays of a step", bytes_of(step_)},
           {"arrays of an evaluation",

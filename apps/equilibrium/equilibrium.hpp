@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "equilibrium/initial_balance.hpp"
 #include "equilibrium/interface_forces.hpp"
 #include "equilibrium/law_loops.hpp"
@@ -42,15 +45,29 @@ struct StepForces {
 template <int Dim>
 class Equilibrium {
  public:
-  Equilibrium(const model::Model<Dim>& model, model::State<Dim>& state);
+  /// @param rest  what keeps the initial stress at rest, of ground that stages have changed since;
+  ///   none: it is that of the model
+  Equilibrium(const model::Model<Dim>& model, model::State<Dim>& state,
+              std::optional<InitialBalance<Dim>> rest = std::nullopt);
   Equilibrium(const Equilibrium&) = delete;
   Equilibrium& operator=(const Equilibrium&) = delete;
 
-  /// Rebuilds the operator from the state's rows; call after a re-search.
+  /// Builds the operator from the state's rows.
   void rebuild_operator();
+  /// The same after a re-search, in proportion to the rows that it changed.
+  /// @param changed  those rows, ascending
+  void follow_re_search(const std::vector<fpm::Index>& changed);
 
-  /// Prepares a step that ends at load parameter `load`.
-  void begin_step(double load);
+  /// Prepares a step that ends at load parameter `load`, at a share of the way through its stage
+  /// and with strength divided by a factor.
+  void begin_step(double load, double progress = 1.0, double reduction = 1.0);
+
+  /// The forces that the converged state leaves unbalanced at a load parameter and a reduction:
+  /// none, but where the ground has changed. None at prescribed unknowns.
+  /// @return nothing if they cannot be had: `failure` says where
+  [[nodiscard]] std::optional<fpm::Field<Dim>> unbalanced(double load, double reduction);
+
+  const InitialBalance<Dim>& balance() const { return balance_; }
 
   // The residual in the sense of libjfnk.
   jfnk::Evaluation operator()(const Eigen::VectorXd& increment, Eigen::VectorXd& residual);
@@ -100,8 +117,10 @@ class Equilibrium {
   std::vector<model::MemoryPart> memory(bool to_come) const;
 
  private:
+  void pair_up();
   fpm::MomentOperator<Dim> initial_operator() const;
   LoopData<Dim> loop_data();
+  void reduce_strength(double factor);
   void add_to_images(const fpm::Field<Dim>& motion, Eigen::VectorXd& extended) const;
   void extend_increment(const Eigen::VectorXd& increment);
   double take_plane_reactions();
@@ -122,6 +141,8 @@ class Equilibrium {
   fpm::ConsistencyCorrection<Dim> correction_;  // of the first rows, kept for rebuilds
   InitialBalance<Dim> balance_;                 // of the initial stress, if there is one
   fpm::PairViscosity<Dim> viscosity_;
+  std::vector<constitutive::Material> laws_;  // where strength is divided; else the model's
+  double reduction_ = 1.0;                    // of theirs
   LawLoops<Dim> loops_;
   InterfaceForces<Dim> interfaces_;
   StepArrays<Dim> step_;

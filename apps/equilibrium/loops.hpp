@@ -128,6 +128,7 @@ struct LoopsOf {
       const Mask<Real> could =
           Law::linearise(material, particle_start<Real>(data, a), increment, tangent);
       keep_configuration<Real>(data, a, increment.gradient);
+      tangent.stress *= Real(1.0 / data.tangents.unit);
       StressTangents<size>::put(data.tangents.stress.data(), a, tangent.stress.data());
       if (data.state.layout.incremental) {
         RotationTangents<Dim>::put(data.tangents.rotation.data(), a, tangent.rotation.data());
@@ -144,11 +145,11 @@ struct LoopsOf {
     static constexpr bool wide = true;
     // The first `Count` rows and columns of a tangent on as many strains.
     template <int Count, class Real>
-    static Eigen::Matrix<Real, Count, 1> product(const double* tangent,
+    static Eigen::Matrix<Real, Count, 1> product(const float* tangent,
                                                  const Eigen::Matrix<Real, size, 1>& strain) {
       Eigen::Matrix<Real, Count, 1> sum = Eigen::Matrix<Real, Count, 1>::Zero();
       for (int j = 0; j < Count; ++j) {
-        for (int i = 0; i < Count; ++i, tangent += lane_count) {
+        for (int i = 0; i < Count; ++i, tangent += StressTangents<size>::group) {
           sum[i] += load<Real>(tangent) * strain[j];
         }
       }
@@ -163,7 +164,9 @@ struct LoopsOf {
       if constexpr (Law::mixed) {
         strain.template tail<second_size>() = detail::flat(direction.second_gradient);
       }
-      const auto stress =
+      const Real unit = data.tangents.unit;
+      const Eigen::Matrix<Real, size, 1> stress =
+          unit *
           product<size, Real>(data.tangents.stress.data() + StressTangents<size>::at(a, 0), strain);
       const Tensor<Real> nominal = Eigen::Map<const Tensor<Real>>(stress.data());
       Second<Real> second;
@@ -193,31 +196,40 @@ struct LoopsOf {
 
   struct Commit {
     static constexpr bool by_material = true;
-    static constexpr bool wide = false;
-    template <class Material>
-    static bool row(const Data& data, fpm::Index a, const Moments<double>& moments,
-                    const Material& material) {
+    static constexpr bool wide = true;
+    template <class Material, class Real>
+    static Mask<Real> row(const Data& data, fpm::Index a, const Moments<Real>& moments,
+                          const Material& material) {
+      using constitutive::select;
+      using State = model::State<Dim>;
       const auto increment = moments.increment();
-      ParticleResponse<Dim> response;
-      Law::respond(material, particle_start<double>(data, a), increment, response);
-      if (!response.admissible) return false;
-      model::State<Dim>& s = data.state;
-      s.stress.col(a) = response.point.stress;
-      if (s.layout.finite) s.deformation_gradient.col(a) += detail::flat(increment.gradient);
+      ParticleResponse<Dim, Real> response;
+      const auto start = particle_start<Real>(data, a);
+      Law::respond(material, start, increment, response);
+      State& s = data.state;
+      store_columns<State::stress_rows>(s.stress.col(a).data(), response.point.stress.data());
+      if (s.layout.finite) {
+        const Tensor<Real> gradient = start.gradient + increment.gradient;
+        store_columns<Dim * Dim>(s.deformation_gradient.col(a).data(), gradient.data());
+      }
       if (s.layout.plastic) {
-        s.plastic_strain[a] = response.point.plastic_strain;
-        s.plastic_volume_strain[a] = response.point.plastic_volume_strain;
-        s.plastic_increment[a] = response.plastic_increment;
+        store(s.plastic_strain.data() + a, response.point.plastic_strain);
+        store(s.plastic_volume_strain.data() + a, response.point.plastic_volume_strain);
+        store(s.plastic_increment.data() + a, response.plastic_increment);
       }
-      if (s.layout.incremental && response.plastic) s.released[a] = 1.0;
+      if (s.layout.incremental) {
+        const Real before = load<Real>(s.released.data() + a);
+        store(s.released.data() + a, select(response.plastic, Real(1.0), before));
+      }
       if constexpr (Law::mixed) {
+        std::array<Real, State::subpoint_rows> deviator;
         for (std::size_t k = 0; k < fpm::subpoint_count; ++k) {
-          constexpr int rows = constitutive::stress_size<Dim>;
-          s.subpoint_deviator.template block<rows, 1>(rows * static_cast<Eigen::Index>(k), a) =
-              response.deviator[k];
+          Eigen::Map<constitutive::StressVector<Dim, Real>>(
+              deviator.data() + State::stress_rows * k) = response.deviator[k];
         }
+        store_columns<State::subpoint_rows>(s.subpoint_deviator.col(a).data(), deviator.data());
       }
-      return true;
+      return response.admissible;
     }
   };
   static LoopOutcome commit(const Data& data) { return Loop::template for_each_row<Commit>(data); }

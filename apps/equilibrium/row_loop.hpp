@@ -5,23 +5,15 @@
 #include <limits>
 #include <variant>
 
+#include "equilibrium/instruction_sets.hpp"
 #include "equilibrium/row_data.hpp"
-
-// One binary serves every x86-64; the loader picks the widest variant the processor has. Sanitizer
-// builds keep to one (their runtime is not up when the loader resolves the variants).
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && defined(__OPTIMIZE__)
-#define EQUILIBRIUM_HOT __attribute__((target_clones("arch=x86-64-v3", "default"), flatten))
-#else
-#define EQUILIBRIUM_HOT
-#endif
 
 namespace equilibrium {
 
 /// Runs some work over all rows of an operator, block by block, in parallel.
 ///
-/// The work on a particle is a template over `Real`; `lane_count` consecutive particles are worked
-/// on at a time as long as there are so many of one material.
+/// The work on a particle is a template over `Real`; as many consecutive particles as a register
+/// has lanes are worked on at a time as long as there are so many of one material.
 template <int Dim, class Law>
 struct RowLoop {
   template <class Real>
@@ -36,18 +28,18 @@ struct RowLoop {
 
   /// Rows [begin, end) of one block and one material. `Work::row` returns where it could; the
   /// lowest index where it could not is returned, else `none`.
-  template <class Work, class Material>
+  template <class Work, int Width, class Material>
   static fpm::Index plain_rows(const LoopData<Dim>& data, fpm::Index begin, fpm::Index end,
                                const double* moments, const Material& material) {
     const fpm::Channels channels = data.op.channels();
     fpm::Index failed = none;
     fpm::Index a = begin;
-    if constexpr (wide<Work, Material>) {
-      for (; a + lane_count <= end; a += lane_count) {
-        const LaneMask could =
-            Work::row(data, a, Moments<Lanes>{moments + (a - begin), channels}, material);
+    if constexpr (Width > 1) {
+      for (; a + Width <= end; a += Width) {
+        const LaneMask<Width> could =
+            Work::row(data, a, Moments<Lanes<Width>>{moments + (a - begin), channels}, material);
         if (!any(!could)) continue;
-        for (int lane = lane_count - 1; lane >= 0; --lane) {
+        for (int lane = Width - 1; lane >= 0; --lane) {
           if (!could[lane]) failed = std::min(failed, a + lane);
         }
       }
@@ -60,21 +52,38 @@ struct RowLoop {
     return failed;
   }
 
-  /// The same, compiled for several instruction sets with everything inlined.
+#ifdef EQUILIBRIUM_WIDE_LOOPS
   template <class Work, class Material>
-  EQUILIBRIUM_HOT static fpm::Index hot_rows(const LoopData<Dim>& data, fpm::Index begin,
-                                             fpm::Index end, const double* moments,
-                                             const Material& material) {
-    return plain_rows<Work>(data, begin, end, moments, material);
+  EQUILIBRIUM_AVX512 __attribute__((flatten)) static fpm::Index avx512_rows(
+      const LoopData<Dim>& data, fpm::Index begin, fpm::Index end, const double* moments,
+      const Material& material) {
+    return plain_rows<Work, 8>(data, begin, end, moments, material);
   }
+  template <class Work, class Material>
+  EQUILIBRIUM_AVX2 __attribute__((flatten)) static fpm::Index avx2_rows(const LoopData<Dim>& data,
+                                                                        fpm::Index begin,
+                                                                        fpm::Index end,
+                                                                        const double* moments,
+                                                                        const Material& material) {
+    return plain_rows<Work, 4>(data, begin, end, moments, material);
+  }
+#endif
 
   template <class Work, class Material>
   static fpm::Index rows(const LoopData<Dim>& data, fpm::Index begin, fpm::Index end,
                          const double* moments, const Material& material) {
-    if constexpr (wide<Work, Material>) {
-      return hot_rows<Work>(data, begin, end, moments, material);
+    if constexpr (!wide<Work, Material>) {
+      return plain_rows<Work, 1>(data, begin, end, moments, material);
     } else {
-      return plain_rows<Work>(data, begin, end, moments, material);
+#ifdef EQUILIBRIUM_WIDE_LOOPS
+      if (__builtin_cpu_supports("x86-64-v4")) {
+        return avx512_rows<Work>(data, begin, end, moments, material);
+      }
+      if (__builtin_cpu_supports("x86-64-v3")) {
+        return avx2_rows<Work>(data, begin, end, moments, material);
+      }
+#endif
+      return plain_rows<Work, 4>(data, begin, end, moments, material);
     }
   }
 
@@ -118,7 +127,7 @@ struct RowLoop {
         if constexpr (Work::by_material) {
           failed = std::min(failed, material_runs<Work>(data, first, end, moments));
         } else {
-          failed = std::min(failed, hot_rows<Work>(data, first, end, moments, std::monostate{}));
+          failed = std::min(failed, rows<Work>(data, first, end, moments, std::monostate{}));
         }
       }
     }

@@ -9,6 +9,7 @@
 
 #include "files/durable_file.hpp"
 #include "material/element_test.hpp"
+#include "material/error_map.hpp"
 #include "material/path.hpp"
 #include "material/report.hpp"
 #include "program/command_line.hpp"
@@ -23,6 +24,7 @@ using program::UsageError;
 
 constexpr std::string_view usage =
     "Usage: fpm-material PATH [options]\n"
+    "       fpm-material --error-maps DIR\n"
     "\n"
     "Takes one point of a material along a path of strains and stresses, stage by stage: triaxial\n"
     "compression and extension, plane strain, oedometer, simple shear, isotropic, or any mix of\n"
@@ -44,9 +46,11 @@ po::options_description options() {
       ("set", po::value<std::vector<std::string>>()->value_name("KEY=VALUE")->composing(),
        "override a key of the path, as material.cohesion=5e3; may be repeated")  //
       ("out", po::value<std::string>()->value_name("DIR"),
-       "output folder; default: out/ and the path's name")                      //
-      ("path-reference", po::bool_switch(), "print the reference of all keys")  //
-      ("version", po::bool_switch(), "print the version")                       //
+       "output folder; default: out/ and the path's name")  //
+      ("error-maps", po::value<std::string>()->value_name("DIR"),
+       "maps of the error of one step of every surface, as pictures and CSV; prints a table of "
+       "them")("path-reference", po::bool_switch(), "print the reference of all keys")  //
+      ("version", po::bool_switch(), "print the version")                               //
       ("help", po::bool_switch(), "print this help");
   return all;
 }
@@ -77,6 +81,19 @@ ExitCode follow(const std::filesystem::path& file, const po::variables_map& valu
   return ExitCode::not_converged;
 }
 
+ExitCode draw_error_maps(const std::filesystem::path& folder) {
+  files::create_folder(folder);
+  std::vector<material::ErrorMap> maps;
+  for (const material::ErrorMapCase& one : material::error_map_cases()) {
+    maps.push_back(material::error_map(one));
+    const std::string name = "error-map-" + one.name;
+    files::write_text_durably(folder / (name + ".csv"), material::csv_text(maps.back()));
+    files::write_text_durably(folder / (name + ".svg"), material::map_picture(maps.back()));
+  }
+  std::cout << material::table_of(maps);
+  return ExitCode::done;
+}
+
 ExitCode run(const std::vector<std::string>& arguments) {
   const po::variables_map values = program::parse(arguments, options(), "path");
   if (values["help"].as<bool>()) {
@@ -92,6 +109,10 @@ ExitCode run(const std::vector<std::string>& arguments) {
     return ExitCode::done;
   }
   const std::vector<std::string> paths = texts(values, "path");
+  if (values.count("error-maps") != 0) {
+    if (!paths.empty()) throw UsageError("--error-maps takes no PATH");
+    return draw_error_maps(values["error-maps"].as<std::string>());
+  }
   if (paths.empty()) throw UsageError("PATH is missing");
   if (paths.size() > 1) throw UsageError(fmt::format("{}: one PATH at a time", paths[1]));
   return follow(paths.front(), values);

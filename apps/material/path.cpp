@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tables/builder.hpp"
 #include "tables/reader.hpp"
@@ -24,12 +25,19 @@ enum Row : std::size_t { xx, yy, zz, xy, yz, zx };
 
 tables::FieldNotes notes_of(std::string_view name, tables::Need need) {
   const constitutive::ParameterInfo& info = constitutive::parameter_info(name);
+  std::string_view absent = "";
+  if (need == tables::Need::optional) {
+    const bool never = std::isinf(constitutive::MaterialParameters{}.*info.member);
+    absent = info.use == constitutive::Use::critical_state ? "only without modified_cam_clay"
+             : never                                       ? "never; or the model has none"
+                                                           : "0; or the model has none";
+    if (name == "residual_cohesion" || name == "residual_friction_angle") absent = "it stays";
+  }
   return {.need = need,
           .unit = info.unit,
           .range = {info.lower, info.upper, info.lower_open, info.upper_open},
           .doc = info.doc,
-          .absent =
-              need == tables::Need::optional ? "0; of a cut-off never; or the model has none" : ""};
+          .absent = absent};
 }
 
 std::vector<std::string_view> names_of_models(std::string_view constitutive::ModelInfo::*name) {
@@ -68,6 +76,18 @@ tables::Table<Path> soil() {
       .key("dilation_angle", &Soil::dilation_angle, notes_of("dilation_angle", Need::optional))
       .key("dilation_cutoff", &Soil::dilation_cutoff, notes_of("dilation_cutoff", Need::optional))
       .key("tension_cutoff", &Soil::tension_cutoff, notes_of("tension_cutoff", Need::optional))
+      .key("residual_strain", &Soil::residual_strain, notes_of("residual_strain", Need::optional))
+      .key("residual_cohesion", &Soil::residual_cohesion,
+           notes_of("residual_cohesion", Need::optional))
+      .key("residual_friction_angle", &Soil::residual_friction_angle,
+           notes_of("residual_friction_angle", Need::optional))
+      .key("compression_index", &Soil::compression_index,
+           notes_of("compression_index", Need::optional))
+      .key("swelling_index", &Soil::swelling_index, notes_of("swelling_index", Need::optional))
+      .key("critical_stress_ratio", &Soil::critical_stress_ratio,
+           notes_of("critical_stress_ratio", Need::optional))
+      .key("preconsolidation_pressure", &Soil::preconsolidation_pressure,
+           notes_of("preconsolidation_pressure", Need::optional))
       .build();
 }
 
@@ -112,19 +132,18 @@ void check_soil(const Path& path, tables::Diagnosis& diagnosis) {
   const Soil& soil = path.material;
   if (!diagnosis.good({"material.model", "material.match"})) return;
   const constitutive::ModelInfo& model = *constitutive::find_model(soil.model, soil.match);
-  const auto check = [&](std::string_view name, const std::optional<double>& value) {
+  soil.for_each_of_some([&](std::string_view name, const std::optional<double>& value) {
     const std::string key = fmt::format("material.{}", name);
-    const bool used = constitutive::parameter_info(name).is_used_by(model);
+    const constitutive::ParameterInfo& info = constitutive::parameter_info(name);
+    const bool used = info.is_used_by(model);
+    if (used && !value && info.use == constitutive::Use::critical_state) {
+      diagnosis.error(key, "is missing", fmt::format("the model {} needs it", soil.model));
+    }
     if (value && !used) {
       diagnosis.error(key, fmt::format("found {}", *value),
                       fmt::format("it has no effect on the model {}", soil.model));
     }
-  };
-  check("cohesion", soil.cohesion);
-  check("friction_angle", soil.friction_angle);
-  check("dilation_angle", soil.dilation_angle);
-  check("dilation_cutoff", soil.dilation_cutoff);
-  check("tension_cutoff", soil.tension_cutoff);
+  });
   if (!diagnosis.errors().empty()) return;
   for (const constitutive::Objection& objection :
        constitutive::joint_objections(parameters_of(path), model)) {
@@ -163,6 +182,18 @@ void check_plane_strain(const Path& path, tables::Diagnosis& diagnosis) {
     diagnosis.error("material.match", "found " + path.material.match,
                     fmt::format("stage {} strains zz, yz or zx: {}", i, model->only_plane_strain));
   }
+}
+
+/// Without a mean stress a clay in critical states has no stiffness.
+void check_consolidation(const Path& path, tables::Diagnosis& diagnosis) {
+  if (!diagnosis.errors().empty()) return;
+  const auto* model = constitutive::find_model(path.material.model, path.material.match);
+  if (!model->critical_state) return;
+  const auto& stress = path.initial_stress;
+  if (!stress.empty() && stress[0] + stress[1] + stress[2] < 0.0) return;
+  diagnosis.error(
+      "initial_stress", stress.empty() ? "is missing" : "found no compression",
+      fmt::format("the model {} begins with a mean stress below zero", path.material.model));
 }
 
 std::string cell(std::string text) {
@@ -223,11 +254,9 @@ constitutive::MaterialParameters parameters_of(const Path& path) {
   p.model = constitutive::find_model(soil.model, soil.match)->name;
   p.youngs_modulus = soil.youngs_modulus;
   p.poissons_ratio = soil.poissons_ratio;
-  p.cohesion = soil.cohesion.value_or(p.cohesion);
-  p.friction_angle = soil.friction_angle.value_or(p.friction_angle);
-  p.dilation_angle = soil.dilation_angle.value_or(p.dilation_angle);
-  p.dilation_cutoff = soil.dilation_cutoff.value_or(p.dilation_cutoff);
-  p.tension_cutoff = soil.tension_cutoff.value_or(p.tension_cutoff);
+  soil.for_each_of_some([&](std::string_view name, const std::optional<double>& value) {
+    if (value) p.*constitutive::parameter_info(name).member = *value;
+  });
   return p;
 }
 
@@ -248,6 +277,7 @@ PathReading read_path(std::string_view text, const std::string& source,
     check_stage(path.stage[i], fmt::format("stage.{}", i), diagnosis);
   }
   check_plane_strain(path, diagnosis);
+  check_consolidation(path, diagnosis);
   if (!diagnosis.errors().empty()) return {std::nullopt, diagnosis.errors()};
   return {std::move(path), {}};
 }

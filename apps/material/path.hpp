@@ -46,6 +46,26 @@ struct Soil {
   double youngs_modulus = 0.0;
   double poissons_ratio = 0.0;
   std::optional<double> cohesion, friction_angle, dilation_angle, dilation_cutoff, tension_cutoff;
+  std::optional<double> residual_strain, residual_cohesion, residual_friction_angle;
+  std::optional<double> compression_index, swelling_index, critical_stress_ratio,
+      preconsolidation_pressure;
+
+  /// Calls visit(name, value) for every parameter that not every model has.
+  template <class Visitor>
+  void for_each_of_some(Visitor&& visit) const {
+    visit("cohesion", cohesion);
+    visit("friction_angle", friction_angle);
+    visit("dilation_angle", dilation_angle);
+    visit("dilation_cutoff", dilation_cutoff);
+    visit("tension_cutoff", tension_cutoff);
+    visit("residual_strain", residual_strain);
+    visit("residual_cohesion", residual_cohesion);
+    visit("residual_friction_angle", residual_friction_angle);
+    visit("compression_index", compression_index);
+    visit("swelling_index", swelling_index);
+    visit("critical_stress_ratio", critical_stress_ratio);
+    visit("preconsolidation_pressure", preconsolidation_pressure);
+  }
 };
 
 /// An element test as its file describes it.

@@ -19,6 +19,7 @@
 #include "scene/derived.hpp"
 #include "scene/grading.hpp"
 #include "scene/scene.hpp"
+#include "scene/stages.hpp"
 
 namespace model {
 namespace {
@@ -79,31 +80,53 @@ void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
   }
 }
 
+bool is_consolidated(const scene::Material& material) {
+  return scene::model_of(material).critical_state;
+}
+
+// Whether particles of a material may differ in their law.
+bool changes(const scene::Material& material) {
+  return scene::varies(material) || is_consolidated(material);
+}
+
 // The laws of particles. Equal values are one law, so that rows of a lattice along which nothing
 // changes go on to be worked on side by side.
 template <int Dim>
 void assign_laws(const scene::Scene& scene, Model<Dim>& model) {
-  const auto add = [&](const constitutive::MaterialParameters& parameters) {
+  const bool reduces = scene::reduces_strength(scene);
+  const auto add = [&](const scene::Material& material,
+                       const constitutive::MaterialParameters& parameters) {
     model.laws.push_back(constitutive::make_material(parameters));
     model.youngs_modulus.push_back(parameters.youngs_modulus);
-    return static_cast<LawIndex>(model.laws.size() - 1);
+    const auto law = static_cast<LawIndex>(model.laws.size() - 1);
+    if (reduces && scene::yields(material) && scene::is_weakened(scene, material.name)) {
+      model.reduced_laws.push_back({law, parameters});
+    }
+    return law;
   };
   std::vector<LawIndex> uniform(scene.material.size());
   for (std::size_t m = 0; m < scene.material.size(); ++m) {
     const scene::Material& material = scene.material[m];
-    if (!scene::varies(material)) uniform[m] = add(scene::parameters_of(material));
+    if (!changes(material)) uniform[m] = add(material, scene::parameters_of(material));
   }
   model.law.resize(model.material.size());
-  std::map<std::tuple<MaterialIndex, double, double>, LawIndex> known;
+  std::map<std::tuple<MaterialIndex, double, double, double>, LawIndex> known;
   for (Eigen::Index a = 0; a < model.size(); ++a) {
     const MaterialIndex m = model.material[static_cast<std::size_t>(a)];
     model.law[static_cast<std::size_t>(a)] = uniform[m];
-    if (!scene::varies(scene.material[m])) continue;
+    if (!changes(scene.material[m])) continue;
     const fpm::Vector<Dim> place = model.particles.position.row(a).transpose();
-    const auto parameters = scene::parameters_at(scene.material[m], {place.data(), Dim});
-    const auto [at, is_new] =
-        known.try_emplace({m, parameters.cohesion, parameters.youngs_modulus}, 0);
-    if (is_new) at->second = add(parameters);
+    auto parameters = scene::parameters_at(scene.material[m], {place.data(), Dim});
+    if (is_consolidated(scene.material[m])) {
+      parameters.preconsolidation_pressure =
+          *scene.material[m].overconsolidation_ratio *
+          constitutive::yield_pressure<Dim>(parameters.critical_stress_ratio,
+                                            geostatic_stress<Dim>(scene, place, m));
+    }
+    const auto [at, is_new] = known.try_emplace(
+        {m, parameters.cohesion, parameters.youngs_modulus, parameters.preconsolidation_pressure},
+        0);
+    if (is_new) at->second = add(scene.material[m], parameters);
     model.law[static_cast<std::size_t>(a)] = at->second;
   }
 }
@@ -121,6 +144,7 @@ void choose_integration(const scene::Scene& scene, Model<Dim>& model) {
   model.layout.subpoints = model.control == scene::HourglassControl::mixed;
   model.layout.incremental = model.control == scene::HourglassControl::incremental ||
                              model.control == scene::HourglassControl::mixed;
+  model.layout.staged = scene::changes_ground(scene);
   model.channels.second = model.layout.subpoints;
   model.channels.pair =
       model.pair_control.stiffness_ratio > 0.0 &&

@@ -152,10 +152,12 @@ bool adapt_programme(const scene::Scene& former, const scene::Scene& scene,
   if (!displaced || former.drive.target == scene.drive.target) return true;
   const double ratio = former.drive.target / scene.drive.target;
   programme.load *= ratio;
+  if (!scene.stage.empty()) return true;  // their progress is of the way of each
   programme.next_increment *= ratio;
   programme.last_increment *= ratio;
   if (programme.load > 1.0 + load_round_off) return false;
   if (programme.load > 1.0 - load_round_off) programme.load = 1.0;
+  programme.progress = programme.load;
   return true;
 }
 

@@ -58,10 +58,15 @@ fpm::Index CutCells::heir(fpm::Index cell, int region) const {
   return best;
 }
 
-fpm::Cells<2> CutCells::standing() const {
+fpm::Cells<2> CutCells::standing(const std::vector<char>& present) const {
   std::vector<fpm::Index> owner;
   for (const std::vector<Share>& shares : shares_) {
-    owner.push_back(shares.empty() ? -1 : shares.front().owner);
+    const fpm::Index by = shares.empty() ? -1 : shares.front().owner;
+    const bool is_there =
+        by >= 0 &&
+        present[static_cast<std::size_t>(shares_[static_cast<std::size_t>(by)].front().region)] !=
+            0;
+    owner.push_back(is_there ? by : -1);
   }
   return cells_.restricted(owner);
 }
@@ -83,6 +88,7 @@ std::vector<int> CutCells::regions(const fpm::Cells<2>& standing) const {
   for (std::size_t a = 0; a < shares_.size(); ++a) {
     if (shares_[a].empty() || shares_[a].front().owner != static_cast<fpm::Index>(a)) continue;
     const auto b = standing.holding(cells_.place(static_cast<fpm::Index>(a)));
+    if (b < 0) continue;
     region[static_cast<std::size_t>(b)] = shares_[a].front().region;
   }
   return region;

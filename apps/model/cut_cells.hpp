@@ -15,7 +15,8 @@ class CutCells {
   CutCells(const shape::Body& body, const fpm::Cells<2>& cells);
 
   /// Cells with a particle, what each stands for together: `Cells::restricted`.
-  [[nodiscard]] fpm::Cells<2> standing() const;
+  /// @param present  of each region, whether it is there
+  [[nodiscard]] fpm::Cells<2> standing(const std::vector<char>& present) const;
   /// The particle, by its number among those of `standing`, of a region's share of the cell that
   /// holds a point; -1 for none.
   [[nodiscard]] fpm::Index particle_at(const shape::Point& place, int region,
@@ -29,7 +30,8 @@ class CutCells {
     for (const std::vector<Share>& shares : shares_) {
       for (const Share& share : shares) {
         if (share.owner < 0) continue;
-        visit(standing.holding(cells_.place(share.owner)), share.part.area, share.part.centroid);
+        const fpm::Index particle = standing.holding(cells_.place(share.owner));
+        if (particle >= 0) visit(particle, share.part.area, share.part.centroid);
       }
     }
   }

@@ -201,6 +201,7 @@ fpm::Field<Dim> cut_area_vectors(const scene::Scene& scene, const Model<Dim>& mo
     if (scene.cutout[i].kind == scene::CutoutKind::free) add(SurfacePart::of_cutout(i), 1.0);
   }
   for (std::size_t i = 0; i < scene.side.size(); ++i) add(bounding_part(scene, i, faces), 1.0);
+  add(SurfacePart::of_exposed(), 1.0);
   for (const fpm::Face& face : faces) {
     if (scene.region.empty()) add(SurfacePart::of_face(face), 1.0);
   }

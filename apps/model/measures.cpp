@@ -11,6 +11,7 @@
 #include "model/selection.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
+#include "scene/stages.hpp"
 
 namespace model {
 
@@ -18,6 +19,8 @@ namespace {
 
 constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
 constexpr std::array<std::string_view, 6> stresses{"xx", "yy", "zz", "xy", "yz", "zx"};
+
+constexpr const char* stage_column = "stage";
 
 // Length, or area in 3D, of the part of a side that a load is on.
 double size_of(const scene::Scene& scene, const scene::Traction& traction) {
@@ -40,9 +43,14 @@ double size_of(const scene::Scene& scene, const scene::Traction& traction) {
 template <int Dim>
 Measures<Dim>::Measures(const scene::Scene& scene, const Model<Dim>& model)
     : model_(model),
+      course_(scene.course),
+      has_stages_(!scene.stage.empty()),
+      reduces_strength_(scene::reduces_strength(scene)),
       loads_grow_(scene.drive.kind == scene::DriveKind::load &&
                   std::ranges::find(scene.drive.scales, scene::LoadKind::traction) !=
                       scene.drive.scales.end()) {
+  if (has_stages_) columns_.emplace_back(stage_column);
+  if (reduces_strength_) columns_.emplace_back("strength_reduction");
   for (const scene::Measure& asked : scene::resolve_measures(scene)) {
     Measure& measure = measures_.emplace_back();
     measure.kind = asked.kind;
@@ -210,6 +218,10 @@ template <int Dim>
 std::vector<double> Measures<Dim>::of(const State<Dim>& state) const {
   std::vector<double> values;
   values.reserve(columns_.size());
+  if (has_stages_) values.push_back(static_cast<double>(state.programme.stage) + 1.0);
+  if (reduces_strength_) {
+    values.push_back(scene::reduction_at(course_, state.programme.progress));
+  }
   const auto add = [&](const auto& vector) {
     for (Eigen::Index i = 0; i < vector.size(); ++i) values.push_back(vector[i]);
   };
@@ -234,6 +246,17 @@ std::vector<double> Measures<Dim>::of(const State<Dim>& state) const {
     }
   }
   return values;
+}
+
+std::vector<std::int64_t> stage_ends(const std::vector<std::string>& columns,
+                                     const std::vector<record::CurveRow>& rows) {
+  std::vector<std::int64_t> ends;
+  const auto k =
+      static_cast<std::size_t>(std::ranges::find(columns, stage_column) - columns.begin());
+  for (std::size_t i = 1; k < columns.size() && i < rows.size(); ++i) {
+    if (rows[i].measures[k] != rows[i - 1].measures[k]) ends.push_back(rows[i - 1].step);
+  }
+  return ends;
 }
 
 template class Measures<2>;

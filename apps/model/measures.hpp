@@ -7,7 +7,9 @@
 
 #include "model/model.hpp"
 #include "model/state.hpp"
+#include "record/curve.hpp"
 #include "scene/choices.hpp"
+#include "scene/scene.hpp"
 
 namespace scene {
 struct Measure;
@@ -25,7 +27,8 @@ class Measures {
   /// @throws std::runtime_error if a point is too far from all particles.
   Measures(const scene::Scene& scene, const Model<Dim>& model);
 
-  /// Names of the columns, each with its unit.
+  /// Names of the columns, each with its unit: first the stage, from 1, and what strength is
+  /// divided by, in a run that has several and that divides it.
   [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
   /// Their values, in the same order.
   [[nodiscard]] std::vector<double> of(const State<Dim>& state) const;
@@ -55,9 +58,16 @@ class Measures {
   fpm::Vector<Dim> force(const Measure& measure, const State<Dim>& state) const;
 
   const Model<Dim>& model_;
+  scene::Course course_;
+  bool has_stages_ = false, reduces_strength_ = false;
   bool loads_grow_ = false;  // the tractions, with the load parameter
   std::vector<Measure> measures_;
   std::vector<std::string> columns_;
 };
+
+/// The last step of each stage of a curve that has gone on to another.
+/// @param columns  what it measures
+[[nodiscard]] std::vector<std::int64_t> stage_ends(const std::vector<std::string>& columns,
+                                                   const std::vector<record::CurveRow>& rows);
 
 }  // namespace model

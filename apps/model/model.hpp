@@ -8,6 +8,7 @@
 
 #include "constitutive/interface_law.hpp"
 #include "constitutive/material.hpp"
+#include "constitutive/parameters.hpp"
 #include "fpm/bodies.hpp"
 #include "fpm/boundary_loads.hpp"
 #include "fpm/cells.hpp"
@@ -84,6 +85,12 @@ struct Interface {
   bool is_rigid() const { return faces.second.size() == 0; }
 };
 
+/// A law whose strength is divided as a run goes on.
+struct ReducedLaw {
+  LawIndex law = 0;
+  constitutive::MaterialParameters parameters;  // undivided
+};
+
 /// A straight piece of the surface of a plane body of any shape, within one cell; the body is to
 /// its left.
 struct SurfacePiece {
@@ -117,8 +124,9 @@ struct Model {
   // One of each of the scene's materials; of one whose values change from place to place one for
   // each of them.
   std::vector<constitutive::Material> laws;
-  std::vector<double> youngs_modulus;   // of each law [Pa]
-  std::vector<LawIndex> law;            // of each particle
+  std::vector<double> youngs_modulus;  // of each law [Pa]
+  std::vector<LawIndex> law;           // of each particle
+  std::vector<ReducedLaw> reduced_laws;
   std::vector<MaterialIndex> material;  // of each particle
   Eigen::VectorXd mass;                 // [kg] of each particle
   // Of pore water, or empty for none: its pressure where each particle is at the start, and the

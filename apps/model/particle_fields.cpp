@@ -116,9 +116,9 @@ void add_strain_fields(const Model<Dim>& model, const State<Dim>& state, Collect
   if (state.layout.plastic) {
     fields.scalar("utilisation", "-", [&](std::size_t a) {
       using Stress = constitutive::StressVector<Dim>;
-      return constitutive::utilisation<Dim>(model.laws[model.law[a]],
-                                            Stress(state.stress.col(at(a))),
-                                            state.plastic_volume_strain[at(a)]);
+      return constitutive::utilisation<Dim>(
+          model.laws[model.law[a]], Stress(state.stress.col(at(a))),
+          state.plastic_volume_strain[at(a)], state.plastic_strain[at(a)]);
     });
     fields.scalar("plastic_strain", "-",
                   [&](std::size_t a) { return state.plastic_strain[at(a)]; });

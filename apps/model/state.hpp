@@ -16,14 +16,18 @@ struct StateLayout {
   bool plastic = false;      // plastic strains
   bool subpoints = false;    // deviators of the sub-points
   bool incremental = false;  // memory of the incremental hourglass control
+  bool staged = false;       // what the changes of a stage have left unbalanced
 };
 
 /// Where the load programme stands.
 struct ProgrammeState {
   std::int64_t step = 0;        // converged steps so far
-  double load = 0.0;            // load parameter in [0, 1]
-  double next_increment = 0.0;  // of the load parameter
-  double last_increment = 0.0;  // of the load parameter, of the last converged step
+  std::int64_t stage = 0;       // of the scene's stages, from 0
+  double progress = 0.0;        // of the stage, in [0, 1]
+  double load = 0.0;            // load parameter: without stages the progress
+  double next_increment = 0.0;  // of the progress
+  double last_increment =
+      0.0;  // of the progress, of the last converged step; 0: none in this stage
   std::int64_t easy_steps = 0;  // consecutive steps below the easy number of evaluations
   std::int64_t re_searches = 0;
   double hourglass_work = 0.0;  // [J/m or J] accumulated
@@ -35,6 +39,8 @@ struct ProgrammeState {
   template <class Visitor>
   void for_each_field(Visitor&& visit) {
     visit("step", "-", step);
+    visit("stage", "-", stage);
+    visit("progress", "-", progress);
     visit("load", "-", load);
     visit("next_increment", "-", next_increment);
     visit("last_increment", "-", last_increment);
@@ -69,8 +75,9 @@ struct State {
   Eigen::VectorXd plastic_increment;         // of the last converged step
   Eigen::VectorXd released;                  // omega: 1 once the row has yielded, else 0
   fpm::Field<Dim> reaction;                  // at prescribed unknowns, 0 elsewhere
-  Columns<Dim> interface_slip;               // of each point of the interfaces
-  Columns<Dim> interface_traction;           // there, on the first body
+  fpm::Field<Dim> unbalanced;       // forces left at the stage's beginning; they fade in it
+  Columns<Dim> interface_slip;      // of each point of the interfaces
+  Columns<Dim> interface_traction;  // there, on the first body
   fpm::Rows<Dim> rows;
   ProgrammeState programme;
 
@@ -91,6 +98,7 @@ struct State {
     plastic_increment.setZero(count(layout.plastic));
     released.setZero(count(layout.incremental));
     reaction.setZero(n, Dim);
+    unbalanced.setZero(count(layout.staged), Dim);
     interface_slip.setZero(Dim, points);
     interface_traction.setZero(Dim, points);
   }
@@ -111,6 +119,7 @@ struct State {
     visit("plastic_increment", "-", plastic_increment);
     visit("released", "-", released);
     visit("reaction", Dim == 2 ? "N/m" : "N", reaction);
+    visit("unbalanced", Dim == 2 ? "N/m" : "N", unbalanced);
   }
 
   /// Likewise for the points of the interfaces.

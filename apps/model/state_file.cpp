@@ -23,6 +23,8 @@ constexpr std::int64_t schema_of_balance = 4;
 // Before this schema re-searched rows lost the consistency correction, and there were no
 // interfaces.
 constexpr std::int64_t schema_of_corrections = 5;
+// Before this schema a run had one stage, whose progress was its load.
+constexpr std::int64_t schema_of_stages = 7;
 const std::string shown_reactions = "/VTKHDF/PointData/reaction";
 
 template <class Values>
@@ -153,7 +155,7 @@ class FieldReader {
 };
 
 void require_sane(const files::Hdf5File& file, const ProgrammeState& programme) {
-  const bool sane = programme.step >= 0 && programme.load >= 0.0 &&
+  const bool sane = programme.step >= 0 && programme.stage >= 0 && programme.progress >= 0.0 &&
                     programme.next_increment >= 0.0 && programme.last_increment >= 0.0 &&
                     programme.easy_steps >= 0;
   if (!sane) throw files::FileError(file.file(), programme_group + " holds a negative number");
@@ -188,9 +190,10 @@ State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model, std:
   state.resize(model.size(), model.interface_points());
   const FieldReader reader(file);
   const bool has_reactions = schema >= schema_of_reactions;
-  state.for_each_particle_field([&](const char* name, const char* /*unit*/, auto& field) {
-    if (has_reactions || name != std::string_view("reaction")) {
-      reader.read_columns(particle_group + name, field);
+  const bool has_stages = schema >= schema_of_stages;
+  state.for_each_particle_field([&](std::string_view name, const char* /*unit*/, auto& field) {
+    if ((has_reactions || name != "reaction") && (has_stages || name != "unbalanced")) {
+      reader.read_columns(particle_group + std::string(name), field);
     }
   });
   if (!has_reactions) reader.template read_shown_reactions<Dim>(state.reaction);
@@ -204,10 +207,14 @@ State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model, std:
     }
   });
   const bool has_balance = schema >= schema_of_balance;
-  state.programme.for_each_field([&](const char* name, const char* /*unit*/, auto& number) {
-    if (has_balance || name != std::string_view("balanced")) reader.read_number(name, number);
+  state.programme.for_each_field([&](std::string_view name, const char* /*unit*/, auto& number) {
+    if ((has_balance || name != "balanced") &&
+        (has_stages || (name != "stage" && name != "progress"))) {
+      reader.read_number(std::string(name), number);
+    }
   });
   if (!has_balance) state.programme.balanced = 0;
+  if (!has_stages) state.programme.progress = state.programme.load;
   require_sane(file, state.programme);
   try {
     state.rows.restore(model.particles, model.ghosts, model.row_options);

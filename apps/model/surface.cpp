@@ -43,11 +43,12 @@ constexpr double inward = 1e-6;  // spacings, to be on one side of a segment
 
 // Cuts the segments of a surface where they pass from one cell to another.
 std::vector<SurfacePiece> pieces_of(const shape::Body& body, const CutCells& cut,
-                                    const fpm::Cells<2>& cells) {
+                                    const fpm::Cells<2>& cells, const std::vector<char>& present) {
   constexpr double sliver = 1e-9;  // spacings
   const auto& lattice = cells.lattice();
   std::vector<SurfacePiece> pieces;
   for (const shape::SurfaceSegment& segment : body.surface()) {
+    if (present[static_cast<std::size_t>(segment.region)] == 0) continue;
     const Place along = segment.to - segment.from;
     const Place left = left_of(segment.from, segment.to) * (inward * lattice.spacing);
     const auto cuts = crossings(lattice, segment.from, segment.to);
@@ -86,10 +87,36 @@ std::vector<double> joint_cuts(const shape::Joint& joint, const fpm::Cells<2>& c
   return cuts;
 }
 
+// Of two regions one of which is not there the joint is surface.
+std::vector<SurfacePiece> exposed(const shape::Body& body, const CutCells& cut,
+                                  const fpm::Cells<2>& cells, const std::vector<char>& present) {
+  std::vector<SurfacePiece> pieces;
+  for (const shape::Joint& joint : body.joints()) {
+    const bool left = present[static_cast<std::size_t>(joint.left)] != 0;
+    if (left == (present[static_cast<std::size_t>(joint.right)] != 0)) continue;
+    const int region = left ? joint.left : joint.right;
+    const Place from = left ? joint.from : joint.to, to = left ? joint.to : joint.from;
+    const Place within = left_of(from, to) * (inward * cells.lattice().spacing);
+    const auto cuts = joint_cuts(joint, cells);
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+      const Place middle = from + 0.5 * (cuts[k] + cuts[k + 1]) * (to - from);
+      SurfacePiece piece{from + cuts[k] * (to - from), from + cuts[k + 1] * (to - from),
+                         cut.particle_at(middle + within, region, cells)};
+      piece.side = exposed_side;
+      pieces.push_back(piece);
+    }
+  }
+  return pieces;
+}
+
 std::vector<JointPiece> joints_of(const shape::Body& body, const CutCells& cut,
-                                  const fpm::Cells<2>& cells) {
+                                  const fpm::Cells<2>& cells, const std::vector<char>& present) {
   std::vector<JointPiece> pieces;
   for (const shape::Joint& joint : body.joints()) {
+    if (present[static_cast<std::size_t>(joint.left)] == 0 ||
+        present[static_cast<std::size_t>(joint.right)] == 0) {
+      continue;
+    }
     const Place along = joint.to - joint.from;
     const Place left = left_of(joint.from, joint.to) * (inward * cells.lattice().spacing);
     const auto cuts = joint_cuts(joint, cells);
@@ -132,7 +159,9 @@ void cut_plane_body(const scene::Scene& scene, Model<2>& model) {
   const shape::Body body = scene::body_of(scene);
   const fpm::Cells<2> whole = model.cells;
   const CutCells cut(body, whole);
-  model.cells = cut.standing();
+  std::vector<char> present(static_cast<std::size_t>(body.regions()), 1);
+  for (std::size_t r = 0; r < scene.region.size(); ++r) present[r] = scene.region[r].present;
+  model.cells = cut.standing(present);
   model.particles = fpm::make_particles(model.cells);
   Eigen::VectorXd area = Eigen::VectorXd::Zero(model.size());
   fpm::Field<2> moment = fpm::Field<2>::Zero(model.size(), 2);
@@ -150,10 +179,13 @@ void cut_plane_body(const scene::Scene& scene, Model<2>& model) {
     model.particles.position.row(b) =
         model.cells.site(static_cast<fpm::Index>(b)).transpose() + moment.row(b) / area[b];
   }
-  model.surface = pieces_of(body, cut, model.cells);
+  model.surface = pieces_of(body, cut, model.cells, present);
+  for (const SurfacePiece& piece : exposed(body, cut, model.cells, present)) {
+    model.surface.push_back(piece);
+  }
   find_owners(model.particles.position, model.surface);
   if (scene.region.empty()) return;
-  model.joints = joints_of(body, cut, model.cells);
+  model.joints = joints_of(body, cut, model.cells, present);
   find_owners(model.particles.position, model.joints);
   for (const int region : cut.regions(model.cells)) {
     model.material.push_back(
@@ -169,6 +201,8 @@ bool is_of(const SurfacePiece& piece, const SurfacePart& part) {
       return piece.side == part.index &&
              !part.without[piece.face < 0 ? SurfacePart::no_face
                                           : static_cast<std::size_t>(piece.face)];
+    case SurfacePart::Of::exposed:
+      return piece.side == exposed_side;
     case SurfacePart::Of::face:
       break;
   }

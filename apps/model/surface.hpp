@@ -22,10 +22,13 @@ namespace model {
 template <int Dim>
 void cut_body(const scene::Scene& scene, Model<Dim>& model);
 
-/// A part of the surface: what a cutout left, a side of the scene, or what is left of a face of the
-/// box, within a range along it.
+/// `SurfacePiece::side` of a piece that was next to a region that is not there.
+inline constexpr int exposed_side = -2;
+
+/// A part of the surface: what a cutout left, a side of the scene, what is left of a face of the
+/// box, within a range along it, or what was next to a region that is not there.
 struct SurfacePart {
-  enum class Of { cutout, side, face };
+  enum class Of { cutout, side, face, exposed };
   Of of = Of::cutout;
   int index = 0;
   double from = -std::numeric_limits<double>::infinity();  // [m] along a face
@@ -35,6 +38,7 @@ struct SurfacePart {
 
   static SurfacePart of_cutout(std::size_t i) { return {Of::cutout, static_cast<int>(i)}; }
   static SurfacePart of_side(std::size_t i) { return {Of::side, static_cast<int>(i)}; }
+  static SurfacePart of_exposed() { return {Of::exposed, 0}; }
   static constexpr std::size_t no_face = 4;
   static SurfacePart of_face(const fpm::Face& face) {
     return {Of::face, 2 * face.axis + (face.upper ? 1 : 0)};

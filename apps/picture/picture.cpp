@@ -131,10 +131,15 @@ class Drawing {
     const Series& series = picture_.series[number];
     const std::string_view colour = colours[number % colours.size()];
     std::string path;
+    bool parted = true;
     for (std::size_t i = 0; i < series.x.size(); ++i) {
-      if (!x_.shows(series.x[i]) || !y_.shows(series.y[i])) continue;
+      if (!x_.shows(series.x[i]) || !y_.shows(series.y[i])) {
+        parted = true;
+        continue;
+      }
       const double x = x_.place(series.x[i]), y = y_.place(series.y[i]);
-      path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x, y);
+      path += fmt::format("{}{:.1f} {:.1f}", parted ? "M" : "L", x, y);
+      parted = false;
       if (series.marks) {
         add("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"/>\n", x, y, colour);
       }

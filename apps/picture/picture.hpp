@@ -29,7 +29,7 @@ struct Picture {
 };
 
 /// The picture as an SVG file's text: no script, no font, no colour that only colour tells apart.
-/// What is not finite is left out.
+/// What is not finite is left out, and parts the line it is in.
 /// @throws std::invalid_argument if x and y of a series differ in length.
 [[nodiscard]] std::string svg_text(const Picture& picture);
 

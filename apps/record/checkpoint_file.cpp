@@ -19,7 +19,10 @@ const std::string lineage_path = "/meta/lineage";
 const std::string parent_path = "/meta/parent";  // of schema 1
 const std::string curve_path = "/history/curve";
 const std::string step_path = "/state/programme/step";
+const std::string stage_path = "/state/programme/stage";
+const std::string progress_path = "/state/programme/progress";
 const std::string digest_path = "/digest";
+constexpr std::int64_t schema_of_stages = 7;
 const std::array<std::string, 3> digested_groups{"/meta", "/history", "/state"};
 
 void put_number(files::Hdf5File& file, const std::string& path, std::int64_t number,
@@ -136,6 +139,10 @@ CheckpointNotes notes_of(const files::Hdf5File& file) {
   notes.lineage = lineage_of(file, notes.schema);
   notes.dimension = static_cast<int>(number_at(file, dimension_path));
   read_history(file, notes);
+  if (notes.schema >= schema_of_stages) {
+    notes.stage = number_at(file, stage_path);
+    file.read<double>(progress_path, std::span(&notes.progress, 1), {1});
+  }
   const std::int64_t step = number_at(file, step_path);
   if (notes.history.empty() || notes.history.back().step != step) {
     throw files::FileError(file.file(),

@@ -14,8 +14,9 @@ namespace record {
 
 /// Layout of checkpoint files; raised when a reader of the former one would go wrong. Older ones
 /// are read: 1 had no seal (see open_unsealed), and of the lineage only the parent's name; 1 and 2
-/// had no reactions in the state; before 4 no load kept the initial stress at rest.
-inline constexpr std::int64_t checkpoint_schema = 6;
+/// had no reactions in the state; before 4 no load kept the initial stress at rest; before 7 there
+/// was one stage.
+inline constexpr std::int64_t checkpoint_schema = 7;
 
 /// What a checkpoint holds beside the mechanical state. It makes a checkpoint sufficient by itself:
 /// a run goes on from it though the rest of its folder is lost.
@@ -33,6 +34,8 @@ struct CheckpointNotes {
   // Of the file rather than in it; known once it is opened.
   std::int64_t schema = checkpoint_schema;
   std::int64_t digest = 0;
+  std::int64_t stage = 0;  // of the state, from 0
+  double progress = 0.0;   // in it
 
   /// Calls visit(name, text) for each plain text, in the order of the file.
   template <class Self, class Visitor>

@@ -44,7 +44,8 @@ void remove_older(const std::filesystem::path& folder, std::int64_t step,
   for (std::size_t i = 0; i + newest < oldest_first.size(); ++i) {
     const std::int64_t stretch =
         retention.every > 0 ? *step_of(oldest_first[i]) / retention.every : last_stretch;
-    const bool stays = stretch != last_stretch;
+    const bool stays = stretch != last_stretch ||
+                       std::ranges::count(retention.for_good, *step_of(oldest_first[i])) > 0;
     last_stretch = stretch;
     if (!stays) system.unlink(oldest_first[i].c_str());  // one too many does no harm
   }

@@ -25,6 +25,7 @@ namespace record {
 struct Retention {
   int newest = 3;
   int every = 0;  // steps: the first one at or after each multiple of these stays for good; 0: none
+  std::vector<std::int64_t> for_good = {};  // steps that stay whatever they are
 };
 
 /// Removes all checkpoints up to and including `step` but those that stay.

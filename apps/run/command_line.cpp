@@ -16,6 +16,7 @@
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
+#include "scene/stages.hpp"
 
 namespace run {
 
@@ -54,7 +55,11 @@ po::options_description options() {
       ("print-effective", po::bool_switch(),
        "print the scene with every key and the settings applied, do not run")  //
       ("resume", po::value<std::string>()->value_name("[CKPT]")->implicit_value(""),
-       "go on from a checkpoint file, or from the newest one in the output folder")  //
+       "go on from a checkpoint file, or from the newest one in that run's folder or the output "
+       "folder")  //
+      ("from-stage", po::value<std::string>()->value_name("NAME"),
+       "go on with this stage, from the end of the one before in that run; it and later ones may "
+       "have been changed")  //
       ("accuracy", po::value<std::string>()->value_name("PART"),
        "how far the answer may be off, as 2% or 0.02: a ladder of cheap runs (fpm-study) finds the "
        "coarsest setting that is as good, says the answer with its error bar, and that runs")  //
@@ -63,6 +68,13 @@ po::options_description options() {
       ("quantity", po::value<std::string>()->value_name("QUANTITY"),
        "of --accuracy: what the answer is, as fpm-study --help says; default: the mean pressure, "
        "the reaction or the largest displacement")  //
+      ("far", po::value<std::string>()->value_name("SIDES"),
+       "of --accuracy: sides, as left,bottom, that are only where the ground that is looked at "
+       "ends; "
+       "what they do is part of the error bar")  //
+      ("quality", po::value<std::string>()->value_name("WORD"),
+       "draft, normal or fine: coarser, as, or finer than the scene says; share/doc/trade.md has "
+       "what each costs and how far off it is")  //
       ("threads", po::value<int>()->value_name("N"),
        "threads, at least 1; results do not depend on it; default: OpenMP's choice")  //
       ("max-wall", po::value<std::string>()->value_name("TIME"),
@@ -108,17 +120,23 @@ std::optional<AccuracyWish> accuracy_of(const po::variables_map& values) {
     return values.count(name) != 0 ? std::optional(values[name].as<std::string>()) : std::nullopt;
   };
   const auto accuracy = text("accuracy");
-  for (const char* name : {"budget", "quantity"}) {
+  for (const char* name : {"budget", "quantity", "far"}) {
     if (accuracy || values.count(name) == 0) continue;
     throw program::UsageError(fmt::format("--{}: it is one of --accuracy", name));
   }
-  if (!accuracy) return std::nullopt;
-  if (values.count("resume") != 0 || values.count("max-wall") != 0 || values["check"].as<bool>()) {
-    throw program::UsageError(
-        "--accuracy: it goes with neither --resume, --max-wall nor --check; interrupted, the same "
-        "command goes on");
+  const auto quality = text("quality");
+  if (!accuracy && !quality) return std::nullopt;
+  if (accuracy && quality) {
+    throw program::UsageError("--quality: --accuracy says itself how fine the scene runs");
   }
-  return AccuracyWish{*accuracy, text("budget"), text("quantity")};
+  if (values.count("resume") != 0 || values.count("max-wall") != 0 || values["check"].as<bool>()) {
+    throw program::UsageError(fmt::format(
+        "--{}: it goes with neither --resume, --max-wall nor --check; interrupted, the same "
+        "command goes on",
+        accuracy ? "accuracy" : "quality"));
+  }
+  if (quality) return std::nullopt;
+  return AccuracyWish{*accuracy, text("budget"), text("quantity"), text("far")};
 }
 
 RunRequest request_of(const po::variables_map& values) {
@@ -131,6 +149,7 @@ RunRequest request_of(const po::variables_map& values) {
   request.settings = program::texts(values, "set");
   if (values.count("resume") != 0) request.resume = ResumeFrom{values["resume"].as<std::string>()};
   request.accuracy = accuracy_of(values);
+  if (values.count("quality") != 0) request.quality = values["quality"].as<std::string>();
   request.check_only = values["check"].as<bool>();
   if (values.count("draw") != 0) {
     request.drawing = values["draw"].as<std::string>();
@@ -156,6 +175,26 @@ RunRequest request_of(const po::variables_map& values) {
   return request;
 }
 
+/// Whether the stage to go on with is one.
+bool take_stage(RunRequest& request, const po::variables_map& values, std::ostream& err) {
+  if (values.count("from-stage") == 0) return true;
+  const auto name = values["from-stage"].as<std::string>();
+  const auto& stages = request.scene->stage;
+  const auto found = std::ranges::find(stages, name, &scene::Stage::name);
+  if (found != stages.begin() && found != stages.end()) {
+    if (!request.resume) request.resume.emplace();
+    request.resume->stage = static_cast<std::size_t>(found - stages.begin());
+    return true;
+  }
+  std::string names;
+  for (const scene::Stage& stage : stages) names += (names.empty() ? "" : ", ") + stage.name;
+  err << fmt::format("error: --from-stage: found \"{}\"; {}\n", name,
+                     stages.empty()            ? "the scene has no stages"
+                     : found == stages.begin() ? "with the first stage a run begins: leave it out"
+                                               : "stages are " + names);
+  return false;
+}
+
 /// Reads the scene into the request; false, with every complaint, if it is refused.
 bool take_scene(RunRequest& request, const po::variables_map& values, std::ostream& err) {
   scene::SceneReading reading = scene::read_scene(request.scene_file, request.settings);
@@ -166,7 +205,7 @@ bool take_scene(RunRequest& request, const po::variables_map& values, std::ostre
   if (!reading.scene) return false;
   request.scene = std::move(reading.scene);
   request.directory = output_folder(values, *request.scene, request.scene_file);
-  return true;
+  return take_stage(request, values, err);
 }
 
 program::ExitCode run(std::span<const std::string> arguments, std::ostream& out, std::ostream& err,
@@ -261,7 +300,7 @@ std::string scene_summary(const scene::Scene& scene) {
        fmt::format("{}, stiffness ratio {}", scene::name_of(scene::resolve_control(scene)),
                    scene::resolve_stiffness_ratio(scene)));
   line("drive",
-       fmt::format("{}, {} steps", scene::name_of(scene.drive.kind), scene::nominal_steps(scene)));
+       fmt::format("{}, {} steps", scene::name_of(scene.drive.kind), scene::planned_steps(scene)));
   const scene::SolverSettings solver = scene::resolve_solver(scene.solver);
   line("solver", fmt::format("{}, {} Jacobian, {} preconditioner, tolerance {}",
                              scene::name_of(solver.method), scene::name_of(solver.jacobian),

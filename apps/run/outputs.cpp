@@ -66,6 +66,7 @@ Outputs prepare(const record::RunFolder& folder, const scene::Scene& scene,
 }
 
 double time_of(const record::CurveRow& row, const scene::Scene& scene) {
+  if (!scene.stage.empty()) return static_cast<double>(row.step);
   return scene.drive.kind == scene::DriveKind::displacement ? row.settlement : row.load_parameter;
 }
 

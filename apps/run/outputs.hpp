@@ -33,7 +33,8 @@ template <int Dim>
 [[nodiscard]] Outputs prepare(const record::RunFolder& folder, const scene::Scene& scene,
                               const RunStart<Dim>& start);
 
-/// Time in frames: what the user drives, so that it does not depend on the target.
+/// Time in frames: what the user drives, so that it does not depend on the target; with stages,
+/// which go there and back, the step.
 [[nodiscard]] double time_of(const record::CurveRow& row, const scene::Scene& scene);
 
 }  // namespace run

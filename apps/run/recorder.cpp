@@ -9,6 +9,7 @@
 #include "record/checkpoint_folder.hpp"
 #include "record/checkpoint_name.hpp"
 #include "scene/scene.hpp"
+#include "scene/stages.hpp"
 #include "stepping/failure_report.hpp"
 
 namespace run {
@@ -19,8 +20,8 @@ Recorder<Dim>::Recorder(const RunRequest& request, const record::RunFolder& fold
                         const RunStart<Dim>& start, model::State<Dim>& state, Outputs outputs,
                         std::ostream& out)
     : scene_(*request.scene),
-      model_(model),
-      measures_(measures),
+      model_(&model),
+      measures_(&measures),
       state_(state),
       folder_(folder),
       outputs_(std::move(outputs)),
@@ -29,7 +30,8 @@ Recorder<Dim>::Recorder(const RunRequest& request, const record::RunFolder& fold
       notes_(model::notes_for(*request.scene)) {
   notes_.versions = program::with_versions("fpm-run");
   notes_.lineage = start.lineage;
-  notes_.measures = measures_.columns();
+  notes_.measures = measures_->columns();
+  stage_ends_ = model::stage_ends(notes_.measures, history_);
   last_checkpoint_ = start.checkpoint;
   if (outputs_.holds_start) checkpointed_step_ = state_.programme.step;
   if (!history_.empty()) earlier_ = checkpointed_at_ = history_.back().wall;
@@ -60,7 +62,7 @@ void Recorder<Dim>::begin_branch() {
 
 template <int Dim>
 void Recorder<Dim>::append(record::CurveRow row) {
-  row.measures = measures_.of(state_);
+  row.measures = measures_->of(state_);
   outputs_.curve.append(row);
   history_.push_back(std::move(row));
 }
@@ -100,13 +102,28 @@ void Recorder<Dim>::finish(const std::string& reason, bool interrupted) {
 }
 
 template <int Dim>
+void Recorder<Dim>::end_stage(const std::string& title) {
+  progress_.finish();
+  say(fmt::format("{}: at its end", title));
+  stage_ends_.push_back(state_.programme.step);
+  if (outputs_.frames.lacks(state_.programme.step)) write_frame();
+  if (checkpointed_step_ != state_.programme.step) write_checkpoint("end of " + title);
+}
+
+template <int Dim>
+void Recorder<Dim>::enter(const model::Model<Dim>& model, const model::Measures<Dim>& measures) {
+  model_ = &model;
+  measures_ = &measures;
+}
+
+template <int Dim>
 void Recorder<Dim>::write_failure(const stepping::StepResult& result) {
-  auto fields = particle_fields(model_, state_, {});
-  for (files::PointField& field : stepping::failure_fields(model_, result))
+  auto fields = particle_fields(*model_, state_, {});
+  for (files::PointField& field : stepping::failure_fields(*model_, result))
     fields.push_back(std::move(field));
   const record::CurveRow& row = history_.back();
   record::write_frame(folder_.failure(), row.step, time_of(row, scene_),
-                      model::current_points(model_, state_), fields, scene_.output.compression,
+                      model::current_points(*model_, state_), fields, scene_.output.compression,
                       folder_.system());
 }
 
@@ -119,8 +136,8 @@ void Recorder<Dim>::say(const std::string& line) {
 template <int Dim>
 void Recorder<Dim>::write_frame() {
   const record::CurveRow& row = history_.back();
-  outputs_.frames.write(row.step, time_of(row, scene_), model::current_points(model_, state_),
-                        particle_fields(model_, state_, scene_.output.fields));
+  outputs_.frames.write(row.step, time_of(row, scene_), model::current_points(*model_, state_),
+                        particle_fields(*model_, state_, scene_.output.fields));
 }
 
 template <int Dim>
@@ -131,14 +148,14 @@ void Recorder<Dim>::write_checkpoint(const std::string& reason) {
   notes_.history = history_;
   const std::int64_t step = state_.programme.step;
   const std::filesystem::path path = folder_.checkpoints() / record::checkpoint_name(step);
-  model::write_checkpoint(path, model_, state_, notes_,
-                          model::particle_fields(model_, state_, scene_.output.fields),
+  model::write_checkpoint(path, *model_, state_, notes_,
+                          model::particle_fields(*model_, state_, scene_.output.fields),
                           scene_.output.compression, folder_.system());
   last_checkpoint_ = path;
   checkpointed_step_ = step;
   checkpointed_at_ = elapsed();
   const record::Retention retention{scene_.output.checkpoints_kept,
-                                    scene_.output.checkpoints_kept_every};
+                                    scene_.output.checkpoints_kept_every, stage_ends_};
   record::remove_older(folder_.checkpoints(), step, retention, folder_.system());
 }
 
@@ -147,7 +164,8 @@ program::ProgressStatus Recorder<Dim>::status() const {
   const record::CurveRow& row = history_.back();
   program::ProgressStatus status;
   status.step = row.step;
-  status.fraction = row.load_parameter;
+  status.fraction = (static_cast<double>(state_.programme.stage) + state_.programme.progress) /
+                    static_cast<double>(scene::stage_count(scene_));
   const bool displaced = scene_.drive.kind == scene::DriveKind::displacement;
   if (displaced && scene_.drive.reference_length) status.settlement_over_B = row.settlement_over_B;
   if (displaced && scene_.drive.width) status.mean_pressure = row.mean_pressure;
@@ -155,7 +173,7 @@ program::ProgressStatus Recorder<Dim>::status() const {
   status.evaluations = row.evaluations;
   status.residual_ratio = row.residual_ratio;
   status.yielding_share =
-      static_cast<double>(row.plastic_particles) / static_cast<double>(model_.size());
+      static_cast<double>(row.plastic_particles) / static_cast<double>(model_->size());
   for (const record::CurveRow& each : history_) {
     status.cuts += each.cuts;
     status.re_searched_rows += each.re_searched_rows;

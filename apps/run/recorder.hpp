@@ -48,6 +48,11 @@ class Recorder {
   /// converged state.
   void write_failure(const stepping::StepResult& result);
 
+  /// Ends a stage: a frame, and a checkpoint that stays, unless there are.
+  void end_stage(const std::string& title);
+  /// Goes on with another stage's model and measures, which must outlive it.
+  void enter(const model::Model<Dim>& model, const model::Measures<Dim>& measures);
+
   /// One line for the user and the log.
   void say(const std::string& line);
   program::Log& log() { return outputs_.log; }
@@ -66,8 +71,8 @@ class Recorder {
   [[nodiscard]] program::ProgressStatus status() const;
 
   const scene::Scene& scene_;
-  const model::Model<Dim>& model_;
-  const model::Measures<Dim>& measures_;
+  const model::Model<Dim>* model_;
+  const model::Measures<Dim>* measures_;
   model::State<Dim>& state_;
   const record::RunFolder& folder_;
   Outputs outputs_;
@@ -77,6 +82,7 @@ class Recorder {
   std::vector<record::CurveRow> history_;
   record::CheckpointNotes notes_;
   std::filesystem::path last_checkpoint_;
+  std::vector<std::int64_t> stage_ends_;  // steps
   std::int64_t checkpointed_step_ = -1;
   double checkpointed_at_ = 0.0;  // [s] of elapsed()
 };

@@ -7,6 +7,7 @@
 #include "program/progress.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
+#include "scene/stages.hpp"
 
 namespace run {
 
@@ -37,7 +38,7 @@ std::string check_report(const scene::Scene& scene, std::size_t particles, std::
   }
   line("", "left out: set-up, a file being written, Krylov vectors beyond forty");
   line("checkpoint", fmt::format("at least {:.1f} MiB each", mebibytes(parts.front().bytes)));
-  line("steps", fmt::format("{} planned", scene::nominal_steps(scene)));
+  line("steps", fmt::format("{} planned", scene::planned_steps(scene)));
   return out;
 }
 

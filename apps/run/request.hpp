@@ -14,7 +14,8 @@ namespace run {
 
 /// From which checkpoint a run goes on.
 struct ResumeFrom {
-  std::filesystem::path checkpoint;  // empty: the newest usable one in the output folder
+  std::filesystem::path checkpoint;       // or a run's folder; empty: the output folder: its newest
+  std::optional<std::size_t> stage = {};  // with which it goes on, from the end of the one before
 };
 
 /// How accurate a run is to be, in the words of the user; fpm-study sees to it.
@@ -22,6 +23,7 @@ struct AccuracyWish {
   std::string accuracy;                 // 2%
   std::optional<std::string> budget;    // 10min
   std::optional<std::string> quantity;  // of what
+  std::optional<std::string> far;       // left,bottom: sides that are only where the ground ends
 };
 
 /// One run as asked for on the command line: the checked scene and what is not part of it.
@@ -32,6 +34,7 @@ struct RunRequest {
   std::vector<std::string> settings;     // the --set arguments, already applied to `scene`
   std::optional<ResumeFrom> resume;      // absent: a fresh run
   std::optional<AccuracyWish> accuracy;  // absent: as fine as the scene says
+  std::optional<std::string> quality;    // draft, normal, fine; fpm-study sees to it, too
   bool check_only = false;               // build the model, report particles and memory, do not run
   std::filesystem::path drawing;         // where the scene is drawn, of a check; empty: nowhere
   int threads = 0;                       // 0: OpenMP's own choice

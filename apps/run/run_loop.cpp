@@ -7,8 +7,10 @@
 #include <cctype>
 #include <chrono>
 #include <exception>
+#include <memory>
 #include <thread>
 
+#include "bounds/accuracy_note.hpp"
 #include "bounds/limit_check.hpp"
 #include "files/durable_file.hpp"
 #include "model/build.hpp"
@@ -22,8 +24,10 @@
 #include "run/report.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
+#include "scene/stages.hpp"
 #include "stepping/failure_report.hpp"
 #include "stepping/settle.hpp"
+#include "stepping/staged_model.hpp"
 #include "stepping/stepper.hpp"
 
 namespace run {
@@ -78,7 +82,7 @@ std::string command_to_resume(const RunRequest& request) {
 template <int Dim>
 class Run {
  public:
-  Run(const RunRequest& request, std::ostream& out, std::ostream& err,
+  Run(const RunRequest& request, std::size_t stage, std::ostream& out, std::ostream& err,
       const files::SystemCalls& system)
       : request_(request),
         scene_(*request.scene),
@@ -86,8 +90,8 @@ class Run {
         err_(err),
         system_(system),
         stop_(request.max_wall_s),
-        model_(stepping::model_at_rest<Dim>(scene_)),
-        measures_(scene_, model_) {}
+        stages_(scene_, stage),
+        measures_(std::make_unique<model::Measures<Dim>>(stages_.scene(), stages_.model())) {}
 
   program::ExitCode operator()() {
     // Held before its checkpoints are read: nobody else adds one meanwhile. A folder that is not
@@ -96,27 +100,28 @@ class Run {
     std::exception_ptr no_folder;  // which a finished run does not need
     const bool exists = std::filesystem::is_directory(request_.directory);
     if (exists && !request_.check_only) no_folder = take(folder);
-    RunStart<Dim> start = find_start(request_, model_, measures_.columns());
+    RunStart<Dim> start = find_start(request_, stages_, measures_->columns());
     for (const std::string& refusal : start.refusals) err_ << "error: " << refusal << '\n';
     if (!start.refusals.empty()) return program::ExitCode::input_refused;
-    stepping::LoadStepper<Dim> stepper(scene_, model_, start.state);
-    if (request_.check_only) return check(start, stepper);
-    if (stepper.finished()) return say_finished(start, folder);
+    stepper_ = stages_.stepper(start.state);
+    if (start.history.empty() && !scene_.stage.empty()) begin_stage();
+    if (request_.check_only) return check(start);
+    if (stepper_->finished() && stages_.is_last()) return say_finished(start, folder);
     if (no_folder) std::rethrow_exception(no_folder);
 
     if (!folder) folder.emplace(request_.directory, system_);
-    Recorder<Dim> recorder(request_, *folder, model_, measures_, start, start.state,
+    Recorder<Dim> recorder(request_, *folder, stages_.model(), *measures_, start, start.state,
                            prepare(*folder, scene_, start), out_);
     recorder.begin();
     try {
       introduce(start, *folder, recorder);
       if (start.re_search_changed && scene_.re_search.enabled) {
         // The rule is new: a state that no step leads on from must not wait for one.
-        const Eigen::Index rows = stepper.re_search();
+        const Eigen::Index rows = stepper_->re_search();
         if (rows > 0) recorder.say(fmt::format("{} rows re-searched", rows));
       }
       recorder.begin_branch();
-      return advance(start.state, stepper, recorder, *folder);
+      return advance(start.state, recorder, *folder);
     } catch (const files::FileError& failure) {
       throw files::FileError(failure.file(),
                              failure.reason() + what_is_left(recorder.last_checkpoint()));
@@ -135,11 +140,12 @@ class Run {
     return nullptr;
   }
 
-  program::ExitCode check(RunStart<Dim>& start, const stepping::LoadStepper<Dim>& stepper) {
+  program::ExitCode check(RunStart<Dim>& start) {
     std::vector<model::MemoryPart> parts = {{"state", model::bytes_of(start.state)}};
-    for (model::MemoryPart& part : stepper.memory(true)) parts.push_back(std::move(part));
-    out_ << check_report(scene_, static_cast<std::size_t>(model_.size()),
-                         static_cast<std::size_t>(model_.ghosts.size()), parts);
+    for (model::MemoryPart& part : stepper_->memory(true)) parts.push_back(std::move(part));
+    const model::Model<Dim>& model = stages_.model();
+    out_ << check_report(scene_, static_cast<std::size_t>(model.size()),
+                         static_cast<std::size_t>(model.ghosts.size()), parts);
     draw();
     for (const std::string& warning : start.warnings) err_ << "warning: " << warning << '\n';
     if (!start.checkpoint.empty()) out_ << resumed_line(start) << '\n';
@@ -151,7 +157,7 @@ class Run {
   void draw() const {
     if (request_.drawing.empty()) return;
     if constexpr (Dim == 2) {
-      files::write_text_durably(request_.drawing, drawing_of(scene_, model_), system_);
+      files::write_text_durably(request_.drawing, drawing_of(scene_, stages_.model()), system_);
       out_ << fmt::format("  {:<12} {}\n", "drawn", request_.drawing.string());
     } else {
       err_ << "warning: --draw: only plane scenes are drawn\n";
@@ -196,7 +202,7 @@ class Run {
                                     request_.scene_file.string(), omp_get_max_threads()));
     recorder.say(fmt::format("{}: {} particles, {} steps planned, output in {}",
                              scene_.title.empty() ? request_.scene_file.string() : scene_.title,
-                             model_.size(), scene::nominal_steps(scene_),
+                             stages_.model().size(), scene::planned_steps(scene_),
                              request_.directory.string()));
     if (!folder.dead_owner().empty()) {
       recorder.say(
@@ -210,14 +216,40 @@ class Run {
       recorder.say("changed: " + change.text());
   }
 
-  program::ExitCode advance(const model::State<Dim>& state, stepping::LoadStepper<Dim>& stepper,
-                            Recorder<Dim>& recorder, const record::RunFolder& folder) {
+  /// @throws stepping::DoesNotSettle
+  void begin_stage() {
+    if (stepper_->begin_stage()) return;
+    throw stepping::DoesNotSettle(
+        fmt::format("{}: what it changes leaves particles inside out",
+                    scene::stage_title(scene_, stages_.scene().course.stage)));
+  }
+
+  void go_on_to_next_stage(model::State<Dim>& state, Recorder<Dim>& recorder) {
+    recorder.end_stage(scene::stage_title(scene_, stages_.scene().course.stage));
+    stepper_.reset();
+    measures_.reset();
+    stages_.go_on(state);
+    measures_ = std::make_unique<model::Measures<Dim>>(stages_.scene(), stages_.model());
+    stepper_ = stages_.stepper(state);
+    begin_stage();
+    recorder.enter(stages_.model(), *measures_);
+    recorder.say(fmt::format("{}: {} particles",
+                             scene::stage_title(scene_, stages_.scene().course.stage),
+                             stages_.model().size()));
+  }
+
+  program::ExitCode advance(model::State<Dim>& state, Recorder<Dim>& recorder,
+                            const record::RunFolder& folder) {
     bounds::LimitCheck limit(scene_, folder, request_.limit_program);
-    while (!stepper.finished()) {
+    for (;;) {
+      if (stepper_->finished()) {
+        if (stages_.is_last()) break;
+        go_on_to_next_stage(state, recorder);
+      }
       for (const std::string& line : limit.news()) recorder.say(line);
       if (!stop_.now().empty()) return interrupt(recorder);
       const stepping::StepResult result =
-          stepper.advance([&](const jfnk::Iteration&) { return stop_.now().empty(); });
+          stepper_->advance([&](const jfnk::Iteration&) { return stop_.now().empty(); });
       if (result.outcome == stepping::StepOutcome::converged) {
         recorder.take(result.record);
         continue;
@@ -245,8 +277,9 @@ class Run {
     recorder.finish(
         result.outcome == stepping::StepOutcome::hopeless ? "no hope" : "no convergence", false);
     recorder.write_failure(result);
-    const std::string why = stepping::failure_report(scene_, model_, state, result) +
-                            "\n  fields: " + folder.failure().string();
+    const std::string why =
+        failed_stage() + stepping::failure_report(stages_.scene(), stages_.model(), state, result) +
+        "\n  fields: " + folder.failure().string();
     report(recorder, folder, limit);
     if (!scene_.programme.stop_at_failure) {
       recorder.say("the programme ends here, as programme.stop_at_failure = false asks: " + why);
@@ -258,10 +291,17 @@ class Run {
     return program::ExitCode::not_converged;
   }
 
+  std::string failed_stage() const {
+    if (scene_.stage.empty()) return "";
+    return scene::stage_title(scene_, stages_.scene().course.stage) + ": ";
+  }
+
   void report(Recorder<Dim>& recorder, const record::RunFolder& folder,
               bounds::LimitCheck& limit) const {
-    recorder.say(end_report(scene_, measures_.columns(), recorder.history(), recorder.elapsed(),
+    recorder.say(end_report(scene_, measures_->columns(), recorder.history(), recorder.elapsed(),
                             folder, recorder.last_checkpoint()));
+    const std::string accuracy = bounds::accuracy_note(folder.path(), scene_);
+    if (!accuracy.empty()) recorder.say(fmt::format("  {:<12} {}", "accuracy", accuracy));
     if (limit.pending()) recorder.say("waiting for fpm-limit; it may be interrupted and resumed");
     wait_for(limit, [&](const std::string& line) { recorder.say(line); });
     const std::string verdict = limit.verdict(recorder.history());
@@ -274,8 +314,9 @@ class Run {
   std::ostream& err_;
   const files::SystemCalls& system_;
   StopReasons stop_;
-  model::Model<Dim> model_;
-  model::Measures<Dim> measures_;
+  stepping::StagedModel<Dim> stages_;
+  std::unique_ptr<model::Measures<Dim>> measures_;
+  std::unique_ptr<stepping::LoadStepper<Dim>> stepper_;  // of the stage at hand
 };
 
 }  // namespace
@@ -291,11 +332,14 @@ int thread_count(int asked, std::int64_t particles) {
 program::ExitCode run_programme(const RunRequest& request, std::ostream& out, std::ostream& err,
                                 const files::SystemCalls& system) {
   RunRequest begun = request;
-  begun.scene = scene_in_force(request);
+  const InForce in_force = scene_in_force(request);
+  begun.scene = in_force.scene;
   omp_set_num_threads(thread_count(begun.threads, model::particle_count(*begun.scene)));
   try {
-    if (begun.scene->geometry.dimension == 2) return Run<2>(begun, out, err, system)();
-    return Run<3>(begun, out, err, system)();
+    if (begun.scene->geometry.dimension == 2) {
+      return Run<2>(begun, in_force.stage, out, err, system)();
+    }
+    return Run<3>(begun, in_force.stage, out, err, system)();
   } catch (const stepping::DoesNotSettle& failure) {
     err << "error: " << failure.what() << '\n';
     return program::ExitCode::not_converged;

@@ -6,10 +6,12 @@
 
 #include "model/build.hpp"
 #include "model/checkpoint.hpp"
+#include "model/measures.hpp"
 #include "model/state_file.hpp"
 #include "record/checkpoint_folder.hpp"
 #include "record/checkpoint_name.hpp"
 #include "scene/scene.hpp"
+#include "scene/stages.hpp"
 
 namespace run {
 
@@ -24,10 +26,25 @@ std::filesystem::path newest_checkpoint(const std::filesystem::path& directory,
                                                                   fmt::join(objections, "\n  ")));
 }
 
+// The checkpoint at the end of the stage before another.
+std::filesystem::path end_of_former_stage(const std::filesystem::path& newest, std::size_t stage) {
+  record::CheckpointNotes notes;
+  (void)record::open_checkpoint(newest, notes);
+  const std::vector<std::int64_t> ends = model::stage_ends(notes.measures, notes.history);
+  if (stage <= ends.size()) return newest.parent_path() / record::checkpoint_name(ends[stage - 1]);
+  if (notes.stage + 1 == static_cast<std::int64_t>(stage) && notes.progress >= 1.0) return newest;
+  throw files::FileError(
+      newest,
+      fmt::format("stage {} of the run is not at its end, which the next one begins with", stage));
+}
+
 std::filesystem::path checkpoint_of(const RunRequest& request,
                                     std::vector<std::string>& objections) {
-  return request.resume->checkpoint.empty() ? newest_checkpoint(request.directory, objections)
-                                            : request.resume->checkpoint;
+  const std::filesystem::path& given = request.resume->checkpoint;
+  const bool is_folder = given.empty() || std::filesystem::is_directory(given);
+  if (!is_folder) return given;
+  const auto newest = newest_checkpoint(given.empty() ? request.directory : given, objections);
+  return request.resume->stage ? end_of_former_stage(newest, *request.resume->stage) : newest;
 }
 
 std::string older_usable(const std::filesystem::path& checkpoint) {
@@ -71,7 +88,7 @@ void resume(const std::filesystem::path& checkpoint, const scene::Scene& scene,
   const files::Hdf5File file = record::open_checkpoint(checkpoint, notes);
   const scene::Scene former = model::scene_of(checkpoint, notes);
   start.checkpoint = checkpoint;
-  start.changes = scene::scene_changes(former, scene);
+  start.changes = scene::scene_changes(former, scene, static_cast<std::size_t>(notes.stage));
   start.refusals = refusals_among(start.changes);
   if (!start.refusals.empty()) return;
   start.state = model::read_state(file, model, notes.schema);
@@ -88,8 +105,8 @@ void resume(const std::filesystem::path& checkpoint, const scene::Scene& scene,
 
 }  // namespace
 
-std::shared_ptr<const scene::Scene> scene_in_force(const RunRequest& request) {
-  if (!request.resume) return request.scene;
+InForce scene_in_force(const RunRequest& request) {
+  if (!request.resume) return {request.scene};
   try {
     std::vector<std::string> ignored;
     const std::filesystem::path checkpoint = checkpoint_of(request, ignored);
@@ -97,33 +114,35 @@ std::shared_ptr<const scene::Scene> scene_in_force(const RunRequest& request) {
     (void)record::open_checkpoint(checkpoint, notes);
     auto scene = std::make_shared<scene::Scene>(*request.scene);
     scene::keep_methods(model::scene_of(checkpoint, notes), *scene);
-    return scene;
+    // A stage that the scene no longer has is refused with what changed.
+    const std::size_t last = scene::stage_count(*scene) - 1;
+    return {scene, std::min(static_cast<std::size_t>(notes.stage), last)};
   } catch (const files::FileError&) {
-    return request.scene;
+    return {request.scene};
   }
 }
 
 template <int Dim>
-RunStart<Dim> find_start(const RunRequest& request, const model::Model<Dim>& model,
+RunStart<Dim> find_start(const RunRequest& request, const stepping::StagedModel<Dim>& stages,
                          const std::vector<std::string>& measures) {
   RunStart<Dim> start;
   start.measures = measures;
   if (!request.resume) {
-    start.state = initial_state(model);
+    start.state = stages.initial_state();
     return start;
   }
   const std::filesystem::path checkpoint = checkpoint_of(request, start.warnings);
   try {
-    resume(checkpoint, *request.scene, model, start);
+    resume(checkpoint, *request.scene, stages.model(), start);
   } catch (const files::FileError& failure) {
     throw files::FileError(failure.file(), failure.reason() + older_usable(checkpoint));
   }
   return start;
 }
 
-template RunStart<2> find_start<2>(const RunRequest&, const model::Model<2>&,
+template RunStart<2> find_start<2>(const RunRequest&, const stepping::StagedModel<2>&,
                                    const std::vector<std::string>&);
-template RunStart<3> find_start<3>(const RunRequest&, const model::Model<3>&,
+template RunStart<3> find_start<3>(const RunRequest&, const stepping::StagedModel<3>&,
                                    const std::vector<std::string>&);
 
 }  // namespace run

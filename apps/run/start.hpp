@@ -11,6 +11,7 @@
 #include "record/lineage.hpp"
 #include "run/request.hpp"
 #include "scene/changes.hpp"
+#include "stepping/staged_model.hpp"
 
 namespace run {
 
@@ -28,17 +29,25 @@ struct RunStart {
   bool re_search_changed = false;
 };
 
+/// What a run begins with, before there is a model.
+struct InForce {
+  std::shared_ptr<const scene::Scene> scene;
+  std::size_t stage = 0;
+};
+
 /// The scene of a request: with methods that it leaves to `auto` as the run to resume has them
-/// (keep_methods). What is wrong with the checkpoint is left for `find_start` to say.
-std::shared_ptr<const scene::Scene> scene_in_force(const RunRequest& request);
+/// (keep_methods); and the stage of that. What is wrong with the checkpoint is left for
+/// `find_start` to say.
+InForce scene_in_force(const RunRequest& request);
 
 /// The start of a run: the scene's initial state, or the state of the checkpoint that the request
 /// names or, if it names none, of the newest usable one in the output folder.
+/// @param stages  at the stage of `scene_in_force`
 /// @param measures  columns of the curve that the scene asks for
 /// @throws FileError if that checkpoint, or any if none is named, is unusable; it names the next
 /// older usable one. There is no silent start from zero.
 template <int Dim>
-RunStart<Dim> find_start(const RunRequest& request, const model::Model<Dim>& model,
+RunStart<Dim> find_start(const RunRequest& request, const stepping::StagedModel<Dim>& stages,
                          const std::vector<std::string>& measures);
 
 }  // namespace run

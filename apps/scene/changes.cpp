@@ -36,8 +36,8 @@ bool may_change_on_resume(std::string_view key) {
 }
 
 std::string what_may_change() {
-  return fmt::format("{}, {}*; the number of threads; nothing else", fmt::join(free_keys, ", "),
-                     fmt::join(free_tables, "*, "));
+  return fmt::format("{}, {}*; stages that have not begun; the number of threads; nothing else",
+                     fmt::join(free_keys, ", "), fmt::join(free_tables, "*, "));
 }
 
 void keep_methods(const Scene& before, Scene& scene) {
@@ -53,7 +53,7 @@ void keep_methods(const Scene& before, Scene& scene) {
   if (!hourglass.stiffness_ratio) hourglass.stiffness_ratio = before.hourglass.stiffness_ratio;
 }
 
-std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after) {
+std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after, std::size_t stage) {
   std::vector<SceneChange> changes;
   for (const SceneTable& table : scene_tables()) {
     const std::size_t count = std::max(table.size(before), table.size(after));
@@ -62,7 +62,7 @@ std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after) 
         SceneChange change{table.path(i, field.key), text_at(table, field, before, i),
                            text_at(table, field, after, i), false};
         if (change.before == change.after) continue;
-        change.allowed = may_change_on_resume(change.key);
+        change.allowed = may_change_on_resume(change.key) || (table.name == "stage" && i > stage);
         changes.push_back(std::move(change));
       }
     }

@@ -21,7 +21,8 @@ struct SceneChange {
 };
 
 /// Whether a run may go on from a checkpoint with another value of this key: how far it is driven,
-/// in which steps, how each is solved, the rule of re-search, and all output. Never what the stored
+/// in which steps, how each is solved, the rule of re-search, and all output, besides stages that
+/// have not begun. Never what the stored
 /// state belongs to: body, approximation, materials, supports, loads.
 [[nodiscard]] bool may_change_on_resume(std::string_view key);
 
@@ -33,6 +34,8 @@ struct SceneChange {
 void keep_methods(const Scene& before, Scene& scene);
 
 /// Every key whose value differs, in the order of the scene file.
-[[nodiscard]] std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after);
+/// @param stage  that the run has come to: later ones may change
+[[nodiscard]] std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after,
+                                                     std::size_t stage = 0);
 
 }  // namespace scene

@@ -22,6 +22,8 @@ void check_boundaries(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_loads(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_water(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_drive(const Scene& scene, tables::Diagnosis& diagnosis);
+void check_reduction(const Scene& scene, tables::Diagnosis& diagnosis);
+void check_stages(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_plate(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_places(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_measures(const Scene& scene, tables::Diagnosis& diagnosis);

@@ -124,6 +124,29 @@ void check_parameter(const constitutive::ParameterInfo& parameter,
   }
 }
 
+/// A clay in critical states is made by the stress it begins with.
+void check_overconsolidation(const Scene& scene, const Material& material, const std::string& table,
+                             tables::Diagnosis& diagnosis) {
+  const std::string key = table + ".overconsolidation_ratio";
+  const auto& ratio = material.overconsolidation_ratio;
+  if (!diagnosis.good({key})) return;
+  if (!model_of(material).critical_state) {
+    if (!ratio) return;
+    diagnosis.warning(key, fmt::format("found {}", tables::number_text(*ratio)),
+                      fmt::format("it has no effect on the model {}", material.model));
+    return;
+  }
+  if (!ratio) {
+    diagnosis.error(key, "is missing", fmt::format("the model {} needs it", material.model));
+  }
+  const std::string kind = "initial_stress.kind";
+  if (scene.initial_stress.kind == InitialStressKind::geostatic || !diagnosis.good({kind})) return;
+  diagnosis.error(
+      kind,
+      fmt::format("found {} with the model {}", name_of(scene.initial_stress.kind), material.model),
+      "without a mean stress it has no stiffness: use \"geostatic\"");
+}
+
 /// What the model asks of its parameters, in libconstitutive's words.
 void check_parameters(const Scene& scene, const Material& material, const std::string& table,
                       tables::Diagnosis& diagnosis) {
@@ -135,12 +158,21 @@ void check_parameters(const Scene& scene, const Material& material, const std::s
   check("cohesion", material.cohesion ? std::optional(material.cohesion->value) : std::nullopt);
   check("friction_angle", material.friction_angle);
   check("dilation_angle", material.dilation_angle);
-  if (material.tension_cutoff && !model.yields) {
-    diagnosis.warning(key("tension_cutoff"),
-                      fmt::format("found {}", tables::number_text(*material.tension_cutoff)),
+  check("compression_index", material.compression_index);
+  check("swelling_index", material.swelling_index);
+  check("critical_stress_ratio", material.critical_stress_ratio);
+  const auto note = [&](const char* name, const std::optional<double>& value) {
+    if (!value || constitutive::parameter_info(name).is_used_by(model)) return;
+    diagnosis.warning(key(name), fmt::format("found {}", tables::number_text(*value)),
                       fmt::format("it has no effect on the model {}", material.model));
-  }
-  if (diagnosis.good({key("cohesion"), key("friction_angle"), key("dilation_angle")})) {
+  };
+  note("tension_cutoff", material.tension_cutoff);
+  note("residual_strain", material.residual_strain);
+  note("residual_cohesion", material.residual_cohesion);
+  note("residual_friction_angle", material.residual_friction_angle);
+  check_overconsolidation(scene, material, table, diagnosis);
+  if (diagnosis.good({key("cohesion"), key("friction_angle"), key("dilation_angle"),
+                      key("compression_index"), key("swelling_index")})) {
     auto parameters = parameters_of(material);
     // Where it is least is another rule's.
     if (material.cohesion && material.cohesion->varies()) parameters.cohesion = 1.0;
@@ -292,6 +324,15 @@ void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis) {
       if (!material.tension_cutoff || !yields(material)) continue;
       refuse(fmt::format("found mixed with the tension_cutoff of {}", material.name),
              "sub-points with one pressure have no tension cut-off: use \"incremental\"");
+      break;
+    }
+    for (const Material& material : scene.material) {
+      const bool critical = model_of(material).critical_state;
+      if (!critical && !(material.residual_strain && yields(material))) continue;
+      refuse(critical ? fmt::format("found mixed with the model {}", material.model)
+                      : fmt::format("found mixed with the residual_strain of {}", material.name),
+             "sub-points with one pressure have no strength of their own that could change: use "
+             "\"incremental\"");
       break;
     }
     if (none_yields) {

@@ -93,7 +93,8 @@ void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
   for (std::size_t i = 0; i < scene.material.size(); ++i) {
     const Material& material = scene.material[i];
     const std::string table = fmt::format("material.{}", i);
-    if (!yields(material) ||
+    // What a clay in critical states bears follows from this stress.
+    if (!yields(material) || model_of(material).critical_state ||
         !diagnosis.good({table + ".cohesion", table + ".friction_angle", table + ".poissons_ratio",
                          table + ".region_min", table + ".region_max", table + ".density"})) {
       continue;
@@ -262,7 +263,7 @@ void check_displacement(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_direction(scene, diagnosis);
   check_driven_by_ghosts(scene, diagnosis);
   check_driven_by_contact(scene, diagnosis);
-  if (drive.target == 0.0 && diagnosis.good({"drive.target"})) {
+  if (drive.target == 0.0 && diagnosis.good({"drive.target", "stage"})) {
     diagnosis.error("drive.target", diagnosis.given("drive.target") ? "found 0" : "is missing",
                     "a displacement needs how far it goes, a number > 0 [m]");
   }
@@ -275,6 +276,14 @@ void check_displacement(const Scene& scene, tables::Diagnosis& diagnosis) {
                       "it has no effect: tractions and gravity are constant");
   }
   check_driven_part(scene, diagnosis);
+}
+
+// Stages say their own.
+void need_steps(const Scene& scene, const char* what, tables::Diagnosis& diagnosis) {
+  const auto steps = scene.programme.steps.value_or(0);
+  if (steps > 0 || !scene.stage.empty() || !diagnosis.good({"programme.steps"})) return;
+  diagnosis.error("programme.steps", diagnosis.given("programme.steps") ? "found 0" : "is missing",
+                  fmt::format("{} needs the number of its steps, >= 1", what));
 }
 
 void check_load(const Scene& scene, tables::Diagnosis& diagnosis) {
@@ -311,12 +320,7 @@ void check_load(const Scene& scene, tables::Diagnosis& diagnosis) {
           "the initial stress already carries the whole weight");
     }
   }
-  const auto steps = scene.programme.steps.value_or(0);
-  if (steps == 0 && diagnosis.good({"programme.steps"})) {
-    diagnosis.error("programme.steps",
-                    diagnosis.given("programme.steps") ? "found 0" : "is missing",
-                    "a load drive needs the number of its steps, >= 1");
-  }
+  need_steps(scene, "a load drive", diagnosis);
 }
 
 }  // namespace
@@ -332,6 +336,10 @@ void check_drive(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (!diagnosis.good({"drive.kind"})) return;
   if (scene.drive.kind == DriveKind::displacement) check_displacement(scene, diagnosis);
   if (scene.drive.kind == DriveKind::load) check_load(scene, diagnosis);
+  if (scene.drive.kind == DriveKind::strength) {
+    check_reduction(scene, diagnosis);
+    need_steps(scene, "a strength drive", diagnosis);
+  }
   check_plate(scene, diagnosis);
 }
 
@@ -412,6 +420,7 @@ void check_scene(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_water(scene, diagnosis);
   check_loads(scene, diagnosis);
   check_drive(scene, diagnosis);
+  check_stages(scene, diagnosis);
   check_places(scene, diagnosis);
   check_measures(scene, diagnosis);
   check_cutouts(scene, diagnosis);

@@ -26,7 +26,7 @@ enum class Base { rough, smooth };
 /// What fpm-limit lets grow until collapse.
 enum class Sought { footing, traction, gravity, strength, earthquake };
 enum class InitialStressKind { none, geostatic, gravity };
-enum class DriveKind { none, displacement, load };
+enum class DriveKind { none, displacement, load, strength };
 enum class Lateral { fixed, free };
 enum class LoadKind { traction, gravity, plate };
 enum class MeasureKind {

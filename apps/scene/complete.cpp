@@ -296,9 +296,20 @@ void complete_drive(Scene& scene, const shape::Outline& outline, tables::Diagnos
   }
 }
 
+// The measure of a displacement in stages is its largest one.
+void complete_course(Scene& scene) {
+  Drive& drive = scene.drive;
+  if (drive.kind == DriveKind::strength) scene.course.reduction_end = drive.target;
+  if (drive.kind != DriveKind::displacement || drive.target > 0.0) return;
+  for (const Stage& stage : scene.stage) {
+    drive.target = std::max(drive.target, std::abs(stage.to.value_or(0.0)));
+  }
+}
+
 }  // namespace
 
 void complete(Scene& scene, tables::Diagnosis& diagnosis) {
+  complete_course(scene);
   complete_weights(scene, diagnosis);
   if (!is_ground(scene, diagnosis)) return;
   check_regions(scene, diagnosis);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "constitutive/parameters.hpp"
+#include "scene/course.hpp"
 #include "scene/ground.hpp"
 #include "scene/scene.hpp"
 #include "scene/water.hpp"
@@ -31,7 +32,17 @@ constitutive::MaterialParameters parameters_of(const Material& material) {
   p.dilation_angle = material.dilation_angle.value_or(p.dilation_angle);
   p.density = material.density;
   p.dilation_cutoff = material.dilation_cutoff.value_or(p.dilation_cutoff);
-  if (model.yields) p.tension_cutoff = material.tension_cutoff.value_or(p.tension_cutoff);
+  const auto take = [&](const char* name, const std::optional<double>& value) {
+    const constitutive::ParameterInfo& info = constitutive::parameter_info(name);
+    if (value && info.is_used_by(model)) p.*info.member = *value;
+  };
+  take("tension_cutoff", material.tension_cutoff);
+  take("residual_strain", material.residual_strain);
+  take("residual_cohesion", material.residual_cohesion);
+  take("residual_friction_angle", material.residual_friction_angle);
+  take("compression_index", material.compression_index);
+  take("swelling_index", material.swelling_index);
+  take("critical_stress_ratio", material.critical_stress_ratio);
   // The scene has been warned of what has no effect. An elastic material is archived with it.
   if (model.yields && !model.frictional) p.friction_angle = p.dilation_angle = 0.0;
   return p;
@@ -53,21 +64,36 @@ bool yields(const Material& material) {
   return model_of(material).yields;
 }
 
+namespace {
+
+// Whether more and more is asked of the ground, and no plate keeps it from giving way.
+bool ends_in_collapse(const Scene& scene) {
+  return scene.drive.kind == DriveKind::load || reduces_strength(scene);
+}
+
+bool puts_down(const Scene& scene) {
+  return std::ranges::any_of(scene.stage, [](const Stage& stage) { return !stage.place.empty(); });
+}
+
+}  // namespace
+
 HourglassControl resolve_control(const Scene& scene) {
   if (scene.hourglass.control != HourglassControl::automatic) return scene.hourglass.control;
   const auto all = [&](auto&& holds) {
     return std::all_of(scene.material.begin(), scene.material.end(), holds);
   };
   if (!std::any_of(scene.material.begin(), scene.material.end(), yields)) {
-    return HourglassControl::stiffness;
+    // What is put down on ground that has moved must not remember where that was.
+    return puts_down(scene) ? HourglassControl::incremental : HourglassControl::stiffness;
   }
   // Loads that grow end in a mechanism of narrow bands, which sub-points bear too well.
-  if (scene.drive.kind == DriveKind::load) return HourglassControl::incremental;
+  if (ends_in_collapse(scene)) return HourglassControl::incremental;
   // What does not yield is at home with either: it must not decide for the ground that does.
-  const bool has_sub_points = scene.geometry.dimension == 2 && all([](const Material& m) {
-                                const bool one = model_of(m).one_pressure && !m.tension_cutoff;
-                                return one || !yields(m);
-                              });
+  const bool has_sub_points =
+      scene.geometry.dimension == 2 && all([](const Material& m) {
+        const bool one = model_of(m).one_pressure && !m.tension_cutoff && !m.residual_strain;
+        return one || !yields(m);
+      });
   return has_sub_points ? HourglassControl::mixed : HourglassControl::incremental;
 }
 
@@ -78,7 +104,8 @@ double resolve_stiffness_ratio(const Scene& scene) {
       return 0.1;
     case HourglassControl::incremental:
       // No plate keeps what collapses from going on, borne by the control.
-      return scene.drive.kind == DriveKind::load ? 0.001 : 0.1;
+      if (puts_down(scene) && std::ranges::none_of(scene.material, yields)) return 0.1;
+      return ends_in_collapse(scene) ? 0.001 : 0.1;
     case HourglassControl::mixed:
       return 0.01;
     default:
@@ -179,10 +206,11 @@ std::int64_t nominal_steps(const Scene& scene) {
   if (scene.programme.steps.value_or(0) > 0) return *scene.programme.steps;
   if (scene.drive.kind != DriveKind::displacement) return 1;
   const double increment = scene.programme.increment_over_spacing * scene.geometry.spacing;
+  const double way = scene.drive.target * std::abs(scene.course.load_end - scene.course.load_begin);
   // A quotient a rounding error above a whole number is that number.
   constexpr double round_off = 1e-9;
-  return std::max<std::int64_t>(
-      1, static_cast<std::int64_t>(std::ceil(scene.drive.target / increment - round_off)));
+  return std::max<std::int64_t>(1,
+                                static_cast<std::int64_t>(std::ceil(way / increment - round_off)));
 }
 
 std::vector<Measure> resolve_measures(const Scene& scene) {

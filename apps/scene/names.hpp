@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, 2> base{"rough", "smooth"};
 inline constexpr std::array<std::string_view, 5> sought{"footing", "traction", "gravity",
                                                         "strength", "earthquake"};
 inline constexpr std::array<std::string_view, 3> initial_stress{"none", "geostatic", "gravity"};
-inline constexpr std::array<std::string_view, 3> drive{"none", "displacement", "load"};
+inline constexpr std::array<std::string_view, 4> drive{"none", "displacement", "load", "strength"};
 inline constexpr std::array<std::string_view, 4> drive_method{"auto", "direct", "ghosts",
                                                               "contact"};
 inline constexpr std::array<std::string_view, 3> interface { "through", "tied", "contact" };

@@ -47,7 +47,8 @@ struct Region {
   std::string material;             // its name
   std::vector<PlanePoint> outline;  // either way around
   std::vector<std::vector<PlanePoint>> holes;
-  std::string group;  // of a mesh, which gives outline and holes; empty once read
+  std::string group;    // of a mesh, which gives outline and holes; empty once read
+  bool present = true;  // in the stage at hand; no key
   bool operator==(const Region&) const = default;
 };
 
@@ -139,17 +140,24 @@ struct Material {
   std::string model = "elastic";       // a family of models of libconstitutive
   tables::LinearField youngs_modulus;  // [Pa]
   double poissons_ratio = 0.0;
-  std::optional<tables::LinearField> cohesion;  // [Pa] present for every yielding model
-  std::optional<double> friction_angle;         // [deg] present for the frictional models
-  std::optional<double> dilation_angle;         // [deg] present for the frictional models
-  double density = 0.0;                         // [kg/m3]
-  std::optional<double> unit_weight;            // [N/m3] which says the same
-  std::optional<double> saturated_unit_weight;  // [N/m3] below the water table
-  std::optional<double> dilation_cutoff;        // accumulated plastic volume strain
-  std::optional<double> tension_cutoff;         // [Pa] largest principal stress
-  std::string match = "plane_strain";           // of a family of several
-  Point region_min;                             // [m] empty: everywhere
-  Point region_max;                             // [m]
+  std::optional<tables::LinearField> cohesion;    // [Pa] present for every yielding model
+  std::optional<double> friction_angle;           // [deg] present for the frictional models
+  std::optional<double> dilation_angle;           // [deg] present for the frictional models
+  double density = 0.0;                           // [kg/m3]
+  std::optional<double> unit_weight;              // [N/m3] which says the same
+  std::optional<double> saturated_unit_weight;    // [N/m3] below the water table
+  std::optional<double> dilation_cutoff;          // accumulated plastic volume strain
+  std::optional<double> tension_cutoff;           // [Pa] largest principal stress
+  std::optional<double> residual_strain;          // equivalent plastic strain
+  std::optional<double> residual_cohesion;        // [Pa]
+  std::optional<double> residual_friction_angle;  // [deg]
+  std::optional<double> compression_index;        // present for models of critical states
+  std::optional<double> swelling_index;           // as is this,
+  std::optional<double> critical_stress_ratio;    // this
+  std::optional<double> overconsolidation_ratio;  // and this
+  std::string match = "plane_strain";             // of a family of several
+  Point region_min;                               // [m] empty: everywhere
+  Point region_max;                               // [m]
   bool operator==(const Material&) const = default;
 };
 
@@ -238,14 +246,43 @@ struct Drive {
   DriveMethod method = DriveMethod::automatic;
   Contact contact;  // of the method of that name
   Point at;  // [m] along the side, where a plate that turns is pushed or loaded; empty: it does not
-  Point force;                             // [N/m or N] on a loaded plate
-  double target = 0.0;                     // [m] length of the prescribed displacement
+  Point force;          // [N/m or N] on a loaded plate
+  double target = 0.0;  // [m] length of the prescribed displacement; of a strength drive the factor
+  std::vector<std::string> weakened;       // materials whose strength is divided; empty: all
   std::vector<LoadKind> scales;            // what grows from 0 to 1 in a load drive
   std::optional<double> reference_length;  // B [m]
   std::optional<double> width;             // [m] over which the mean pressure is taken
   // [m] across its side, of a plate whose [[side]] is on no face of the box; no key.
   std::optional<double> level;
   bool operator==(const Drive&) const = default;
+};
+
+/// A part of a run: what changes at its beginning, and how far it goes.
+struct Stage {
+  std::string name;
+  std::optional<double> to;  // of the drive at its end: [m] displacement, or factor of a load
+  std::optional<double> reduction;  // what strength is divided by at its end
+  std::optional<std::int64_t> steps;
+  std::vector<std::string> remove;      // regions
+  std::vector<std::string> place;       // regions
+  std::vector<std::string> release;     // supports
+  std::vector<std::string> hold;        // supports
+  std::vector<PlanePoint> water_table;  // [m]
+  std::vector<std::string> materials;   // whose values change, to one of each list:
+  Point cohesion;                       // [Pa]
+  Point friction_angle;                 // [deg]
+  Point dilation_angle;                 // [deg]
+  bool operator==(const Stage&) const = default;
+};
+
+/// Which stage a scene is, and how far it goes, once it is that of one (stages.hpp); no keys.
+struct Course {
+  std::size_t stage = 0;
+  double load_begin = 0.0;  // load parameter
+  double load_end = 1.0;
+  double reduction_begin = 1.0;  // what strength is divided by
+  double reduction_end = 1.0;
+  bool operator==(const Course&) const = default;
 };
 
 /// Columns of the curve beside those of the drive.
@@ -336,6 +373,8 @@ struct Scene {
   Gravity gravity;
   InitialStress initial_stress;
   Drive drive;
+  std::vector<Stage> stage;
+  Course course;
   std::vector<Measure> measure;
   Programme programme;
   Solver solver;

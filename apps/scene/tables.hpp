@@ -17,6 +17,7 @@ using SceneTable = tables::Table<Scene>;
 [[nodiscard]] std::vector<SceneTable> body_tables();
 [[nodiscard]] std::vector<SceneTable> ground_tables();
 [[nodiscard]] std::vector<SceneTable> loading_tables();
+[[nodiscard]] std::vector<SceneTable> stage_tables();
 [[nodiscard]] std::vector<SceneTable> measure_tables();
 [[nodiscard]] std::vector<SceneTable> run_tables();
 

@@ -37,6 +37,12 @@ tables::FieldNotes notes_of_strength(std::string_view name) {
   return notes_of(name, tables::Need::optional, absent);
 }
 
+constexpr std::string_view without_critical_states = "only without modified_cam_clay";
+
+tables::FieldNotes notes_of_critical_states(std::string_view name) {
+  return notes_of(name, tables::Need::optional, without_critical_states);
+}
+
 /// Each name once, in the order of the models.
 std::vector<std::string_view> names_of_models(std::string_view constitutive::ModelInfo::*name) {
   std::vector<std::string_view> all;
@@ -247,15 +253,36 @@ SceneTable approximation() {
       .build();
 }
 
+void add_changing_strength(tables::TableBuilder<Scene, Material>& table) {
+  table
+      .key("residual_strain", &Material::residual_strain,
+           notes_of("residual_strain", tables::Need::optional, "the strength stays"))
+      .key("residual_cohesion", &Material::residual_cohesion,
+           notes_of("residual_cohesion", tables::Need::optional, "the cohesion"))
+      .key("residual_friction_angle", &Material::residual_friction_angle,
+           notes_of("residual_friction_angle", tables::Need::optional, "the friction_angle"))
+      .key("compression_index", &Material::compression_index,
+           notes_of_critical_states("compression_index"))
+      .key("swelling_index", &Material::swelling_index, notes_of_critical_states("swelling_index"))
+      .key("critical_stress_ratio", &Material::critical_stress_ratio,
+           notes_of_critical_states("critical_stress_ratio"))
+      .key("overconsolidation_ratio", &Material::overconsolidation_ratio,
+           {.need = tables::Need::optional,
+            .range = tables::at_least(1.0),
+            .doc = "Preconsolidation over that at which the initial stress would just yield, at "
+                   "every place.",
+            .absent = without_critical_states});
+}
+
 SceneTable material() {
-  return tables::TableBuilder<Scene, Material>(
-             "material", &Scene::material,
-             "A material. The first fills the body; each later one has a box "
-             "and wins inside it over the earlier ones. Where there are [[region]]s, they say "
-             "where it is. Of its values, cohesion and youngs_modulus may change linearly from "
-             "place "
-             "to place.")
-      .required()
+  tables::TableBuilder<Scene, Material> table(
+      "material", &Scene::material,
+      "A material. The first fills the body; each later one has a box "
+      "and wins inside it over the earlier ones. Where there are [[region]]s, they say "
+      "where it is. Of its values, cohesion and youngs_modulus may change linearly from "
+      "place "
+      "to place.");
+  table.required()
       .key("name", &Material::name,
            {.need = tables::Need::required,
             .doc = "Unique; serves messages and --set material.NAME.key."})
@@ -288,7 +315,9 @@ SceneTable material() {
       .key("dilation_cutoff", &Material::dilation_cutoff,
            notes_of("dilation_cutoff", tables::Need::optional, "never"))
       .key("tension_cutoff", &Material::tension_cutoff,
-           notes_of("tension_cutoff", tables::Need::optional, "none"))
+           notes_of("tension_cutoff", tables::Need::optional, "none"));
+  add_changing_strength(table);
+  table
       .key("match", &Material::match,
            {.doc = "Which Mohr-Coulomb states the Drucker-Prager cone meets; plane_strain holds in "
                    "2D only."})
@@ -302,8 +331,8 @@ SceneTable material() {
            {.need = tables::Need::optional,
             .unit = "m",
             .doc = "Upper corner of the material's box.",
-            .absent = "everywhere"})
-      .build();
+            .absent = "everywhere"});
+  return table.build();
 }
 
 SceneTable interface() {
@@ -334,7 +363,8 @@ SceneTable hourglass() {
                "in spacing. mixed: sub-points with one pressure plus a weak incremental control; "
                "collapse loads under a plate converge, narrow bands are borne too well. auto: "
                "stiffness if all is elastic, incremental under a load that grows, mixed in 2D "
-               "where all that yields is von_mises or drucker_prager without a tension cut-off, "
+               "where all that yields is von_mises or drucker_prager without tension cut-off or "
+               "residual_strain, "
                "else "
                "incremental.",
            .source = "viscosity: Chen, Huang & Lyamin 2020, Eq. 15-20"})

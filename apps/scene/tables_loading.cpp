@@ -158,7 +158,8 @@ SceneTable drive() {
   table
       .key("kind", &Drive::kind,
            {.doc = "displacement: particles of a side are moved. load: tractions or gravity grow "
-                   "from 0 to their value. none: constant loads, one step."})
+                   "from 0 to their value. strength: cohesion and tan(phi) are divided by a factor "
+                   "that grows from 1. none: constant loads, one step. [[stage]]s say how far."})
       .key("side", &Drive::side,
            {.doc = "displacement: the side that is moved; plate: the one it lies on."})
       .key("range_min", &Drive::range_min,
@@ -190,7 +191,14 @@ SceneTable drive() {
       .key("target", &Drive::target,
            {.unit = "m",
             .range = tables::at_least(0.0),
-            .doc = "displacement: how far; the direction has the sign."})
+            .doc = "displacement: how far; the direction has the sign; with stages the largest "
+                   "displacement of all, unless given. strength: the factor at the end, without "
+                   "unit."})
+      .key("weakened", &Drive::weakened,
+           {.need = tables::Need::optional,
+            .doc = "strength, and stages with a reduction: names of the materials whose strength "
+                   "is divided.",
+            .absent = "all"})
       .key("scales", &Drive::scales,
            {.need = tables::Need::optional,
             .doc =

@@ -89,6 +89,7 @@ std::vector<shape::HeavyRing> heavy_regions(const Scene& scene) {
                        : -scene.gravity.acceleration[1] / (1.0 - scene.load.kv);
   std::vector<shape::HeavyRing> ground;
   for (std::size_t r = 0; r < scene.region.size(); ++r) {
+    if (!scene.region[r].present) continue;
     const double weight = scene.material[material_of(scene, r)].density * g;
     const auto add = [&](const std::vector<PlanePoint>& places, double unit_weight) {
       shape::HeavyRing& part = ground.emplace_back();

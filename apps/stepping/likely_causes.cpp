@@ -9,6 +9,7 @@
 
 #include "equilibrium/elastic_block.hpp"
 #include "scene/scene.hpp"
+#include "scene/stages.hpp"
 
 namespace stepping {
 
@@ -111,6 +112,13 @@ std::string sudden_weight(const scene::Scene& scene, bool plastic, double load) 
 template <int Dim>
 std::string collapse(const scene::Scene& scene, const model::State<Dim>& state) {
   const bool flows = state.layout.plastic && (state.plastic_increment.array() > 0.0).any();
+  const double reduction = scene::reduction_at(scene.course, state.programme.progress);
+  if (flows && scene.course.reduction_end != scene.course.reduction_begin && reduction != 1.0) {
+    return fmt::format(
+        "collapse: the ground stands with its strength divided by {:.4g}, and no equilibrium was "
+        "found beyond",
+        reduction);
+  }
   if (scene.drive.kind != scene::DriveKind::load || !flows || !(state.programme.load > 0.0)) {
     return "";
   }

@@ -15,6 +15,8 @@ namespace {
 scene::Scene settling(const scene::Scene& scene) {
   scene::Scene ground = scene;
   ground.initial_stress = {};
+  ground.stage.clear();
+  ground.course = {};
   ground.approximation.kinematics = scene::KinematicsKind::small_strain;
   // Where the drive's plate ends particles stay fine.
   for (const scene::FinePlace& place : scene::fine_places(scene)) {

@@ -13,6 +13,7 @@
 #include "jfnk/gmres.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
+#include "scene/stages.hpp"
 
 namespace stepping {
 namespace {
@@ -100,19 +101,20 @@ fpm::MomentOperator<Dim> initial_operator(const model::Model<Dim>& model) {
 
 template <int Dim>
 LoadStepper<Dim>::LoadStepper(const scene::Scene& scene, const model::Model<Dim>& model,
-                              model::State<Dim>& state)
+                              model::State<Dim>& state,
+                              std::optional<equilibrium::InitialBalance<Dim>> rest)
     : scene_(scene),
       model_(model),
       state_(state),
       rounding_(rounding_of_forces(scene, model)),
-      equilibrium_(std::make_unique<equilibrium::Equilibrium<Dim>>(model, state)),
+      equilibrium_(std::make_unique<equilibrium::Equilibrium<Dim>>(model, state, std::move(rest))),
       preconditioner_(std::make_unique<equilibrium::TwoLevelPreconditioner<Dim>>(
           model, initial_operator(model), coarse_spacing(scene))),
       use_preconditioner_(scene::resolve_solver(scene.solver).preconditioner !=
                           scene::PreconditionerKind::none),
       solver_(solver_options(scene, rounding_)),
       nominal_increment_(1.0 / static_cast<double>(scene::nominal_steps(scene))),
-      patience_(scene.programme.patience, nominal_increment_, state.programme.load),
+      patience_(scene.programme.patience, nominal_increment_, state.programme.progress),
       increment_(model.unknowns()) {
   if (state_.programme.next_increment <= 0.0) state_.programme.next_increment = nominal_increment_;
 }
@@ -134,14 +136,42 @@ std::vector<model::MemoryPart> LoadStepper<Dim>::memory(bool to_come) const {
 }
 
 template <int Dim>
+bool LoadStepper<Dim>::begin_stage() {
+  model::ProgrammeState& programme = state_.programme;
+  const scene::Course& course = scene_.course;
+  programme.stage = static_cast<std::int64_t>(course.stage);
+  programme.progress = 0.0;
+  programme.load = course.load_begin;
+  programme.next_increment = nominal_increment_;
+  // The last step led elsewhere: the first one is foreseen by the tangent.
+  programme.last_increment = 0.0;
+  programme.easy_steps = 0;
+  patience_ = Patience(scene_.programme.patience, nominal_increment_, 0.0);
+  if (!state_.layout.staged) return true;
+  const auto left = equilibrium_->unbalanced(course.load_begin, course.reduction_begin);
+  if (!left) return false;
+  state_.unbalanced = *left;
+  return true;
+}
+
+template <int Dim>
 bool LoadStepper<Dim>::finished() const {
-  return state_.programme.load >= 1.0;
+  return state_.programme.progress >= 1.0;
+}
+
+// Without stages the load parameter is the progress.
+template <int Dim>
+double LoadStepper<Dim>::load_at(double progress) const {
+  const scene::Course& course = scene_.course;
+  if (progress >= 1.0) return course.load_end;
+  return course.load_begin + progress * (course.load_end - course.load_begin);
 }
 
 template <int Dim>
 void LoadStepper<Dim>::set_prescribed(double increment, Eigen::VectorXd& u) const {
+  const double load = increment * (scene_.course.load_end - scene_.course.load_begin);
   for (Eigen::Index k = 0; k < u.size(); ++k) {
-    if (model_.prescribed[static_cast<std::size_t>(k)] != 0) u[k] = increment * model_.drive[k];
+    if (model_.prescribed[static_cast<std::size_t>(k)] != 0) u[k] = load * model_.drive[k];
   }
 }
 
@@ -211,10 +241,12 @@ StepResult LoadStepper<Dim>::attempt(const Watch& watch) {
   model::ProgrammeState& programme = state_.programme;
   StepResult result;
   for (;;) {
-    const double left = 1.0 - programme.load;
+    const double left = 1.0 - programme.progress;
     double increment = std::min(programme.next_increment, left);
     if (left - increment < end_slack) increment = left;
-    equilibrium_->begin_step(increment == left ? 1.0 : programme.load + increment);
+    const double progress = increment == left ? 1.0 : programme.progress + increment;
+    equilibrium_->begin_step(load_at(progress), progress,
+                             scene::reduction_at(scene_.course, progress));
 
     // Predictor: the last increment. Moving the prescribed unknowns alone would tear the body.
     bool solved = false;
@@ -267,10 +299,13 @@ void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
   const double length = displaced ? scene_.drive.target : 1.0;
 
   ++programme.step;
-  programme.load = 1.0 - programme.load - increment < end_slack ? 1.0 : programme.load + increment;
+  const double former_load = programme.load;
+  programme.progress =
+      1.0 - programme.progress - increment < end_slack ? 1.0 : programme.progress + increment;
+  programme.load = load_at(programme.progress);
   programme.last_increment = increment;
   patience_.attempted();
-  patience_.reached(programme.load);
+  patience_.reached(programme.progress);
   programme.hourglass_work += forces.hourglass_work;
   programme.external_work += forces.external_work;
 
@@ -279,13 +314,15 @@ void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
   record.settlement = displaced ? length * programme.load : forces.settlement;
   const double reference = scene_.drive.reference_length.value_or(0.0);
   record.settlement_over_B = reference > 0.0 ? record.settlement / reference : 0.0;
-  record.increment = length * increment;
+  // Without stages the increment itself, to the last bit.
+  const bool whole = scene_.course.load_begin == 0.0 && scene_.course.load_end == 1.0;
+  record.increment = length * (whole ? increment : programme.load - former_load);
   record.reaction = forces.reaction;
   if (const double width = scene_.drive.width.value_or(0.0); width > 0.0) {
     record.mean_pressure = forces.reaction / width;
     if (displaced) {
-      record.corrected_pressure =
-          (forces.reaction - forces.hourglass_work / record.increment) / width;
+      const double taken = record.increment != 0.0 ? forces.hourglass_work / record.increment : 0.0;
+      record.corrected_pressure = (forces.reaction - taken) / width;
     }
   }
   record.evaluations = record.residual_evaluations + record.jacobian_actions;
@@ -324,9 +361,11 @@ Eigen::Index LoadStepper<Dim>::re_search() {
   for (fpm::Vector<Dim>& motion : plane_motion) motion *= state_.programme.load;
   const auto rebuilt =
       state_.rows.research(rows, position, volume, model_.driven_particle, plane_motion);
+  std::vector<fpm::Index> changed = rebuilt;
   if (model_.consistency) {
-    fpm::carry_consistency<Dim>(equilibrium_->moment_operator(), model_.ghosts, rebuilt,
-                                {volume, state_.deformation_gradient}, state_.rows);
+    changed = fpm::carry_consistency<Dim>(equilibrium_->moment_operator(), model_.ghosts, rebuilt,
+                                          {volume, state_.deformation_gradient}, state_.rows)
+                  .rows;
   }
   for (const fpm::Index a : rebuilt) {
     state_.searched_volume_ratio[a] *= ratio[a];
@@ -336,7 +375,7 @@ Eigen::Index LoadStepper<Dim>::re_search() {
   for (const fpm::Index a : rows) {
     state_.plastic_strain_at_search[a] = state_.plastic_strain[a];
   }
-  if (!rebuilt.empty()) equilibrium_->rebuild_operator();
+  if (!rebuilt.empty()) equilibrium_->follow_re_search(changed);
   ++state_.programme.re_searches;
   return static_cast<Eigen::Index>(rebuilt.size());
 }

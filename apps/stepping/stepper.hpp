@@ -2,8 +2,10 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "equilibrium/initial_balance.hpp"
 #include "jfnk/solver.hpp"
 #include "model/memory.hpp"
 #include "model/model.hpp"
@@ -61,11 +63,20 @@ class LoadStepper {
   /// Called after each nonlinear iteration; returning false stops the step.
   using Watch = std::function<bool(const jfnk::Iteration&)>;
 
-  LoadStepper(const scene::Scene& scene, const model::Model<Dim>& model, model::State<Dim>& state);
+  /// @param scene  of the stage at hand, if there are several (scene::scene_of_stage)
+  /// @param rest  what keeps the initial stress at rest, of ground that stages have changed since
+  LoadStepper(const scene::Scene& scene, const model::Model<Dim>& model, model::State<Dim>& state,
+              std::optional<equilibrium::InitialBalance<Dim>> rest = std::nullopt);
   ~LoadStepper();
   LoadStepper(const LoadStepper&) = delete;
   LoadStepper& operator=(const LoadStepper&) = delete;
 
+  /// Takes the state to the beginning of the scene's stage: the stepper begins anew, and what the
+  /// stage's changes leave unbalanced is to fade.
+  /// @return false if it cannot be evaluated: the ground is not what it was
+  [[nodiscard]] bool begin_stage();
+
+  /// Whether the scene's stage is at its end.
   bool finished() const;
   /// Tries one step, with smaller increments as need be. The state is the new one if it converged,
   /// else as it was, the programme's step sizes included.
@@ -83,6 +94,7 @@ class LoadStepper {
 
  private:
   StepResult attempt(const Watch& watch);
+  [[nodiscard]] double load_at(double progress) const;
   void set_prescribed(double increment, Eigen::VectorXd& u) const;
   bool predict_by_tangent(double increment, Eigen::VectorXd& u, StepRecord& record);
   bool solve(Eigen::VectorXd& u, const Watch& watch, StepResult& result);
@@ -98,7 +110,7 @@ class LoadStepper {
   std::unique_ptr<equilibrium::TwoLevelPreconditioner<Dim>> preconditioner_;
   bool use_preconditioner_ = true;
   jfnk::Solver solver_;
-  double nominal_increment_ = 1.0;  // of the load parameter
+  double nominal_increment_ = 1.0;  // of the progress
   Patience patience_;
   Eigen::VectorXd increment_;
 };

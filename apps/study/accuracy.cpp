@@ -12,12 +12,13 @@
 
 #include "campaign/campaign.hpp"
 #include "files/durable_file.hpp"
-#include "program/child_process.hpp"
 #include "program/command_line.hpp"
 #include "program/stop_signals.hpp"
 #include "scene/derived.hpp"
+#include "scene/print.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
+#include "study/final_run.hpp"
 #include "study/ladder.hpp"
 #include "study/levels.hpp"
 #include "study/results.hpp"
@@ -32,10 +33,13 @@ struct Interrupted {};
 /// Makes the runs of the ladder and remembers what they said.
 class Runs {
  public:
-  Runs(const AccuracyRequest& request, Quantity quantity, std::vector<double> spacings,
-       std::filesystem::path folder, std::ostream& out, std::ostream& err)
+  Runs(const AccuracyRequest& request, Quantity quantity, const scene::Scene& base,
+       std::vector<double> spacings, std::filesystem::path folder, std::ostream& out,
+       std::ostream& err)
       : request_(request),
         quantity_(std::move(quantity)),
+        base_(base),
+        far_(request.far.empty() ? std::vector<scene::Side>{} : parse_far(request.far, base)),
         spacings_(std::move(spacings)),
         folder_(std::move(folder)),
         out_(out),
@@ -45,6 +49,9 @@ class Runs {
   [[nodiscard]] std::vector<std::string> settings_of(const Fineness& fineness) const {
     std::vector<std::string> settings{
         fmt::format("geometry.spacing={}", spacings_[fineness.level])};
+    for (std::string& setting : widened(base_, far_, fineness.box)) {
+      settings.push_back(std::move(setting));
+    }
     const auto plain = read_varied(request_.scene_file, request_.settings, settings, err_);
     if (!plain) throw program::UsageError("no run with such a spacing");
     const auto steps = static_cast<double>(scene::nominal_steps(*plain)) * fineness.steps;
@@ -69,9 +76,10 @@ class Runs {
       const auto scene =
           read_varied(request_.scene_file, request_.settings, settings_of(one), err_);
       if (!scene) throw program::UsageError("a run of the ladder is refused");
-      tasks.push_back({fmt::format("spacing {}, steps x {}, tolerance x {}, control x {}",
-                                   spacings_[one.level], one.steps, one.tolerance, one.control),
-                       campaign::task_scene(with_measure(*scene, quantity_))});
+      std::string name = fmt::format("spacing {}, steps x {}, tolerance x {}, control x {}",
+                                     spacings_[one.level], one.steps, one.tolerance, one.control);
+      if (one.box != 1.0) name += fmt::format(", box x {}", one.box);
+      tasks.push_back({std::move(name), campaign::task_scene(with_measure(*scene, quantity_))});
     }
     campaign::Campaign campaign(
         tasks, {request_.programs / "fpm-run", folder_ / "runs", request_.jobs, request_.threads});
@@ -98,6 +106,8 @@ class Runs {
 
   const AccuracyRequest& request_;
   Quantity quantity_;
+  const scene::Scene& base_;
+  std::vector<scene::Side> far_;
   std::vector<double> spacings_;
   std::filesystem::path folder_;
   std::ostream& out_;
@@ -120,6 +130,9 @@ std::string answer_text(const AccuracyRequest& request, const Quantity& quantity
     fmt::format_to(std::back_inserter(text), "  {:<10} +- {}: {}\n", part.source,
                    percent(part.error, answer.value), part.words);
   }
+  if (request.far.empty()) {
+    text += "  box        not looked at: --far names sides beyond which there is more ground\n";
+  }
   if (answer.control) {
     fmt::format_to(std::back_inserter(text),
                    "  {:<10} {} at a coarse spacing, of the spacing's: {}\n", "control",
@@ -132,7 +145,8 @@ std::string answer_text(const AccuracyRequest& request, const Quantity& quantity
 }
 
 std::string answer_json(const AccuracyRequest& request, const Quantity& quantity,
-                        const Answer& answer, const std::vector<std::string>& settings) {
+                        const Answer& answer, const std::vector<std::string>& settings,
+                        const std::string& effective) {
   nlohmann::json all = {{"scene", request.scene_file.string()},
                         {"quantity", quantity.text},
                         {"asked", request.accuracy},
@@ -141,34 +155,13 @@ std::string answer_json(const AccuracyRequest& request, const Quantity& quantity
                         {"bar", answer.bar},
                         {"parts", nlohmann::json::array()},
                         {"settings", settings},
+                        {"effective", effective},
                         {"cpu_s", answer.seconds},
                         {"obstacle", answer.obstacle}};
   for (const Part& part : answer.parts) {
     all["parts"].push_back({{"source", part.source}, {"error", part.error}, {"words", part.words}});
   }
   return all.dump(1) + "\n";
-}
-
-std::filesystem::path folder_of(const AccuracyRequest& request, const scene::Scene& scene) {
-  if (!request.folder.empty()) return request.folder;
-  if (scene.output.directory) return *scene.output.directory;
-  return std::filesystem::path("out") / request.scene_file.stem();
-}
-
-/// The run that the user wants, in this process' place.
-program::ExitCode become_run(const AccuracyRequest& request, const std::filesystem::path& folder,
-                             const std::vector<std::string>& settings, std::ostream& out) {
-  std::vector<std::string> arguments{request.scene_file.string(), "--out", folder.string(),
-                                     "--threads", fmt::format("{}", request.threads)};
-  if (request.quiet) arguments.emplace_back("--quiet");
-  for (const auto& list : {request.settings, settings}) {
-    for (const std::string& setting : list) {
-      arguments.emplace_back("--set");
-      arguments.push_back(setting);
-    }
-  }
-  out.flush();
-  program::become(request.programs / "fpm-run", arguments);
 }
 
 }  // namespace
@@ -228,6 +221,13 @@ Quantity quantity_of(const scene::Scene& scene) {
       "--quantity is missing: the scene measures several things, and any of them may be meant");
 }
 
+double formal_order(const scene::Scene& scene) {
+  const bool between = std::ranges::any_of(scene.support, [&](const scene::Support& support) {
+    return !support.at.empty() && scene.geometry.layout == scene::Layout::cell;
+  });
+  return between || std::ranges::any_of(scene.material, scene::yields) ? 1.0 : 2.0;
+}
+
 program::ExitCode find_accuracy(const AccuracyRequest& request, std::ostream& out,
                                 std::ostream& err) {
   const auto base = read_varied(request.scene_file, request.settings, {}, err);
@@ -237,36 +237,39 @@ program::ExitCode find_accuracy(const AccuracyRequest& request, std::ostream& ou
   wish.accuracy = request.accuracy;
   wish.budget = request.budget;
   wish.spacings = spacings_on_offer(*base);
-  // Displacements of what is elastic converge with second order; a collapse load only with first,
-  // however fast it seems to come down to it at first: the edge of a plate is known to half a
-  // spacing.
-  const bool yielding = std::ranges::any_of(base->material, scene::yields);
-  wish.formal = yielding ? 1.0 : 2.0;
+  wish.formal = formal_order(*base);
+  wish.box = !request.far.empty();
   wish.growth = base->geometry.dimension + 1.0;
   if (wish.spacings.size() < 3) {
     throw program::UsageError(
         "--accuracy: fewer than three spacings keep the scene's places whole; it is known of a "
         "ladder of them");
   }
-  const std::filesystem::path folder = folder_of(request, *base);
+  const std::filesystem::path folder = output_folder(request.folder, request.scene_file, *base);
   std::optional<Answer> answer;
   std::vector<std::string> settings;
   try {
-    Runs runs(request, quantity, wish.spacings, folder / "accuracy", out, err);
+    Runs runs(request, quantity, *base, wish.spacings, folder / "accuracy", out, err);
     answer = climb(wish, [&](const std::vector<Fineness>& asked) { return runs(asked); });
     settings = runs.settings_of(answer->fineness);
   } catch (const Interrupted&) {
     err << "interrupted; the same command goes on, what is finished is not run again\n";
     return program::ExitCode::interrupted;
   }
+  // The run says the bar again if its scene is this one.
+  const auto final_scene = read_varied(request.scene_file, request.settings, settings, err);
+  const std::string effective = final_scene ? scene::effective_toml(*final_scene) : "";
   files::write_text_durably(folder / "accuracy.json",
-                            answer_json(request, quantity, *answer, settings));
+                            answer_json(request, quantity, *answer, settings, effective));
   if (!answer->parts.empty()) out << answer_text(request, quantity, *answer, settings);
   if (!answer->reached) {
     err << "error: not as accurate as asked for: " << answer->obstacle << '\n';
     return program::ExitCode::not_converged;
   }
-  return request.only_say ? program::ExitCode::done : become_run(request, folder, settings, out);
+  if (request.only_say) return program::ExitCode::done;
+  return become_run({request.scene_file, request.settings, folder, request.threads, request.quiet,
+                     request.programs},
+                    settings, out);
 }
 
 }  // namespace study

@@ -22,6 +22,7 @@ struct AccuracyRequest {
   double accuracy = 0.02;             // of the quantity
   std::optional<double> budget;       // [s] of processor time
   std::optional<Quantity> quantity;   // absent: see quantity_of
+  std::string far;                    // sides that are only where the ground ends; see parse_far
   std::filesystem::path folder;       // of the output; empty: the scene's own, as fpm-run has it
   int jobs = 1;
   int threads = 1;
@@ -42,6 +43,12 @@ struct AccuracyRequest {
 /// the largest displacement of a load.
 /// @throws UsageError if the scene measures something else: then the user must say.
 [[nodiscard]] Quantity quantity_of(const scene::Scene& scene);
+
+/// The order with which a spacing's error can be trusted to fall: displacements of what is elastic
+/// converge with second order, but a collapse load only with first, however fast it seems to come
+/// down to it at first, since the edge of a plate is known to half a spacing; and so does whatever
+/// hangs on a support at a point between particles.
+[[nodiscard]] double formal_order(const scene::Scene& scene);
 
 /// Finds the cheapest setting that meets the wish, says the answer with its error bar and the parts
 /// of it, writes accuracy.json, and becomes the run of that setting in the output folder.

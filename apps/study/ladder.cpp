@@ -19,7 +19,7 @@ class Climb {
   Answer operator()() {
     // Of three levels the middle one is fine enough to behave as finer ones do.
     fineness_.level = 1;
-    const bool known = settle_steps() && settle_tolerance() && look_at_control();
+    const bool known = settle_steps() && settle_tolerance() && settle_box() && look_at_control();
     if (known) descend();
     answer_.seconds = spent_;
     return answer_;
@@ -95,6 +95,30 @@ class Climb {
     }
   }
 
+  /// Widens the box until what lies beyond its far sides is small. What they do falls with their
+  /// distance, with first order at least: that of a load in the plane does in its stresses.
+  bool settle_box() {
+    if (!wish_.box) return true;
+    constexpr double wider = 1.5, most = 6.0;
+    while (true) {
+      Fineness once = fineness_, twice = fineness_;
+      once.box *= wider;
+      twice.box *= wider * wider;
+      const auto now = value(fineness_), then = value(once), widest = value(twice);
+      if (!now || !then || !widest) return false;
+      const convergence::Extrapolation found =
+          convergence::extrapolate({{wider * wider, *now}, {wider, *then}, {1.0, *widest}}, 1.0);
+      const Part part{"box", found.uncertainty + std::abs(*now - *widest),
+                      fmt::format("{}, far sides {}, {} and {} times as far", name_of(found.course),
+                                  fineness_.box, once.box, twice.box)};
+      box_ = {part, *now};
+      const bool good = part.error <= share * wish_.accuracy * std::abs(*now);
+      if (good || fineness_.box >= most) return true;
+      fineness_.box *= wider;
+      if (!within_budget(0.0)) return false;
+    }
+  }
+
   bool look_at_control() {
     Fineness half = fineness_;
     half.control = 0.5;
@@ -146,6 +170,7 @@ class Climb {
     std::string words = std::string(name_of(found.course));
     if (found.order) words += fmt::format(", order {:.2f}", *found.order);
     answer_.parts = {{"spacing", found.uncertainty, words}, scaled(steps_), scaled(tolerance_)};
+    if (box_) answer_.parts.push_back(scaled(*box_));
     answer_.bar = 0.0;
     for (const Part& part : answer_.parts) answer_.bar += part.error;
     if (control_) answer_.control = scaled(*control_);
@@ -168,7 +193,7 @@ class Climb {
   Answer answer_;
   Fineness fineness_;
   Known steps_, tolerance_;
-  std::optional<Known> control_;
+  std::optional<Known> control_, box_;
   std::vector<Fineness> seen_;
   double spent_ = 0.0;  // [s]
 };

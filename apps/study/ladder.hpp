@@ -15,6 +15,7 @@ struct Fineness {
   double steps = 1.0;      // times the scene's at that spacing
   double tolerance = 1.0;  // times the scene's
   double control = 1.0;    // times the scene's stiffness of the zero-energy control
+  double box = 1.0;        // times as far to the sides that are far
   bool operator==(const Fineness&) const = default;
 };
 
@@ -33,6 +34,7 @@ struct Wish {
   std::vector<double> spacings;  // [m] on offer, falling
   double formal = 2.0;           // the order that a spacing's error can be trusted with
   double growth = 3.0;           // a run costs (coarse / fine)^growth times as much
+  bool box = false;              // whether sides are far
 };
 
 /// One source of error and what it leaves.
@@ -53,9 +55,10 @@ struct Answer {
   std::string obstacle;         // why it was not reached
 };
 
-/// Climbs the ladder: first the steps and the tolerance are made fine enough, by runs at a coarse
-/// spacing, each to a quarter of what is wished at most; then spacings fall until the rest of it is
-/// not exceeded by what Richardson's safeguarded extrapolation leaves of them.
+/// Climbs the ladder: first the steps and the tolerance are made fine enough, and the box wide
+/// enough, by runs at a coarse spacing, each to a quarter of what is wished at most; then spacings
+/// fall until the rest of it is not exceeded by what Richardson's safeguarded extrapolation leaves
+/// of them.
 [[nodiscard]] Answer climb(const Wish& wish, const Ask& ask);
 
 }  // namespace study

@@ -1,11 +1,17 @@
 #include "study/levels.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <sstream>
 
+#include "program/command_line.hpp"
 #include "scene/derived.hpp"
+#include "scene/names.hpp"
 #include "scene/scene.hpp"
 
 namespace study {
@@ -59,9 +65,7 @@ class WholeNumbers {
   std::int64_t least_ = 0;
 };
 
-}  // namespace
-
-std::vector<double> spacings_on_offer(const scene::Scene& scene) {
+WholeNumbers whole_numbers_of(const scene::Scene& scene) {
   WholeNumbers numbers(scene.geometry);
   numbers.range(scene.drive.range_min, scene.drive.side);
   numbers.range(scene.drive.range_max, scene.drive.side);
@@ -76,6 +80,17 @@ std::vector<double> spacings_on_offer(const scene::Scene& scene) {
   for (const scene::Cutout& cutout : scene.cutout) {
     if (cutout.radius) numbers.length(*cutout.radius);
   }
+  return numbers;
+}
+
+std::string list_of(const scene::Point& point) {
+  return fmt::format("[{}]", fmt::join(point, ", "));
+}
+
+}  // namespace
+
+std::vector<double> spacings_on_offer(const scene::Scene& scene) {
+  const WholeNumbers numbers = whole_numbers_of(scene);
   const std::int64_t divisor = numbers.divisor();
   // With fewer cells across the least of them, values are not on their way to the limit yet.
   constexpr double fewest = 6.0;
@@ -90,6 +105,63 @@ std::vector<double> spacings_on_offer(const scene::Scene& scene) {
                        static_cast<double>(k));
   }
   return spacings;
+}
+
+std::vector<scene::Side> parse_far(const std::string& text, const scene::Scene& scene) {
+  std::vector<scene::Side> far;
+  std::istringstream words(text);
+  const auto refuse = [](const std::string& word, const std::string& why) {
+    throw program::UsageError(fmt::format("--far: found {}; {}", word, why));
+  };
+  if (!scene.region.empty()) refuse(text, "the body is one of regions, which say where it ends");
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto names = scene::names_of(scene::Side{});
+    const auto at = std::ranges::find(names, word);
+    if (at == names.end()) refuse(word, fmt::format("allowed are {}", fmt::join(names, ", ")));
+    const auto side = static_cast<scene::Side>(at - names.begin());
+    const auto axis = static_cast<std::size_t>(scene::axis_of(side));
+    if (axis >= scene.geometry.min.size()) refuse(word, "the body has no such side");
+    if (scene.drive.kind == scene::DriveKind::displacement && scene.drive.side == side) {
+      refuse(word, "it is the side that is moved");
+    }
+    if (scene::is_mirror(scene, side)) refuse(word, "it is a mirror");
+    far.push_back(side);
+  }
+  if (far.empty()) refuse("none", "it needs a side");
+  return far;
+}
+
+std::vector<std::string> widened(const scene::Scene& scene, const std::vector<scene::Side>& far,
+                                 double times) {
+  if (times == 1.0 || far.empty()) return {};
+  const scene::Geometry& now = scene.geometry;
+  // So many cells of every spacing on offer.
+  const double unit = now.spacing * static_cast<double>(whole_numbers_of(scene).divisor());
+  scene::Point min = now.min, max = now.max;
+  for (const scene::Side side : far) {
+    const auto axis = static_cast<std::size_t>(scene::axis_of(side));
+    constexpr double round_off = 1e-9;
+    const double more =
+        unit * std::ceil((times - 1.0) * (now.max[axis] - now.min[axis]) / unit - round_off);
+    if (scene::is_upper(side)) {
+      max[axis] += more;
+    } else {
+      min[axis] -= more;
+    }
+  }
+  std::vector<std::string> settings{"geometry.min=" + list_of(min), "geometry.max=" + list_of(max)};
+  const double slack = scene::same_place(now);
+  for (std::size_t m = 0; m < scene.material.size(); ++m) {
+    scene::Point lower = scene.material[m].region_min, upper = scene.material[m].region_max;
+    for (std::size_t axis = 0; axis < lower.size() && axis < upper.size(); ++axis) {
+      if (lower[axis] <= now.min[axis] + slack) lower[axis] = std::min(lower[axis], min[axis]);
+      if (upper[axis] >= now.max[axis] - slack) upper[axis] = std::max(upper[axis], max[axis]);
+    }
+    if (lower == scene.material[m].region_min && upper == scene.material[m].region_max) continue;
+    settings.push_back(fmt::format("material.{}.region_min={}", m, list_of(lower)));
+    settings.push_back(fmt::format("material.{}.region_max={}", m, list_of(upper)));
+  }
+  return settings;
 }
 
 }  // namespace study

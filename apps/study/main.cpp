@@ -14,6 +14,7 @@
 #include "program/command_line.hpp"
 #include "program/version.hpp"
 #include "study/accuracy.hpp"
+#include "study/quality.hpp"
 #include "study/study.hpp"
 
 namespace {
@@ -27,6 +28,7 @@ using Texts = std::vector<std::string>;
 constexpr std::string_view usage =
     "Usage: fpm-study SCENE --vary KEY=V1,V2,... --quantity QUANTITY [options]\n"
     "       fpm-study SCENE --accuracy 2% [--budget 10min] [--quantity QUANTITY] [options]\n"
+    "       fpm-study SCENE --quality draft|normal|fine [options]\n"
     "\n"
     "Runs a scene of fpm-run with every combination of the values of some keys, and says how far\n"
     "each is from a reference and what it cost: a table, study.csv, study.json, and study.svg,\n"
@@ -37,7 +39,8 @@ constexpr std::string_view usage =
     "With --accuracy, as fpm-run has it, a ladder of cheap runs of the scene finds the coarsest\n"
     "setting whose quantity is that accurate, and says the answer with its error bar and its "
     "parts:\n"
-    "spacing, steps, tolerance.\n";
+    "spacing, steps, tolerance, and with --far the box. --quality takes a setting without "
+    "asking.\n";
 
 constexpr std::string_view notes =
     "QUANTITY is one of\n"
@@ -80,8 +83,14 @@ po::options_description options() {
        "the reaction or the largest displacement")  //
       ("budget", po::value<std::string>()->value_name("TIME"),
        "of --accuracy: processor time of the ladder, as 10min, 5h, 90s; default: none")  //
+      ("far", po::value<std::string>()->value_name("SIDES"),
+       "of --accuracy: sides, as left,bottom, that are only where the ground that is looked at "
+       "ends; "
+       "they are moved away to see what they do")  //
+      ("quality", po::value<std::string>()->value_name("WORD"),
+       "draft, normal or fine: coarser, as, or finer than the scene says (share/doc/trade.md)")  //
       ("only-say", po::bool_switch(),
-       "with --accuracy: no run in the output folder in the end")  //
+       "with --accuracy and --quality: no run in the output folder in the end")  //
       ("set", po::value<Texts>()->value_name("KEY=VALUE")->composing(),
        "override a key of the scene in all runs; may be repeated")  //
       ("out", po::value<std::string>()->value_name("DIR"),
@@ -163,12 +172,32 @@ study::AccuracyRequest accuracy_of(const po::variables_map& values) {
     request.quantity = study::parse_quantity(values["quantity"].as<std::string>());
   }
   if (values.count("out") != 0) request.folder = values["out"].as<std::string>();
+  if (values.count("far") != 0) request.far = values["far"].as<std::string>();
   request.threads = count_of(values, "threads", 1);
   request.jobs = count_of(values, "jobs", 1);
   request.quiet = values["quiet"].as<bool>();
   request.only_say = values["only-say"].as<bool>();
   request.programs = program::folder_of_this_program();
   return request;
+}
+
+ExitCode take_quality(const po::variables_map& values) {
+  const Texts scenes = texts(values, "scene");
+  if (scenes.empty()) throw UsageError("SCENE is missing");
+  if (scenes.size() > 1) throw UsageError(fmt::format("{}: one SCENE at a time", scenes[1]));
+  for (const char* other : {"vary", "accuracy", "budget", "quantity", "far"}) {
+    if (values.count(other) != 0) throw UsageError(fmt::format("--{}: not with --quality", other));
+  }
+  study::FinalRun run;
+  run.scene_file = scenes.front();
+  run.settings = texts(values, "set");
+  if (values.count("out") != 0) run.folder = values["out"].as<std::string>();
+  run.threads = count_of(values, "threads", 1);
+  run.quiet = values["quiet"].as<bool>();
+  run.programs = program::folder_of_this_program();
+  return study::run_quality(std::move(run),
+                            study::parse_quality(values["quality"].as<std::string>()),
+                            values["only-say"].as<bool>(), std::cout, std::cerr);
 }
 
 ExitCode run(const Texts& arguments) {
@@ -181,6 +210,7 @@ ExitCode run(const Texts& arguments) {
     std::cout << "fpm-study " << program::version << '\n';
     return ExitCode::done;
   }
+  if (values.count("quality") != 0) return take_quality(values);
   if (values.count("accuracy") != 0) {
     return study::find_accuracy(accuracy_of(values), std::cout, std::cerr);
   }

@@ -53,6 +53,30 @@ Material with_cutoff(const Material& made, double tension) {
   return made;
 }
 
+/// The same surface with a strength that changes.
+Material with_residuals(const Material& made, const MaterialParameters& p, const ModelInfo& model) {
+  using Surface = HardeningSoil::Surface;
+  HardeningSoil soil;
+  soil.moduli = moduli(made);
+  if (std::holds_alternative<MohrCoulomb>(made)) soil.surface = Surface::pyramid;
+  if (std::holds_alternative<DruckerPrager>(made)) {
+    soil.surface =
+        model.match == "plane_strain" ? Surface::plane_strain_cone : Surface::compression_cone;
+  }
+  const auto residual = [](double value, double otherwise) {
+    return std::isfinite(value) ? value : otherwise;
+  };
+  soil.cohesion = p.cohesion;
+  soil.residual_cohesion = residual(p.residual_cohesion, p.cohesion);
+  soil.residual_strain = p.residual_strain;
+  if (!model.frictional) return soil;
+  soil.friction = radians(p.friction_angle);
+  soil.residual_friction = radians(residual(p.residual_friction_angle, p.friction_angle));
+  soil.dilation = radians(p.dilation_angle);
+  soil.dilation_cutoff = p.dilation_cutoff;
+  return soil;
+}
+
 }  // namespace
 
 std::span<const ModelInfo> material_models() {
@@ -69,6 +93,8 @@ Material make_material(const MaterialParameters& p) {
   const ModelInfo* model = find_model(p.model);
   const auto number = static_cast<std::size_t>(model - material_models().data());
   const Material made = registered().makers[number](p, *model);
+  const bool cohesive = parameter_info("residual_strain").is_used_by(*model);
+  if (cohesive && std::isfinite(p.residual_strain)) return with_residuals(made, p, *model);
   return std::isfinite(p.tension_cutoff) ? with_cutoff(made, p.tension_cutoff) : made;
 }
 

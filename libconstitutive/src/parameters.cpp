@@ -14,7 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using P = MaterialParameters;
 // The range of Poisson's ratio is that of positive bulk and shear moduli.
-constexpr std::array<ParameterInfo, 8> infos{
+constexpr std::array<ParameterInfo, 15> infos{
     {{"youngs_modulus", "Pa", "Young's modulus E.", 0, infinity, true, false, Use::all,
       &P::youngs_modulus},
      {"poissons_ratio", "", "Poisson's ratio nu.", -1, 0.5, true, true, Use::all,
@@ -32,7 +32,29 @@ constexpr std::array<ParameterInfo, 8> infos{
      {"tension_cutoff", "Pa",
       "Largest principal stress (Rankine); 0 is no tension at all, and beyond the apex it changes "
       "nothing.",
-      0, infinity, false, false, Use::yielding, &P::tension_cutoff}}};
+      0, infinity, false, false, Use::yielding, &P::tension_cutoff},
+     {"residual_strain", "",
+      "Accumulated equivalent plastic strain over which cohesion and friction angle go linearly to "
+      "their residual values, which then stay. What softens does so in bands as thin as the "
+      "discretisation allows: results after the peak depend on it.",
+      0, infinity, true, false, Use::yielding, &P::residual_strain},
+     {"residual_cohesion", "Pa", "Cohesion from residual_strain on.", 0, infinity, false, false,
+      Use::yielding, &P::residual_cohesion},
+     {"residual_friction_angle", "deg", "Friction angle from residual_strain on, at least psi.", 0,
+      90, false, true, Use::frictional, &P::residual_friction_angle},
+     {"compression_index", "",
+      "Slope lambda of volume strain over ln p on the isotropic compression line.", 0, infinity,
+      true, false, Use::critical_state, &P::compression_index},
+     {"swelling_index", "",
+      "Slope kappa of volume strain over ln p where nothing yields, below lambda; the bulk modulus "
+      "is p / kappa.",
+      0, infinity, true, false, Use::critical_state, &P::swelling_index},
+     {"critical_stress_ratio", "",
+      "M = q / p in the critical state; 6 sin phi / (3 - sin phi) in triaxial compression.", 0, 3,
+      true, true, Use::critical_state, &P::critical_stress_ratio},
+     {"preconsolidation_pressure", "Pa",
+      "Mean stress at which isotropic compression first yields, compression positive.", 0, infinity,
+      true, false, Use::critical_state, &P::preconsolidation_pressure}}};
 
 std::string text_of(double value) {
   std::ostringstream text;
@@ -53,9 +75,10 @@ std::string joined_names() {
 bool ParameterInfo::holds(double value) const {
   const bool above = lower_open ? value > lower : value >= lower;
   const bool below = upper_open ? value < upper : value <= upper;
-  // Only the defaults of the cut-offs are infinite: never.
-  const bool cutoff = member == &P::dilation_cutoff || member == &P::tension_cutoff;
-  return above && below && (std::isfinite(value) || cutoff);
+  // Only where the default is infinite, which is never, may a value be.
+  const P defaults;
+  const bool never = std::isinf(defaults.*member) && std::isinf(value) && value > 0;
+  return never || (above && below && std::isfinite(value));
 }
 
 std::string ParameterInfo::allowed() const {
@@ -89,8 +112,57 @@ const ModelInfo* find_model(std::string_view family, std::string_view match) {
   return nullptr;
 }
 
+namespace {
+
+/// Residual values that say nothing, or that the model cannot have.
+void object_to_residuals(const MaterialParameters& p, const ModelInfo& model,
+                         std::vector<Objection>& all) {
+  const bool cohesion = std::isfinite(p.residual_cohesion);
+  const bool friction = std::isfinite(p.residual_friction_angle) && model.frictional;
+  if (std::isnan(p.residual_strain)) return;  // which its range objects to
+  if (std::isinf(p.residual_strain)) {
+    const char* why = "it needs the residual_strain over which it is reached";
+    if (cohesion)
+      all.push_back({"residual_cohesion", "found " + text_of(p.residual_cohesion), why});
+    if (friction) {
+      all.push_back(
+          {"residual_friction_angle", "found " + text_of(p.residual_friction_angle), why});
+    }
+    return;
+  }
+  if (!cohesion && !friction) {
+    all.push_back({"residual_strain", "found " + text_of(p.residual_strain),
+                   model.frictional ? "it needs residual_cohesion or residual_friction_angle"
+                                    : "it needs residual_cohesion"});
+    return;
+  }
+  if (std::isfinite(p.tension_cutoff)) {
+    all.push_back({"tension_cutoff", "found " + text_of(p.tension_cutoff),
+                   "a strength that changes with residual_strain has none"});
+  }
+  const double least_friction = friction ? p.residual_friction_angle : p.friction_angle;
+  if ((cohesion ? p.residual_cohesion : p.cohesion) == 0 &&
+      (!model.frictional || least_friction == 0)) {
+    all.push_back({"residual_cohesion", "found 0 without friction",
+                   "a yielding material needs cohesion or friction"});
+  }
+  if (friction && p.dilation_angle > p.residual_friction_angle) {
+    all.push_back({"residual_friction_angle", "found " + text_of(p.residual_friction_angle),
+                   "it must not be below the dilation angle, " + text_of(p.dilation_angle)});
+  }
+}
+
+}  // namespace
+
 std::vector<Objection> joint_objections(const MaterialParameters& p, const ModelInfo& model) {
   std::vector<Objection> all;
+  if (model.critical_state) {
+    if (p.swelling_index >= p.compression_index) {
+      all.push_back({"swelling_index", "found " + text_of(p.swelling_index),
+                     "it must be below the compression index, " + text_of(p.compression_index)});
+    }
+    return all;
+  }
   const double friction = model.frictional ? p.friction_angle : 0.0;
   if (model.yields && p.cohesion == 0 && friction == 0) {
     all.push_back(
@@ -105,6 +177,7 @@ std::vector<Objection> joint_objections(const MaterialParameters& p, const Model
     all.push_back({"dilation_angle", "found " + text_of(p.dilation_angle),
                    "it must not exceed the friction angle, " + text_of(friction)});
   }
+  if (model.yields) object_to_residuals(p, model, all);
   return all;
 }
 

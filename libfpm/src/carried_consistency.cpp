@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -62,12 +63,14 @@ class Carrier {
           Rows<Dim>& rows)
       : before_(before), ghosts_(ghosts), rebuilt_(rebuilt), now_(now), rows_(rows) {}
 
-  double run() {
+  CarriedConsistency run() {
     find_change();
     choose_rows();
-    const double left = solve();
-    correct();
-    return left;
+    CarriedConsistency carried;
+    carried.left = solve();
+    const std::vector<Index> corrected = correct();
+    std::ranges::set_union(rebuilt_, corrected, std::back_inserter(carried.rows));
+    return carried;
   }
 
  private:
@@ -165,7 +168,8 @@ class Carrier {
     return size <= round_off ? 0.0 : std::sqrt(left) / size;
   }
 
-  void correct() {
+  // Returns the corrected rows, ascending.
+  std::vector<Index> correct() {
     std::vector<Index> corrected;
     std::vector<Weights<Dim>> all;
     for (const CorrectedRow<Dim>& each : chosen_) {
@@ -186,6 +190,8 @@ class Carrier {
       all.push_back(std::move(added));
     }
     rows_.correct(corrected, all);
+    std::ranges::sort(corrected);
+    return corrected;
   }
 
   // Of a row that was not rebuilt; weights_ are its own.
@@ -216,21 +222,21 @@ class Carrier {
 }  // namespace
 
 template <int Dim>
-double carry_consistency(const MomentOperator<Dim>& before, const Ghosts<Dim>& ghosts,
-                         const std::vector<Index>& rebuilt, const ReSearchedConfiguration<Dim>& now,
-                         Rows<Dim>& rows) {
+CarriedConsistency carry_consistency(const MomentOperator<Dim>& before, const Ghosts<Dim>& ghosts,
+                                     const std::vector<Index>& rebuilt,
+                                     const ReSearchedConfiguration<Dim>& now, Rows<Dim>& rows) {
   require_size("rows of the operator", before.size(), rows.size());
   require_size("volumes", now.volume.size(), rows.size());
   require_size("deformation gradients", now.deformation_gradient.cols(), rows.size());
-  if (rebuilt.empty()) return 0.0;
+  if (rebuilt.empty()) return {};
   return Carrier<Dim>(before, ghosts, rebuilt, now, rows).run();
 }
 
-template double carry_consistency<2>(const MomentOperator<2>&, const Ghosts<2>&,
-                                     const std::vector<Index>&, const ReSearchedConfiguration<2>&,
-                                     Rows<2>&);
-template double carry_consistency<3>(const MomentOperator<3>&, const Ghosts<3>&,
-                                     const std::vector<Index>&, const ReSearchedConfiguration<3>&,
-                                     Rows<3>&);
+template CarriedConsistency carry_consistency<2>(const MomentOperator<2>&, const Ghosts<2>&,
+                                                 const std::vector<Index>&,
+                                                 const ReSearchedConfiguration<2>&, Rows<2>&);
+template CarriedConsistency carry_consistency<3>(const MomentOperator<3>&, const Ghosts<3>&,
+                                                 const std::vector<Index>&,
+                                                 const ReSearchedConfiguration<3>&, Rows<3>&);
 
 }  // namespace fpm

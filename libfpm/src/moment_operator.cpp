@@ -34,16 +34,19 @@ struct Moments {
   Eigen::VectorXd& second;
 };
 
-// Rows do not see each other: each on some thread.
+// Of the rows where `wanted` is set. Rows do not see each other: each on some thread.
 template <int Dim>
 detail::WeightedRows weigh(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Channels channels,
-                           const ConsistencyCorrection<Dim>& correction, Moments<Dim> moments) {
+                           const ConsistencyCorrection<Dim>& correction,
+                           const std::vector<char>& wanted, Moments<Dim> moments) {
+  const auto is_wanted = [&](Index a) { return wanted[static_cast<std::size_t>(a)] != 0; };
   const Index size = rows.size();
   detail::WeightedRows weighted;
   weighted.channels = channels.count(Dim);
   weighted.offset.reserve(static_cast<std::size_t>(size) + 1);
   for (Index a = 0; a < size; ++a) {
-    weighted.offset.push_back(weighted.offset.back() + rows.neighbours(a).size());
+    weighted.offset.push_back(weighted.offset.back() +
+                              (is_wanted(a) ? rows.neighbours(a).size() : 0));
   }
   weighted.id.resize(weighted.offset.back());
   weighted.weight.resize(weighted.offset.back() * static_cast<std::size_t>(weighted.channels));
@@ -53,6 +56,7 @@ detail::WeightedRows weigh(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Cha
     RowWeights<Dim> weights;
 #pragma omp for schedule(static)
     for (Index a = 0; a < size; ++a) {
+      if (!is_wanted(a)) continue;
       const auto neighbours = rows.neighbours(a);
       rows.geometry(a, geometry);
       compute_weights(geometry, rows.options().kernel, channels.second, weights);
@@ -64,6 +68,10 @@ detail::WeightedRows weigh(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Cha
       }
       const auto begin = weighted.offset[static_cast<std::size_t>(a)];
       std::ranges::copy(neighbours, weighted.id.begin() + static_cast<std::ptrdiff_t>(begin));
+      if (channels.pair) {
+        moments.first.row(a).setZero();
+        moments.second.template segment<Dim * Dim>(a * Dim * Dim).setZero();
+      }
       double* at = weighted.weight.data() + begin * static_cast<std::size_t>(weighted.channels);
       const auto append = [&](const auto& column) {
         at = std::copy_n(column.data(), column.size(), at);
@@ -87,6 +95,17 @@ detail::WeightedRows weigh(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Cha
   return weighted;
 }
 
+// The blocks of the rows that are set, which are then set as a whole.
+std::vector<char> whole_blocks(std::vector<char>& rows, Index block_rows) {
+  const auto width = static_cast<std::size_t>(block_rows);
+  std::vector<char> blocks((rows.size() + width - 1) / width, 0);
+  for (std::size_t a = 0; a < rows.size(); ++a) {
+    if (rows[a] != 0) blocks[a / width] = 1;
+  }
+  for (std::size_t a = 0; a < rows.size(); ++a) rows[a] = blocks[a / width];
+  return blocks;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -99,18 +118,62 @@ MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const Ghosts<Dim>& gh
     require_size("corrected rows", static_cast<Eigen::Index>(correction.corrected.size()), size_);
   }
   if (channels.pair) {
-    first_moment_.setZero(size_, Dim);
-    second_moment_.setZero(static_cast<Eigen::Index>(size_) * Dim * Dim);
+    first_moment_.resize(size_, Dim);
+    second_moment_.resize(static_cast<Eigen::Index>(size_) * Dim * Dim);
   }
-  detail::WeightedRows weighted =
-      weigh<Dim>(rows, ghosts_, channels_, correction, {first_moment_, second_moment_});
-  // A gradient acts on differences, so its row has a self entry; the caller handles that of pairs.
-  std::vector<char> in_sum(static_cast<std::size_t>(channel_count()), 1);
-  if (channels.pair) std::fill_n(in_sum.begin() + Channels::kappa(Dim), 1 + Dim, char{0});
+  detail::WeightedRows weighted = weigh<Dim>(rows, ghosts_, channels_, correction,
+                                             std::vector<char>(static_cast<std::size_t>(size_), 1),
+                                             {first_moment_, second_moment_});
   const Index nodes = size_ + ghosts_.size();
   forward_ = detail::segment(weighted, block_rows, nodes);
-  weighted = detail::transpose(weighted, nodes, in_sum);
+  weighted = detail::transpose(weighted, nodes, summed_channels());
   transposed_ = detail::segment(weighted, block_rows, size_);
+}
+
+// A gradient acts on differences, so its row has a self entry; the caller handles that of pairs.
+template <int Dim>
+std::vector<char> MomentOperator<Dim>::summed_channels() const {
+  std::vector<char> in_sum(static_cast<std::size_t>(channel_count()), 1);
+  if (channels_.pair) std::fill_n(in_sum.begin() + Channels::kappa(Dim), 1 + Dim, char{0});
+  return in_sum;
+}
+
+template <int Dim>
+void MomentOperator<Dim>::update(const Rows<Dim>& rows, const std::vector<Index>& changed,
+                                 const ConsistencyCorrection<Dim>& correction) {
+  require_size("rows", rows.size(), size_);
+  const Index nodes = size_ + ghosts_.size();
+  // Whose transposed rows change: those that are or were their neighbours.
+  std::vector<char> touched(static_cast<std::size_t>(nodes), 0);
+  const auto touch = [&](Index b) { touched[static_cast<std::size_t>(b)] = 1; };
+  std::vector<char> wanted(static_cast<std::size_t>(size_), 0);
+  for (const Index a : changed) {
+    wanted[static_cast<std::size_t>(a)] = 1;
+    touch(a);
+    for_each_entry(a, [&](Index b, const double*) { touch(b); });
+    std::ranges::for_each(rows.neighbours(a), touch);
+  }
+  const std::vector<char> forward_blocks = whole_blocks(wanted, block_rows);
+  const std::vector<char> transposed_blocks = whole_blocks(touched, block_rows);
+  // Whose rows have entries in theirs.
+  std::vector<char> is_source = wanted;
+  for (std::size_t block = 0; block < transposed_blocks.size(); ++block) {
+    if (transposed_blocks[block] == 0) continue;
+    detail::for_each_id(transposed_, block,
+                        [&](Index a) { is_source[static_cast<std::size_t>(a)] = 1; });
+  }
+  std::vector<Index> sources;
+  for (Index a = 0; a < size_; ++a) {
+    const bool own = touched[static_cast<std::size_t>(a)] != 0;
+    if (own || is_source[static_cast<std::size_t>(a)] != 0) sources.push_back(a);
+  }
+
+  detail::WeightedRows weighted =
+      weigh<Dim>(rows, ghosts_, channels_, correction, wanted, {first_moment_, second_moment_});
+  forward_ = detail::segment_anew(forward_, weighted, forward_blocks, block_rows, nodes);
+  weighted = detail::transpose_part(sources, touched, channel_count(), summed_channels(),
+                                    [&](Index a, const auto& visit) { for_each_entry(a, visit); });
+  transposed_ = detail::segment_anew(transposed_, weighted, transposed_blocks, block_rows, size_);
 }
 
 template <int Dim>
@@ -141,14 +204,14 @@ void MomentOperator<Dim>::gather(Index block, const double* extended, double* mo
   const detail::KernelRows rows{segments + forward_.block_begin[b],
                                 segments + forward_.block_begin[b + 1], forward_.ids.data(),
                                 forward_.weights.data()};
-  detail::gather_kernel<Dim>(channels_)(rows, extended, stride(), block_first(block), moments,
-                                        block_stride);
+  detail::kernels<Dim>(channels_).gather(rows, extended, stride(), block_first(block), moments,
+                                         block_stride);
 }
 
 template <int Dim>
 void MomentOperator<Dim>::scatter(const double* stress, const double* v, const double* x,
                                   double* force) const {
-  const auto kernel = detail::scatter_kernel<Dim>(channels_);
+  const auto kernel = detail::kernels<Dim>(channels_).scatter;
   const auto* segments = transposed_.segments.data();
   const auto blocks = static_cast<Index>(transposed_.block_begin.size()) - 1;
 #pragma omp parallel for schedule(static)
@@ -166,7 +229,7 @@ template <int Dim>
 double MomentOperator<Dim>::shared_share() const {
   double shared = 0.0;
   for (const auto& segment : forward_.segments) {
-    if (segment.shared) shared += segment.count;
+    if (segment.kind == SegmentedRows::Kind::shared) shared += segment.count;
   }
   return size_ == 0 ? 0.0 : shared / size_;
 }

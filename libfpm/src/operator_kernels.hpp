@@ -21,9 +21,19 @@ using GatherKernel = void (*)(const KernelRows& rows, const double* field, std::
 using ScatterKernel = void (*)(const KernelRows& rows, const double* stress, const double* v,
                                const double* x, std::ptrdiff_t stride, double* force);
 
+struct Kernels {
+  GatherKernel gather = nullptr;
+  ScatterKernel scatter = nullptr;
+};
+
+/// What kernels are compiled for; `narrow` is whatever the compiler's options allow.
+enum class InstructionSet { narrow, avx2, avx512 };
+
+/// The widest that this processor and this build have.
+InstructionSet widest_instruction_set();
+
+/// The kernels of some channels.
 template <int Dim>
-GatherKernel gather_kernel(Channels channels);
-template <int Dim>
-ScatterKernel scatter_kernel(Channels channels);
+Kernels kernels(Channels channels, InstructionSet set = widest_instruction_set());
 
 }  // namespace fpm::detail

@@ -35,7 +35,7 @@ TEST(Arrays, ListEveryArrayOnce) {
   expect_all_listed<StepArrays<3>>(load);
   expect_all_listed<EvaluationArrays<2>>(0);
   expect_all_listed<EvaluationArrays<3>>(0);
-  expect_all_listed<TangentArrays>(0);
+  expect_all_listed<TangentArrays>(sizeof(double));  // its unit
 }
 
 template <class Arrays>
@@ -50,7 +50,7 @@ void expect_allocated() {
         EXPECT_EQ(array.rows(), rows) << name;
         EXPECT_EQ(array.cols(), columns) << name;
         EXPECT_TRUE((array.array() == 0.0).all()) << name;
-        bytes += static_cast<std::size_t>(rows * columns) * sizeof(double);
+        bytes += static_cast<std::size_t>(rows * columns) * sizeof(*array.data());
       });
   EXPECT_GT(bytes, 0U);
   EXPECT_EQ(bytes_of(arrays), bytes);

@@ -18,32 +18,39 @@ namespace {
 using constitutive::PointState;
 using constitutive::SpatialMatrix;
 using constitutive::StressVector;
-using equilibrium::lane_count;
 using equilibrium::LaneMask;
-using equilibrium::Lanes;
 
 // The compiler may contract a * b + c in one of the two and not in the other: a few roundings.
 constexpr double tolerance = 16 * points::eps;
 
-template <class Function>
-Lanes make_lanes(Function&& value) {
-  std::array<double, lane_count> values;
-  for (int lane = 0; lane < lane_count; ++lane) {
-    values[static_cast<std::size_t>(lane)] = value(lane);
+/// Of either width; the wider is compiled for processors that have registers for it.
+template <class Width>
+class Lanes : public testing::Test {
+ protected:
+  void SetUp() override {
+#ifdef EQUILIBRIUM_WIDE_LOOPS
+    if (Width::value == 8 && !__builtin_cpu_supports("x86-64-v4")) GTEST_SKIP() << "no AVX-512";
+#endif
   }
-  return equilibrium::load<Lanes>(values.data());
+};
+using Widths = testing::Types<std::integral_constant<int, 4>, std::integral_constant<int, 8>>;
+TYPED_TEST_SUITE(Lanes, Widths);
+
+template <int Width, class Function>
+equilibrium::Lanes<Width> make_lanes(Function&& value) {
+  std::array<double, Width> values;
+  for (int lane = 0; lane < Width; ++lane) values[static_cast<std::size_t>(lane)] = value(lane);
+  return equilibrium::load<equilibrium::Lanes<Width>>(values.data());
 }
 
-Lanes lanes_of(const std::array<double, lane_count>& values) {
-  return equilibrium::load<Lanes>(values.data());
-}
-
-TEST(Lanes, ComputeCompareAndSelectLaneByLane) {
+TYPED_TEST(Lanes, ComputeCompareAndSelectLaneByLane) {
+  constexpr int lane_count = TypeParam::value;
   const double infinity = std::numeric_limits<double>::infinity();
-  const std::array<double, lane_count> x{-2.0, 0.0, 9.0, infinity};
-  const std::array<double, lane_count> y{3.0, -1.0, 9.0, 2.0};
-  const Lanes a = lanes_of(x), b = lanes_of(y);
-  const LaneMask less = a < b;
+  const std::array<double, 8> x{-2.0, 0.0, 9.0, infinity, 1.0, -infinity, 0.5, -7.0};
+  const std::array<double, 8> y{3.0, -1.0, 9.0, 2.0, 1.5, 4.0, -0.5, -7.0};
+  const auto a = equilibrium::load<equilibrium::Lanes<lane_count>>(x.data());
+  const auto b = equilibrium::load<equilibrium::Lanes<lane_count>>(y.data());
+  const LaneMask<lane_count> less = a < b;
   for (int lane = 0; lane < lane_count; ++lane) {
     const double p = x[static_cast<std::size_t>(lane)], q = y[static_cast<std::size_t>(lane)];
     EXPECT_EQ((a + b)[lane], p + q);
@@ -66,15 +73,16 @@ TEST(Lanes, ComputeCompareAndSelectLaneByLane) {
   }
   EXPECT_TRUE(any(less));
   EXPECT_FALSE(any(a < a));
-  EXPECT_FALSE(any(is_finite(Lanes(std::numeric_limits<double>::quiet_NaN()))));
+  EXPECT_FALSE(any(is_finite(a * std::numeric_limits<double>::quiet_NaN())));
 }
 
-TEST(Lanes, AreReadFromColumnsOfAnyHeightAndWrittenBack) {
+TYPED_TEST(Lanes, AreReadFromColumnsOfAnyHeightAndWrittenBack) {
+  constexpr int lane_count = TypeParam::value;
   const auto check = [](auto height) {
     constexpr int count = height();
     std::vector<double> columns(static_cast<std::size_t>(count * lane_count));
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = static_cast<double>(i);
-    std::array<Lanes, static_cast<std::size_t>(count)> rows;
+    std::array<equilibrium::Lanes<lane_count>, static_cast<std::size_t>(count)> rows;
     equilibrium::load_columns<count>(columns.data(), rows.data());
     for (int k = 0; k < count; ++k) {
       for (int lane = 0; lane < lane_count; ++lane) {
@@ -89,20 +97,33 @@ TEST(Lanes, AreReadFromColumnsOfAnyHeightAndWrittenBack) {
     EXPECT_EQ(line[lane_count + 1], 0.0);
   };
   check(std::integral_constant<int, 2>());
+  check(std::integral_constant<int, 3>());
   check(std::integral_constant<int, 4>());
   check(std::integral_constant<int, 6>());
   check(std::integral_constant<int, 9>());
   check(std::integral_constant<int, 16>());
 }
 
-template <int Dim, class Material>
+TYPED_TEST(Lanes, AreKeptInSinglePrecision) {
+  constexpr int lane_count = TypeParam::value;
+  std::array<float, lane_count + 1> line{};
+  const auto thirds = make_lanes<lane_count>([](int lane) { return (lane + 1) / 3.0; });
+  equilibrium::store(line.data() + 1, thirds);
+  const auto again = equilibrium::load<equilibrium::Lanes<lane_count>>(line.data() + 1);
+  for (int lane = 0; lane < lane_count; ++lane) {
+    EXPECT_EQ(again[lane], static_cast<float>((lane + 1) / 3.0));
+  }
+  EXPECT_EQ(line[0], 0.0F);
+}
+
+template <int Dim, int lane_count, class Material>
 void expect_lanes_update_like_points(const Material& material, double cohesion) {
   points::RandomStress<Dim> stress(cohesion);
   int elastic = 0, cone = 0, apex = 0, failed = 0;
   for (int sample = 0; sample < 500; ++sample) {
     std::array<StressVector<Dim>, lane_count> trial;
     std::array<PointState<Dim>, lane_count> s0;
-    PointState<Dim, Lanes> wide0, wide1;
+    PointState<Dim, equilibrium::Lanes<lane_count>> wide0, wide1;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       trial[lane] = stress();
       if ((sample + static_cast<int>(lane)) % 7 == 0) {
@@ -114,9 +135,10 @@ void expect_lanes_update_like_points(const Material& material, double cohesion) 
       s0[lane].plastic_volume_strain = 0.02 * static_cast<double>(lane);  // cut-off at 0.05
     }
     const auto gather = [&](auto&& value) {
-      return make_lanes([&](int lane) { return value(static_cast<std::size_t>(lane)); });
+      return make_lanes<lane_count>(
+          [&](int lane) { return value(static_cast<std::size_t>(lane)); });
     };
-    StressVector<Dim, Lanes> wide_trial;
+    StressVector<Dim, equilibrium::Lanes<lane_count>> wide_trial;
     for (int row = 0; row < constitutive::stress_size<Dim>; ++row) {
       wide_trial[row] = gather([&](std::size_t lane) { return trial[lane][row]; });
       wide0.stress[row] = gather([&](std::size_t lane) { return s0[lane].stress[row]; });
@@ -148,16 +170,16 @@ void expect_lanes_update_like_points(const Material& material, double cohesion) 
   EXPECT_GT(apex, 100);
 }
 
-TEST(Lanes, UpdateStressesAsPointsOfTheirOwnDo) {
+TYPED_TEST(Lanes, UpdateStressesAsPointsOfTheirOwnDo) {
   auto soil = points::soil("drucker_prager", 30, 15);
   soil.dilation_cutoff = 0.05;
   const auto material = constitutive::make_material(soil);
   const auto& cone = std::get<constitutive::DruckerPrager>(material);
-  expect_lanes_update_like_points<2>(cone, soil.cohesion);
-  expect_lanes_update_like_points<3>(cone, soil.cohesion);
+  expect_lanes_update_like_points<2, TypeParam::value>(cone, soil.cohesion);
+  expect_lanes_update_like_points<3, TypeParam::value>(cone, soil.cohesion);
 }
 
-template <int Dim>
+template <int Dim, int lane_count>
 void expect_lanes_move_like_points() {
   std::srand(1);
   const auto near_identity = [] {
@@ -165,7 +187,7 @@ void expect_lanes_move_like_points() {
   };
   for (int sample = 0; sample < 100; ++sample) {
     std::array<SpatialMatrix<Dim>, lane_count> change, direction;
-    SpatialMatrix<Dim, Lanes> wide_change, wide_direction;
+    SpatialMatrix<Dim, equilibrium::Lanes<lane_count>> wide_change, wide_direction;
     for (std::size_t k = 0; k < lane_count; ++k) {
       change[k] = near_identity();
       if (sample % 10 == 0 && k == 1) change[k] = -change[k];  // an inverted neighbour
@@ -173,7 +195,8 @@ void expect_lanes_move_like_points() {
     }
     for (int e = 0; e < Dim * Dim; ++e) {
       const auto entry = [&](const auto& of) {
-        return make_lanes([&](int lane) { return of[static_cast<std::size_t>(lane)].data()[e]; });
+        return make_lanes<lane_count>(
+            [&](int lane) { return of[static_cast<std::size_t>(lane)].data()[e]; });
       };
       wide_change.data()[e] = entry(change);
       wide_direction.data()[e] = entry(direction);
@@ -198,9 +221,9 @@ void expect_lanes_move_like_points() {
   }
 }
 
-TEST(Lanes, MoveAsPointsOfTheirOwnDo) {
-  expect_lanes_move_like_points<2>();
-  expect_lanes_move_like_points<3>();
+TYPED_TEST(Lanes, MoveAsPointsOfTheirOwnDo) {
+  expect_lanes_move_like_points<2, TypeParam::value>();
+  expect_lanes_move_like_points<3, TypeParam::value>();
 }
 
 }  // namespace

@@ -27,6 +27,9 @@ void write_file(const std::filesystem::path& path, std::span<const char> rest) {
   put_number("/meta/schema", record::checkpoint_schema);
   put_number("/meta/dimension", 2);
   put_number("/state/programme/step", 6);
+  put_number("/state/programme/stage", 0);
+  const double progress = 0.6;
+  file.write<double>("/state/programme/progress", std::span(&progress, 1), {1});
   for (const char* name : {"/meta/scene", "/meta/materials", "/meta/lineage", "/history/curve"}) {
     file.write_text(name, next_text(rest));
   }

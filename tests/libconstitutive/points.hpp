@@ -14,9 +14,23 @@ namespace points {
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 
+/// London clay, nearly: lambda and kappa per volume strain, E and nu of its shear modulus.
+inline constitutive::MaterialParameters clay() {
+  constitutive::MaterialParameters p;
+  p.model = "modified_cam_clay";
+  p.youngs_modulus = 8e6;
+  p.poissons_ratio = 0.3;
+  p.compression_index = 0.08;
+  p.swelling_index = 0.03;
+  p.critical_stress_ratio = 0.9;
+  p.preconsolidation_pressure = 200e3;
+  return p;
+}
+
 inline constitutive::MaterialParameters soil(const std::string& model, double phi = 20,
                                              double psi = 10) {
   constitutive::MaterialParameters p;
+  if (model == "modified_cam_clay") return clay();
   p.model = model;
   p.youngs_modulus = 5e6;
   p.poissons_ratio = 0.4;

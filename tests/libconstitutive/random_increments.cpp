@@ -1,8 +1,8 @@
 // random_increments N: N random strain increments, up to 100 % strain each, on every model and on
-// parameters drawn anew every thousand. What must hold of any rate-independent, perfectly plastic
-// law is checked without knowing the law: no update fails, the stress returned is admissible (to be
-// returned once more changes it by round-off only), plastic strain grows, the plastic work is not
-// negative. Prints a line per model; exit code 1 if one fails.
+// parameters drawn anew every thousand. What must hold of any rate-independent law is checked
+// without knowing the law: no update fails, the stress returned is admissible (to be returned once
+// more changes it by round-off only), plastic strain grows, the plastic work is not negative.
+// Prints a line per model; exit code 1 if one fails.
 
 #include <cmath>
 #include <cstdio>
@@ -30,6 +30,14 @@ MaterialParameters drawn(const ModelInfo& model, std::mt19937_64& engine) {
   p.model = model.name;
   p.youngs_modulus = std::pow(10, 5 + 5 * share(engine));
   p.poissons_ratio = -0.5 + 0.99 * share(engine);
+  if (model.critical_state) {
+    p.poissons_ratio = 0.4 * share(engine);
+    p.compression_index = std::pow(10, -1.5 + 1.2 * share(engine));
+    p.swelling_index = p.compression_index * (0.05 + 0.55 * share(engine));
+    p.critical_stress_ratio = 0.3 + 1.5 * share(engine);
+    p.preconsolidation_pressure = std::pow(10, 3 + 4 * share(engine));
+    return p;
+  }
   if (model.yields) p.cohesion = std::pow(10, 1 + 5 * share(engine));
   if (model.frictional) {
     p.friction_angle = 50 * share(engine);
@@ -38,6 +46,13 @@ MaterialParameters drawn(const ModelInfo& model, std::mt19937_64& engine) {
   // Every other material has a tension cut-off, from none at all to beyond the apex.
   if (model.yields && share(engine) < 0.5) {
     p.tension_cutoff = share(engine) < 0.2 ? 0 : 3 * share(engine) * p.cohesion;
+  }
+  if (model.yields && !std::isfinite(p.tension_cutoff) && share(engine) < 0.5) {
+    p.residual_strain = std::pow(10, -3 + 3 * share(engine));
+    p.residual_cohesion = (0.1 + 2 * share(engine)) * p.cohesion;
+    if (model.frictional) {
+      p.residual_friction_angle = p.dilation_angle + (50 - p.dilation_angle) * share(engine);
+    }
   }
   return p;
 }
@@ -51,13 +66,13 @@ struct Tally {
 /// One increment from `s`; `s` becomes its end.
 template <int Dim>
 void step(const Material& material, double allowed, const StrainVector<Dim>& increment,
-          PointState<Dim>& s, Tally& tally) {
+          const PointState<Dim>& begin, PointState<Dim>& s, Tally& tally) {
   const PointState<Dim> s0 = s;
   const StressVector<Dim> trial = s0.stress + elastic_stress<Dim>(moduli(material), increment);
   const UpdateOutcome outcome = update(material, trial, s0, s);
   if (outcome.failed || !s.stress.allFinite()) {
     ++tally.failed;
-    s = PointState<Dim>{};
+    s = begin;
     return;
   }
   tally.plastic += outcome.plastic ? 1 : 0;
@@ -69,11 +84,12 @@ void step(const Material& material, double allowed, const StrainVector<Dim>& inc
   const double excess = (again.stress - s.stress).norm();
   if (scale > 0) tally.worst = std::max(tally.worst, excess / scale);
   if (excess > scale) ++tally.inadmissible;
-  // D^-1 (trial - stress) is the plastic strain; its work on the stress at the end.
+  // The deviator of D^-1 (trial - stress) is that of the plastic strain, whose volume the state
+  // has; its work on the stress at the end.
   const StressVector<Dim> removed = trial - s.stress;
   const ElasticModuli& m = moduli(material);
   const double work = contract(s.stress, deviator(removed)) / (2 * m.shear) +
-                      mean_stress(s.stress) * mean_stress(removed) / m.bulk;
+                      mean_stress(s.stress) * (s.plastic_volume_strain - s0.plastic_volume_strain);
   // Both are as exact as the trial's size lets a difference be; without tension the work is 0.
   const double largest =
       (trial.norm() + s.stress.norm()) * s.stress.norm() * (1 / m.shear + 1 / m.bulk);
@@ -92,12 +108,14 @@ Tally walk(const ModelInfo& model, long increments) {
   for (long done = 0; done < increments;) {
     const MaterialParameters p = drawn(model, engine);
     const Material material = make_material(p);
-    PointState<Dim> s;
+    PointState<Dim> begin;
+    if (model.critical_state) begin.stress = isotropic<Dim>(-0.7 * p.preconsolidation_pressure);
+    PointState<Dim> s = begin;
     for (long k = 0; k < of_one_material && done < increments; ++k, ++done) {
       StrainVector<Dim> increment;
       for (double& row : increment) row = normal(engine);
       increment *= std::pow(10, decades(engine)) / increment.norm();
-      step<Dim>(material, condition(p, model), increment, s, tally);
+      step<Dim>(material, condition(p, model), increment, begin, s, tally);
     }
   }
   return tally;

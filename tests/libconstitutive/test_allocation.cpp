@@ -56,10 +56,17 @@ void evaluate(const Material& material, const StressVector<Dim>& stress) {
 
 TEST(HotFunctions, DoNotAllocate) {
   const auto cone = std::get<DruckerPrager>(make_material(points::soil("drucker_prager")));
-  for (const MaterialParameters& p : points::plastic_soils()) {
+  std::vector<MaterialParameters> soils = points::plastic_soils();
+  soils.push_back(points::clay());
+  MaterialParameters softening = points::soil("mohr_coulomb");
+  softening.residual_strain = 0.1;
+  softening.residual_cohesion = 1e3;
+  soils.push_back(softening);
+  for (const MaterialParameters& p : soils) {
     const Material material = make_material(p);
-    points::RandomStress<2> flat(3 * p.cohesion);
-    points::RandomStress<3> solid(3 * p.cohesion);
+    const double size = 3 * std::max(p.cohesion, 1e4);
+    points::RandomStress<2> flat(size);
+    points::RandomStress<3> solid(size);
     const long before = allocations;
     for (int i = 0; i < 100; ++i) {
       evaluate<2>(material, flat());

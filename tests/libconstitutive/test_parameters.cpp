@@ -81,6 +81,61 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"dilation_cutoff", [](MaterialParameters& p) { p.dilation_cutoff = std::nan(""); }},
         Refusal{"model", [](MaterialParameters& p) { p.model = "cam_clay"; }}));
 
+class RefusedResiduals : public testing::TestWithParam<Refusal> {};
+
+TEST_P(RefusedResiduals, AreNamedInOneMessage) {
+  MaterialParameters p = points::soil("mohr_coulomb");
+  p.residual_strain = 0.1;
+  p.residual_cohesion = 5e3;
+  p.residual_friction_angle = 15;
+  ASSERT_THAT(validate(p), IsEmpty());
+  GetParam().spoil(p);
+  EXPECT_THAT(validate(p), ElementsAre(StartsWith(GetParam().field)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, RefusedResiduals,
+    testing::Values(
+        Refusal{"residual_strain", [](MaterialParameters& p) { p.residual_strain = 0; }},
+        Refusal{"residual_strain", [](MaterialParameters& p) { p.residual_strain = std::nan(""); }},
+        Refusal{"residual_cohesion", [](MaterialParameters& p) { p.residual_cohesion = -1; }},
+        Refusal{"residual_friction_angle",
+                [](MaterialParameters& p) { p.residual_friction_angle = 90; }},
+        Refusal{"residual_friction_angle",
+                [](MaterialParameters& p) { p.residual_friction_angle = 9; }},
+        Refusal{"residual_cohesion",
+                [](MaterialParameters& p) {
+                  p.residual_cohesion = p.residual_friction_angle = p.dilation_angle = 0;
+                }},
+        Refusal{"residual_cohesion",
+                [](MaterialParameters& p) {
+                  p.residual_strain = p.residual_friction_angle = infinity;
+                }},
+        Refusal{"residual_strain",
+                [](MaterialParameters& p) {
+                  p.residual_cohesion = p.residual_friction_angle = infinity;
+                }},
+        Refusal{"tension_cutoff", [](MaterialParameters& p) { p.tension_cutoff = 0; }}));
+
+class RefusedClay : public testing::TestWithParam<Refusal> {};
+
+TEST_P(RefusedClay, IsNamedInOneMessage) {
+  MaterialParameters p = points::clay();
+  GetParam().spoil(p);
+  EXPECT_THAT(validate(p), ElementsAre(StartsWith(GetParam().field)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, RefusedClay,
+    testing::Values(
+        Refusal{"compression_index", [](MaterialParameters& p) { p.compression_index = infinity; }},
+        Refusal{"swelling_index", [](MaterialParameters& p) { p.swelling_index = 0; }},
+        Refusal{"swelling_index", [](MaterialParameters& p) { p.swelling_index = 0.08; }},
+        Refusal{"critical_stress_ratio",
+                [](MaterialParameters& p) { p.critical_stress_ratio = 3; }},
+        Refusal{"preconsolidation_pressure",
+                [](MaterialParameters& p) { p.preconsolidation_pressure = 0; }}));
+
 TEST(MaterialParameters, ReportAllProblemsAtOnce) {
   MaterialParameters p;
   p.model = "clay";
@@ -131,8 +186,8 @@ TEST(MaterialParameters, ListEveryFieldOnce) {
     names.insert(name);
     ++fields;
   });
-  EXPECT_EQ(fields, 9);
-  EXPECT_EQ(names.size(), 9u);
+  EXPECT_EQ(fields, 16);
+  EXPECT_EQ(names.size(), 16u);
 }
 
 TEST(Version, IsThatOfTheCMakePackage) {

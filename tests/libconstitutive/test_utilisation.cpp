@@ -16,7 +16,8 @@ TEST(Utilisation, IsOneWhereAMaterialYields) {
     for (int i = 0; i < 200; ++i) {
       PointState<2> s0, s1;
       const UpdateOutcome outcome = update<2>(material, random(), s0, s1);
-      const double used = utilisation<2>(material, s1.stress, s0.plastic_volume_strain);
+      const double used =
+          utilisation<2>(material, s1.stress, s0.plastic_volume_strain, s0.plastic_strain);
       if (outcome.plastic) {
         // Near the apex the strength is the difference of two large numbers.
         EXPECT_NEAR(used, 1.0, 1e-6) << points::label(p);
@@ -36,19 +37,19 @@ TEST(Utilisation, IsTheShareOfTheShearStrength) {
   const double mean = -20e3, strength = 10e3 * std::sqrt(0.75) + 20e3 * 0.5;
   StressVector<2> stress;
   stress << mean + 0.25 * strength, mean - 0.25 * strength, mean, 0.0;
-  EXPECT_NEAR(utilisation<2>(make_material(p), stress, 0.0), 0.25, 1e-12);
+  EXPECT_NEAR(utilisation<2>(make_material(p), stress, 0.0, 0.0), 0.25, 1e-12);
   p = points::soil("von_mises");
   stress << 0.3 * p.cohesion, -0.3 * p.cohesion, 0.0, 0.0;
-  EXPECT_NEAR(utilisation<2>(make_material(p), stress, 0.0), 0.3, 1e-12);
+  EXPECT_NEAR(utilisation<2>(make_material(p), stress, 0.0, 0.0), 0.3, 1e-12);
   p.model = "elastic";
-  EXPECT_EQ(utilisation<2>(make_material(p), stress, 0.0), 0.0);
+  EXPECT_EQ(utilisation<2>(make_material(p), stress, 0.0, 0.0), 0.0);
 }
 
 // Beyond the apex nothing is borne.
 TEST(Utilisation, IsOneBeyondTheApex) {
   StressVector<2> tension = isotropic<2>(1e6);
   for (const char* model : {"drucker_prager", "mohr_coulomb"}) {
-    EXPECT_EQ(utilisation<2>(make_material(points::soil(model)), tension, 0.0), 1.0) << model;
+    EXPECT_EQ(utilisation<2>(make_material(points::soil(model)), tension, 0.0, 0.0), 1.0) << model;
   }
 }
 

@@ -33,6 +33,18 @@ Path frictional(const std::string& model, double phi, double psi, std::vector<St
   return path;
 }
 
+constexpr double lambda = 0.09, kappa = 0.02, slope = 1.1, preconsolidation = 200e3;
+
+Path clay(std::vector<Stage> stages) {
+  Path path = path_of("modified_cam_clay", std::move(stages));
+  path.material.compression_index = lambda;
+  path.material.swelling_index = kappa;
+  path.material.critical_stress_ratio = slope;
+  path.material.preconsolidation_pressure = preconsolidation;
+  path.initial_stress.assign(3, -100e3);
+  return path;
+}
+
 Stage stage(TestKind test, double amount, int steps = 100) {
   Stage one;
   one.test = test;
@@ -117,6 +129,107 @@ TEST(DruckerPrager, MatchedInCompressionHasMohrCoulombsStrengthThere) {
   EXPECT_NEAR(cone, corners, tolerance * std::abs(corners));
 }
 
+// sigma_1 = N sigma_3 + 2 c sqrt(N) with the strength at k. Plane strain with psi = 0: plastic
+// strains e_1 = -e_3, of which k = 2 / sqrt 3, and none along zz; elastic ones by (1 - nu^2) / E
+// and the lateral stress, which stays.
+TEST(SofteningMohrCoulomb, FollowsItsStrengthInPlaneStrainCompression) {
+  const double cell = 50e3, c = 20e3, residual_c = 4e3, phi = 35.0, residual_phi = 25.0,
+               over = 0.04;
+  Path path =
+      frictional("mohr_coulomb", phi, 0.0,
+                 {stage(TestKind::isotropic, cell, 2), stage(TestKind::plane_strain, 0.06, 200)});
+  path.material.cohesion = c;
+  path.material.residual_strain = over;
+  path.material.residual_cohesion = residual_c;
+  path.material.residual_friction_angle = residual_phi;
+  const Course course = followed(path);
+  ASSERT_THAT(course.obstacle, IsEmpty());
+  int softening = 0, residual = 0;
+  const Point* begin = nullptr;
+  for (const Point& point : course.points) {
+    if (point.stage == 1 && point.step == 0) begin = &point;
+    if (point.stage == 0 || !point.plastic) continue;
+    const double k = point.state.plastic_strain, share = std::min(1.0, k / over);
+    const double angle = degrees(phi + share * (residual_phi - phi));
+    const double n = std::pow(std::tan(degrees(45.0) + angle / 2.0), 2);
+    const double strength = n * cell + 2.0 * (c + share * (residual_c - c)) * std::sqrt(n);
+    EXPECT_NEAR(-point.state.stress[1], strength, tolerance * strength) << k;
+    const double axial = begin->strain[1] - point.strain[1];
+    const double elastic = (1.0 - poisson * poisson) * (strength - cell) / young;
+    EXPECT_NEAR(k, 2.0 / std::sqrt(3.0) * (axial - elastic), tolerance) << "axial " << axial;
+    (k < over ? softening : residual) += 1;
+  }
+  EXPECT_GT(softening, 50);
+  EXPECT_GT(residual, 20);
+}
+
+// tau = c(k), k = (gamma - tau / mu) / sqrt 3.
+TEST(SofteningVonMises, FollowsItsStrengthInSimpleShear) {
+  Path path = path_of("von_mises", {stage(TestKind::simple_shear, 0.08, 40)});
+  path.material.cohesion = 25e3;
+  path.material.residual_strain = 0.03;
+  path.material.residual_cohesion = 10e3;
+  const double shear_modulus = young / (2.0 * (1.0 + poisson));
+  int softening = 0;
+  for (const Point& point : followed(path).points) {
+    if (!point.plastic) continue;
+    const double k = (point.strain[3] - point.state.stress[3] / shear_modulus) / std::sqrt(3.0);
+    EXPECT_NEAR(point.state.plastic_strain, k, tolerance);
+    const double strength = 25e3 - 15e3 * std::min(1.0, k / 0.03);
+    EXPECT_NEAR(point.state.stress[3], strength, tolerance * 25e3) << k;
+    softening += k < 0.03 ? 1 : 0;
+  }
+  EXPECT_GT(softening, 20);
+}
+
+// lambda ln p on the way up, kappa ln p on the way back.
+TEST(ModifiedCamClay, FollowsItsLinesOfIsotropicCompression) {
+  const Course course = followed(
+      clay({stage(TestKind::isotropic, 300e3, 30), stage(TestKind::isotropic, -200e3, 10)}));
+  const double up =
+      kappa * std::log(preconsolidation / 100e3) + lambda * std::log(400e3 / preconsolidation);
+  for (const Point& point : course.points) {
+    if (point.stage == 0 && point.step == 30) {
+      EXPECT_NEAR(constitutive::trace(point.strain), -up, tolerance);
+    }
+  }
+  EXPECT_NEAR(constitutive::trace(end_of(course).strain), -up + kappa * std::log(2.0), tolerance);
+}
+
+// q_f = M p_f, p_f = p_0 (R / 2)^((lambda - kappa) / lambda): the volume stays, and the way to the
+// critical state ends exponentially with the strain.
+TEST(ModifiedCamClay, EndsUndrainedTriaxialTestsInTheCriticalState) {
+  for (const double ratio : {1.0, 4.0}) {
+    Stage undrained;
+    undrained.control.assign(6, Control::strain);
+    undrained.change = {0.25, -0.5, 0.25, 0.0, 0.0, 0.0};
+    undrained.steps = 500;
+    Path path = clay({undrained});
+    path.initial_stress.assign(3, -preconsolidation / ratio);
+    const Stress stress = end_of(followed(path)).state.stress;
+    const double expected =
+        preconsolidation / ratio * std::pow(ratio / 2.0, (lambda - kappa) / lambda);
+    EXPECT_NEAR(-constitutive::mean_stress(stress), expected, tolerance * expected) << ratio;
+    EXPECT_NEAR(stress[0] - stress[1], slope * expected, tolerance * expected) << ratio;
+  }
+}
+
+// With a constant lateral stress q = 3 (p - p_cell): q_f = M p_f where p_f = 3 p_cell / (3 - M), at
+// the volume of p_c = 2 p_f.
+TEST(ModifiedCamClay, EndsDrainedTriaxialTestsInTheCriticalState) {
+  for (const double ratio : {1.0, 8.0}) {
+    const double cell = preconsolidation / ratio, end = 3.0 * cell / (3.0 - slope);
+    Path path = clay({stage(TestKind::triaxial_compression, 3.0, 3000)});
+    path.initial_stress.assign(3, -cell);
+    const Course course = followed(path);
+    const Point& last = end_of(course);
+    EXPECT_NEAR(-constitutive::mean_stress(last.state.stress), end, 1e-6 * end) << ratio;
+    const double volume =
+        kappa * std::log(end / cell) + (lambda - kappa) * std::log(2.0 * end / preconsolidation);
+    EXPECT_NEAR(constitutive::trace(last.strain), -volume, 1e-6) << ratio;
+  }
+}
+
 TEST(VonMises, ComesToItsStrengthInSimpleShear) {
   Path path = path_of("von_mises", {stage(TestKind::simple_shear, 0.1)});
   path.material.cohesion = 25e3;
@@ -195,10 +308,12 @@ TEST(TheTangent, StandsUpToDifferencesOfEveryModelAndAFaultOfItIsSeen) {
     p.poissons_ratio = poisson;
     if (model.yields) p.cohesion = 10e3;
     if (model.frictional) p.friction_angle = 25.0, p.dilation_angle = 10.0;
+    if (model.critical_state) p = parameters_of(clay({}));
     const constitutive::Material made = constitutive::make_material(p);
     int smooth = 0;
     for (int trial = 0; trial < 200; ++trial) {
       State begin;
+      if (model.critical_state) begin.stress.head<3>().setConstant(-100e3);
       Strain increment;
       for (double& row : increment) row = 2e-3 * normal(engine);
       const Stress stress =

@@ -68,6 +68,33 @@ TEST(APathFile, StrainsAConeOfPlaneStrainInThePlaneOnly) {
   EXPECT_TRUE(read_path(sand + plane, "path.toml", cone).path.has_value());
 }
 
+TEST(APathFile, AsksOfAClayWhatItsStatesNeed) {
+  const std::string clay = R"(
+initial_stress = [-1e5, -1e5, -1e5]
+[material]
+model = "modified_cam_clay"
+youngs_modulus = 8e6
+poissons_ratio = 0.3
+compression_index = 0.1
+swelling_index = 0.02
+critical_stress_ratio = 1.0
+preconsolidation_pressure = 1e5
+)";
+  EXPECT_TRUE(read_path(clay + shear, "path.toml").path.has_value());
+  EXPECT_THAT(complaint_of(clay + shear, {"initial_stress=[0, 0, 1]"}),
+              HasSubstr("begins with a mean stress below zero"));
+  EXPECT_THAT(complaint_of(clay + shear, {"material.swelling_index=0.1"}),
+              HasSubstr("it must be below the compression index, 0.1"));
+  EXPECT_THAT(complaint_of(clay + shear, {"material.cohesion=1e3"}),
+              HasSubstr("it has no effect on the model modified_cam_clay"));
+  std::string without = clay;
+  const std::string line = "compression_index = 0.1\n";
+  without.erase(without.find(line), line.size());
+  EXPECT_THAT(complaint_of(without + shear),
+              HasSubstr("material.compression_index: is missing; the model modified_cam_clay needs "
+                        "it"));
+}
+
 TEST(ATest, PrescribesWhatItsNameSays) {
   Stage stage;
   stage.test = TestKind::plane_strain;
@@ -91,6 +118,9 @@ TEST(SharedPaths, EndWhereTheySay) {
   const Stress triaxial = end_of("triaxial.toml").state.stress;
   EXPECT_NEAR(triaxial[1] / triaxial[0], 4.599, 5e-4);
   EXPECT_NEAR(end_of("simple_shear.toml").state.stress[3], 25e3, 1.0);
+  const Stress clay = end_of("cam_clay.toml").state.stress;
+  EXPECT_NEAR(-constitutive::mean_stress(clay), 114.87e3, 5.0);
+  EXPECT_NEAR(clay[0] - clay[1], 114.87e3, 5.0);
 }
 
 TEST(TheReport, HasALineAPointAndACurveAStage) {

@@ -90,6 +90,16 @@ TEST(Laws, OfFacesChangeFromPlaceToPlaceAsWell) {
   EXPECT_EQ(points, uniform.interface_points());
 }
 
+// A face cannot harden: ground whose strength changes is not held to what it bears at first.
+TEST(Laws, OfFacesDoNotSlideAtAStrengthThatChanges) {
+  const std::vector<std::string> one{"material.0.residual_strain=0.1",
+                                     "material.0.residual_cohesion=3e3"};
+  EXPECT_EQ(model_of(one).interfaces[0].law.adhesion, 2e3) << "that of the other";
+  std::vector<std::string> both = one;
+  both.insert(both.end(), {"material.1.residual_strain=0.1", "material.1.residual_cohesion=3e3"});
+  EXPECT_TRUE(model_of(both).interfaces[0].law.tied);
+}
+
 // Pure shear of 400 Pa, as a share of what each place bears.
 TEST(Laws, SayHowMuchOfTheirStrengthIsUsed) {
   const Model<2> model =

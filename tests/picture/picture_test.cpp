@@ -51,6 +51,15 @@ TEST(Picture, PutsEqualDifferencesAtEqualDistancesOnLinearAxes) {
   EXPECT_NEAR(marks[1].y - marks[0].y, marks[2].y - marks[1].y, pixel);
 }
 
+TEST(Picture, PartsALineWhereItHasNoPlace) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Picture picture = of({1.0, 2.0, nan, 3.0, 4.0}, {1.0, 2.0, nan, 3.0, 4.0}, false);
+  picture.series.front().line = true;
+  const std::string svg = svg_text(picture);
+  const std::regex parts("<path d=\"M[-0-9. ]+L[-0-9. ]+M[-0-9. ]+L[-0-9. ]+\"");
+  EXPECT_TRUE(std::regex_search(svg, parts));
+}
+
 TEST(Picture, LeavesOutWhatHasNoPlace) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();

@@ -24,6 +24,20 @@ checkpoints_every = 1
 checkpoints_kept = 100
 )";
 
+const std::string staged = footing + R"([[stage]]
+name = "there"
+to = 0.1
+steps = 10
+[[stage]]
+name = "back"
+to = 0.08
+steps = 5
+[[stage]]
+name = "on"
+to = 0.15
+steps = 9
+)";
+
 const std::string layered = footing + R"([[material]]
 name = "firm"
 model = "drucker_prager"
@@ -54,6 +68,20 @@ const std::string loaded_plate = [] {
   swap("width = 1.0\n", "");
   return text;
 }();
+
+const std::string staged_load = loaded_plate + R"([[stage]]
+name = "there"
+to = 0.6
+steps = 10
+[[stage]]
+name = "back"
+to = 0.3
+steps = 5
+[[stage]]
+name = "on"
+to = 0.8
+steps = 6
+)";
 
 const std::string tunnel = R"(
 title = "small tunnel in a slope"

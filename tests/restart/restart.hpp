@@ -27,6 +27,10 @@ extern const std::string loaded_plate;
 extern const std::string tunnel;
 /// A strip on a slope of two graded layers that was settled, pressed into it with re-search.
 extern const std::string layered_slope;
+/// The footing pressed down, drawn back and pressed on.
+extern const std::string staged;
+/// The loaded plate, its load taken back in between.
+extern const std::string staged_load;
 /// A 3D elastic block whose weight grows.
 extern const std::string block;
 

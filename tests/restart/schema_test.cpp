@@ -112,7 +112,7 @@ TEST(SchemaOfThePast, OfLoadsHasItsControl) {
   EXPECT_EQ(scene::resolve_control(*reading.scene), scene::HourglassControl::incremental);
   EXPECT_EQ(scene::resolve_stiffness_ratio(*reading.scene), 0.001);
   record::CheckpointNotes notes = model::notes_for(*reading.scene);
-  for (const std::int64_t schema : {5, 6}) {
+  for (const std::int64_t schema : {5, 6, 7}) {
     notes.schema = schema;
     const scene::Scene before = model::scene_of("stored.hdf", notes);
     scene::Scene resumed = *reading.scene;
@@ -133,8 +133,8 @@ TEST(SchemaOfTheFuture, IsRefusedByName) {
   files::write_seal(file, record::checkpoint_schema + 1, "fpm-run 9.8.7");
   const Outcome outcome = fpm_run_in(run, block, {"--resume=" + file.string()});
   EXPECT_EQ(outcome.code, program::ExitCode::checkpoint_unusable);
-  EXPECT_THAT(outcome.err, HasSubstr("has checkpoint schema 7 (written by fpm-run 9.8.7); this "
-                                     "program reads schemas 1 to 6"));
+  EXPECT_THAT(outcome.err, HasSubstr("has checkpoint schema 8 (written by fpm-run 9.8.7); this "
+                                     "program reads schemas 1 to 7"));
 }
 
 // What is in the file counts, though its seal were of an older program.
@@ -154,7 +154,7 @@ TEST(SchemaOfTheFuture, IsRefusedByNameBehindASealToo) {
     (void)record::open_checkpoint(file, notes);
     FAIL() << "opened";
   } catch (const files::FileError& failure) {
-    EXPECT_THAT(failure.reason(), HasSubstr("has checkpoint schema 7 (written by fpm-run 9.8.7)"));
+    EXPECT_THAT(failure.reason(), HasSubstr("has checkpoint schema 8 (written by fpm-run 9.8.7)"));
   }
 }
 

@@ -28,6 +28,10 @@ TEST(HourglassControl, AutoFollowsMaterialAndDimension) {
   Scene without_tension = scene_of("drucker_prager");
   without_tension.material[0].tension_cutoff = 0.0;
   EXPECT_EQ(resolve_control(without_tension), C::incremental) << "sub-points have no cut-off";
+  Scene softening = scene_of("drucker_prager");
+  softening.material[0].residual_strain = 0.1;
+  EXPECT_EQ(resolve_control(softening), C::incremental) << "nor a strength of their own";
+  EXPECT_EQ(resolve_control(scene_of("modified_cam_clay")), C::incremental);
 }
 
 TEST(HourglassControl, AutoIsThatOfWhatYieldsWhateverElasticPartsThereAre) {

@@ -8,16 +8,20 @@
 #include <sstream>
 
 #include "program/command_line.hpp"
+#include "scene/derived.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
 #include "study/accuracy.hpp"
 #include "study/levels.hpp"
+#include "study/quality.hpp"
 
 namespace study {
 namespace {
 
 using ::testing::DoubleNear;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 const std::vector<double> spacings{0.25,       1.0 / 6.0,  1.0 / 9.0, 1.0 / 14.0,
                                    1.0 / 21.0, 1.0 / 32.0, 1.0 / 48.0};
@@ -96,6 +100,30 @@ TEST(TheLadder, HasTheTrueErrorWithinItsBar) {
   }
 }
 
+// A value of the box that falls with its width: that of a load in the plane.
+TEST(TheLadder, WidensTheBoxWhereSidesAreFar) {
+  const auto value = [](const Fineness& f) { return 1.0 + 0.06 / f.box + 0.1 * spacings[f.level]; };
+  const auto climbed = [&](bool box) {
+    Wish wish{0.05, std::nullopt, spacings, 2.0, 3.0};
+    wish.box = box;
+    return climb(wish, [&](const std::vector<Fineness>& all) {
+      std::vector<std::optional<Reply>> replies;
+      for (const Fineness& one : all) replies.push_back(Reply{value(one), 1.0});
+      return replies;
+    });
+  };
+  const Answer far = climbed(true);
+  ASSERT_TRUE(far.reached);
+  EXPECT_GT(far.fineness.box, 1.0);
+  EXPECT_LE(std::abs(far.value - 1.0), far.bar);
+  ASSERT_EQ(far.parts.size(), 4U);
+  EXPECT_EQ(far.parts.back().source, "box");
+  const Answer fixed = climbed(false);
+  EXPECT_EQ(fixed.fineness.box, 1.0);
+  EXPECT_EQ(fixed.parts.size(), 3U);
+  EXPECT_GT(std::abs(fixed.value - 1.0), fixed.bar) << "what is not looked at is not in the bar";
+}
+
 TEST(TheLadder, SaysWhatTheBudgetDoesNotAllow) {
   Problem problem;
   Problem free = problem;
@@ -168,6 +196,73 @@ TEST(SpacingsOnOffer, MakeScenesThatAreAccepted) {
       EXPECT_TRUE(one.errors.empty()) << name << ": " << one.errors.front().text();
     }
   }
+}
+
+scene::Scene shipped(const std::string& name, const std::vector<std::string>& settings = {}) {
+  const auto file = std::filesystem::path(FPM_SHARE_DIR) / "scenes" / name;
+  const auto reading = scene::read_scene(file, settings);
+  EXPECT_TRUE(reading.scene) << reading.errors.front().text();
+  return *reading.scene;
+}
+
+// The strip's box is 4 x 2 of its half width, which stays a whole number of cells.
+TEST(FarSides, MoveAwayAndMaterialsWithThem) {
+  const scene::Scene strip = shipped("prandtl_phi0.toml");
+  const auto far = parse_far("right,bottom", strip);
+  EXPECT_THAT(widened(strip, far, 1.0), IsEmpty());
+  EXPECT_THAT(widened(strip, far, 1.5), ElementsAre("geometry.min=[0, -3]", "geometry.max=[6, 0]"));
+  EXPECT_THAT(widened(strip, far, 1.1), ElementsAre("geometry.min=[0, -3]", "geometry.max=[5, 0]"))
+      << "by whole cells of every spacing";
+  const scene::Scene layered = shipped("layered_clay.toml");
+  const auto settings = widened(layered, parse_far("right,bottom", layered), 1.5);
+  const scene::Scene wide = shipped("layered_clay.toml", settings);
+  for (std::size_t m = 1; m < layered.material.size(); ++m) {
+    EXPECT_EQ(wide.material[m].region_max[0] >= wide.geometry.max[0],
+              layered.material[m].region_max[0] >= layered.geometry.max[0]);
+    EXPECT_EQ(wide.material[m].region_min[1] <= wide.geometry.min[1],
+              layered.material[m].region_min[1] <= layered.geometry.min[1]);
+  }
+}
+
+TEST(FarSides, AreRefusedWhereNoGroundLiesBeyond) {
+  const scene::Scene strip = shipped("prandtl_phi0.toml");
+  for (const char* text : {"left", "top", "back", "middle", "", "right,left"}) {
+    EXPECT_THROW((void)parse_far(text, strip), program::UsageError) << text;
+  }
+}
+
+TEST(AQuality, IsTwiceOrHalfTheSpacingAsNearlyAsWholeCellsAllow) {
+  for (const char* name : {"prandtl_phi0.toml", "footing.toml", "cylinder.toml", "beam.toml"}) {
+    const scene::Scene scene = shipped(name);
+    EXPECT_THAT(settings_of(Quality::normal, scene), IsEmpty());
+    const double own = scene.geometry.spacing;
+    const double fine = shipped(name, settings_of(Quality::fine, scene)).geometry.spacing;
+    // Spacings on offer are 1.5 apart.
+    EXPECT_GE(own / fine, 2.0 / 1.5) << name;
+    EXPECT_LE(own / fine, 2.0 * 1.5) << name;
+    const double draft = shipped(name, settings_of(Quality::draft, scene)).geometry.spacing;
+    EXPECT_GT(draft, own) << name;
+    EXPECT_LE(draft, 2.0 * 1.5 * own) << name;
+    const auto tolerance = [](const scene::Scene& of) {
+      return scene::resolve_solver(of.solver).tolerance;
+    };
+    EXPECT_DOUBLE_EQ(tolerance(shipped(name, settings_of(Quality::draft, scene))),
+                     std::min(10.0 * tolerance(scene), 0.01))
+        << name;
+  }
+  EXPECT_EQ(parse_quality("draft"), Quality::draft);
+  EXPECT_THROW((void)parse_quality("good"), program::UsageError);
+}
+
+TEST(TheFormalOrder, IsTheFirstWhereAPlaceIsKnownToHalfASpacing) {
+  EXPECT_EQ(formal_order(shipped("block3d.toml")), 2.0);
+  EXPECT_EQ(formal_order(shipped("prandtl_phi0.toml")), 1.0) << "the edge of its plate";
+  scene::Scene held = shipped("cylinder.toml");
+  EXPECT_EQ(formal_order(held), 2.0);
+  held.support.emplace_back().at = {1.5, 0.0};
+  EXPECT_EQ(formal_order(held), 1.0) << "a particle near by is held";
+  held.geometry.layout = scene::Layout::vertex;
+  EXPECT_EQ(formal_order(held), 2.0) << "one is there";
 }
 
 TEST(AnAccuracy, IsAPartOrAPercentage) {

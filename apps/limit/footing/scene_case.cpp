@@ -92,6 +92,10 @@ class Reader {
             "only strengths matched in plane strain are those of Mohr-Coulomb");
     require(!material.tension_cutoff, table + "tension_cutoff",
             "the bounds are those of a soil without a tension cut-off");
+    require(!material.residual_strain, table + "residual_strain",
+            "the bounds are those of a soil whose strength stays");
+    require(!material.overconsolidation_ratio, table + "model",
+            "the bounds are those of a soil whose strength stays");
     require(!material.cohesion || !material.cohesion->varies(), table + "cohesion",
             "it changes from place to place; in ground of [[region]]s it may");
     found_.soils.push_back({material.cohesion.value_or(0.0).value,

@@ -39,6 +39,10 @@ class Reader {
            "fpm-limit knows regions alone: let their outlines go around what is cut out");
     refuse(!scene_.traction.empty(), "traction", "the ground has a traction on a face of its box",
            "give the [[side]] there kind = \"loaded\"");
+    refuse(!scene_.stage.empty(), "stage", "the ground changes in stages",
+           "fpm-limit bounds one ground: give it what is there at the stage in question");
+    refuse(!scene_.drive.weakened.empty(), "drive.weakened", "only some materials are weakened",
+           "fpm-limit divides the strength of all");
     take_load();
     for (std::size_t m = 0; m < scene_.material.size(); ++m) take_material(m);
     for (std::size_t r = 0; r < scene_.region.size(); ++r) {
@@ -72,6 +76,7 @@ class Reader {
     if (drive.kind == scene::DriveKind::displacement || scene::loads_plate(drive)) {
       return Sought::footing;
     }
+    if (drive.kind == scene::DriveKind::strength) return Sought::strength;
     const auto grows = [&](scene::LoadKind kind) {
       return drive.kind == scene::DriveKind::load && std::ranges::count(drive.scales, kind) > 0;
     };
@@ -114,6 +119,11 @@ class Reader {
         material.tension_cutoff && material.model != "mohr_coulomb", table + "tension_cutoff",
         fmt::format("found {:g}, of a {}", material.tension_cutoff.value_or(0.0), material.model),
         "cut off in tension, only mohr_coulomb is the same soil in plane strain");
+    refuse(material.residual_strain.has_value(), table + "residual_strain",
+           fmt::format("found {:g}", material.residual_strain.value_or(0.0)),
+           "the bounds are those of a soil whose strength stays");
+    refuse(scene::model_of(material).critical_state, table + "model", "found " + material.model,
+           "the bounds are those of a soil whose strength stays");
     GroundMaterial soil;
     soil.name = material.name;
     const auto parameters = scene::yields(material) ? scene::parameters_of(material)

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "constitutive/drucker_prager.hpp"
-#include "constitutive/mixed.hpp"
+#include "constitutive/no_subpoints.hpp"
 #include "constitutive/rankine.hpp"
 #include "constitutive/spectral.hpp"
 #include "constitutive/state.hpp"
@@ -24,6 +24,7 @@ struct CutCone {
   static constexpr std::array<ModelInfo, 0> models{};
   /// Its branches differ from point to point.
   static constexpr bool one_point_at_a_time = true;
+  static constexpr bool without_subpoints = true;
   ElasticModuli moduli;
   DruckerPrager soil;  ///< The cone, and without dilation the one beyond its cut-off.
   double tension = 0;  ///< T [Pa], >= 0.
@@ -224,23 +225,6 @@ TangentMatrix<Dim> trial_tangent(const CutCone& material,
       detail::cone_of(material, s0), material.moduli, material.tension, x.values);
   if (r.regime == detail::CutConeRegime::elastic) return TangentMatrix<Dim>::Identity();
   return isotropic_function_derivative<Dim>(x, r.stress, r.jacobian);
-}
-
-/// Sub-points that share one pressure are not for a cut cone: failed, always.
-template <std::size_t M, int Dim>
-MixedResult<M, Dim> mixed_return(const CutCone&, const MixedTrial<M, Dim>&,
-                                 const std::array<double, M>&, double) {
-  MixedResult<M, Dim> r;
-  r.outcome.failed = true;
-  return r;
-}
-
-/// Beside `mixed_return`, whose failure leaves nothing to be linearised: the identity.
-template <std::size_t M, int Dim>
-MixedTangent<M, Dim> mixed_tangent(const CutCone& material, const MixedTrial<M, Dim>& trial,
-                                   const std::array<double, M>& weights,
-                                   double plastic_volume_strain, const MixedResult<M, Dim>& r) {
-  return mixed_tangent(Elastic{material.moduli}, trial, weights, plastic_volume_strain, r);
 }
 
 }  // namespace constitutive

@@ -7,6 +7,8 @@
 #include "constitutive/cut_cone.hpp"
 #include "constitutive/drucker_prager.hpp"
 #include "constitutive/elastic.hpp"
+#include "constitutive/hardening.hpp"
+#include "constitutive/modified_cam_clay.hpp"
 #include "constitutive/mohr_coulomb.hpp"
 #include "constitutive/parameters.hpp"
 
@@ -16,7 +18,8 @@ namespace constitutive {
 ///
 /// This is where materials are registered: each brings its models (`M::models`), is made by
 /// `M::make(parameters, model)`, and has `update` and `trial_tangent` beside it.
-using Material = std::variant<Elastic, VonMises, DruckerPrager, MohrCoulomb, CutCone>;
+using Material = std::variant<Elastic, VonMises, DruckerPrager, MohrCoulomb, CutCone, HardeningSoil,
+                              ModifiedCamClay>;
 
 /// The material of valid parameters, its derived constants computed once.
 /// @throws std::invalid_argument with every message of `validate` (dimension 2) if there is one

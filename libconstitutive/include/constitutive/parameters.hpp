@@ -22,6 +22,15 @@ struct MaterialParameters {
   double density = 0;
   double dilation_cutoff = std::numeric_limits<double>::infinity();
   double tension_cutoff = std::numeric_limits<double>::infinity();
+  /// Infinite: the strength stays what it is.
+  double residual_strain = std::numeric_limits<double>::infinity();
+  double residual_cohesion = std::numeric_limits<double>::infinity();
+  double residual_friction_angle = std::numeric_limits<double>::infinity();
+  /// Required of a clay in critical states: the defaults are refused.
+  double compression_index = 0;
+  double swelling_index = 0;
+  double critical_stress_ratio = 0;
+  double preconsolidation_pressure = 0;
 
   /// Calls visitor(name, field) for every field, in a fixed order.
   template <class Visitor>
@@ -49,6 +58,13 @@ struct MaterialParameters {
     visitor("density", self.density);
     visitor("dilation_cutoff", self.dilation_cutoff);
     visitor("tension_cutoff", self.tension_cutoff);
+    visitor("residual_strain", self.residual_strain);
+    visitor("residual_cohesion", self.residual_cohesion);
+    visitor("residual_friction_angle", self.residual_friction_angle);
+    visitor("compression_index", self.compression_index);
+    visitor("swelling_index", self.swelling_index);
+    visitor("critical_stress_ratio", self.critical_stress_ratio);
+    visitor("preconsolidation_pressure", self.preconsolidation_pressure);
   }
 };
 
@@ -61,8 +77,9 @@ struct ModelInfo {
   /// Mohr-Coulomb they match; a model alone is its own family.
   std::string_view family = name;
   std::string_view match = "";
-  bool yields = true;       ///< Cohesion is a parameter.
-  bool frictional = false;  ///< Friction, dilation and its cut-off are, too.
+  bool yields = true;           ///< Cohesion is a parameter, unless it is of critical states.
+  bool frictional = false;      ///< Friction, dilation and its cut-off are, too.
+  bool critical_state = false;  ///< Strength by compaction in place of cohesion and friction.
   /// Deviatoric points share one pressure side by side (`mixed.hpp`); true corners can as well, one
   /// by one (`mixed_mohr_coulomb.hpp`).
   bool one_pressure = false;
@@ -71,7 +88,7 @@ struct ModelInfo {
 };
 
 /// Which models use a parameter.
-enum class Use { all, yielding, frictional };
+enum class Use { all, yielding, frictional, critical_state };
 
 /// One parameter: what it may be, and for whom.
 struct ParameterInfo {
@@ -84,7 +101,9 @@ struct ParameterInfo {
   double MaterialParameters::*member;
 
   [[nodiscard]] bool is_used_by(const ModelInfo& model) const {
-    return use == Use::all || (use == Use::yielding ? model.yields : model.frictional);
+    if (use == Use::all) return true;
+    if (use == Use::critical_state) return model.critical_state;
+    return use == Use::yielding ? model.yields && !model.critical_state : model.frictional;
   }
   /// Whether a value lies in the range; not a number does not.
   [[nodiscard]] bool holds(double value) const;

@@ -23,7 +23,7 @@
 namespace constitutive {
 
 /// Class version of an archived `MaterialParameters`; raised when its fields change.
-inline constexpr int material_parameters_version = 2;
+inline constexpr int material_parameters_version = 3;
 
 /// Class version of an archived `PointState`; raised when its fields change.
 inline constexpr int point_state_version = 1;
@@ -90,12 +90,17 @@ void load(Archive& archive, constitutive::MaterialParameters& p, unsigned int ve
   constitutive::detail::refuse_newer(version, constitutive::material_parameters_version,
                                      "constitutive::MaterialParameters");
   const constitutive::detail::FieldLoader<Archive> loader{archive};
-  constexpr unsigned int with_tension_cutoff = 2;
+  // A record of an earlier version ends before the fields that came later, which keep their
+  // defaults.
+  constexpr unsigned int with_tension_cutoff = 2, with_residuals = 3;
+  const std::string_view last = version < with_tension_cutoff ? "dilation_cutoff"
+                                : version < with_residuals    ? "tension_cutoff"
+                                                              : "";
+  bool ended = false;
   p.for_each_field([&](const char* name, auto& field) {
-    if (version < with_tension_cutoff && std::string_view(name) == "tension_cutoff") {
-      return;  // a record from before there was one: it keeps its default
-    }
+    if (ended) return;
     loader(name, field);
+    ended = last == name;
   });
 }
 

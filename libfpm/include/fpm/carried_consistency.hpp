@@ -17,6 +17,14 @@ struct ReSearchedConfiguration {
   Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic> deformation_gradient;
 };
 
+/// What was carried.
+struct CarriedConsistency {
+  /// The part of the change that is left, relative; round-off where the deformation is homogeneous,
+  /// small where it is smooth.
+  double left = 0.0;
+  std::vector<Index> rows;  ///< rows whose weights changed, rebuilt ones among them, ascending
+};
+
 /// Carries the consistency correction through a re-search.
 ///
 /// With v the current volumes and g = F^-T G the current gradient weights, a constant stress loads
@@ -30,12 +38,10 @@ struct ReSearchedConfiguration {
 /// @param before  operator of the rows as they were, correction included
 /// @param rebuilt  what `rows.research` returned
 /// @param rows  as searched anew; what the rows around had before is kept
-/// @returns the part of the change that is left, relative; round-off where the deformation is
-///   homogeneous, small where it is smooth
 /// @throws ShapeError if sizes disagree.
 template <int Dim>
-double carry_consistency(const MomentOperator<Dim>& before, const Ghosts<Dim>& ghosts,
-                         const std::vector<Index>& rebuilt, const ReSearchedConfiguration<Dim>& now,
-                         Rows<Dim>& rows);
+CarriedConsistency carry_consistency(const MomentOperator<Dim>& before, const Ghosts<Dim>& ghosts,
+                                     const std::vector<Index>& rebuilt,
+                                     const ReSearchedConfiguration<Dim>& now, Rows<Dim>& rows);
 
 }  // namespace fpm

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "fpm/consistency.hpp"
@@ -11,15 +12,22 @@
 namespace fpm {
 
 /// The rows of a sparse operator in the layout its kernels want: runs of consecutive rows that
-/// share one stencil (lattices), and groups of up to four rows with weights of their own.
+/// share one stencil (lattices), and groups of up to four rows with weights of their own, whose
+/// entries stand side by side as the rows do (at faces, after a re-search) or anywhere.
 struct SegmentedRows {
+  enum class Kind : std::uint8_t {
+    shared,   ///< one stencil for all; ids are offsets from the row
+    aligned,  ///< four rows; ids are those of the first one, each row's one more than that before
+              ///< it
+    own       ///< ids of each row
+  };
   struct Segment {
-    Index first = 0;               ///< first row
-    Index count = 0;               ///< rows; at most 4 if not shared
-    Index width = 0;               ///< entries per row
-    bool shared = false;           ///< one stencil for all; ids are offsets from the row
-    std::size_t id_begin = 0;      ///< into ids: width (shared) or 4 width entries
-    std::size_t weight_begin = 0;  ///< into weights: width or 4 width entries of `channels` each
+    Index first = 0;  ///< first row
+    Index count = 0;  ///< rows; at most 4 if not shared
+    Index width = 0;  ///< entries per row
+    Kind kind = Kind::own;
+    std::size_t id_begin = 0;      ///< into ids: width entries, 4 width if own
+    std::size_t weight_begin = 0;  ///< into weights: width (shared) or 4 width, of `channels` each
   };
   std::vector<Segment> segments;
   std::vector<Index> block_begin;  ///< first segment of each block of 64 rows, and the end
@@ -57,6 +65,13 @@ class MomentOperator {
   /// @param correction  of the first rows, or none; rows that were re-searched ignore it
   MomentOperator(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Channels channels,
                  const ConsistencyCorrection<Dim>& correction = {});
+
+  /// Follows rows that have been re-searched or corrected since, in proportion to their number:
+  /// what gather and scatter give is what they give when built anew, to the bit.
+  /// @param changed  those rows, ascending
+  /// @param correction  as at first
+  void update(const Rows<Dim>& rows, const std::vector<Index>& changed,
+              const ConsistencyCorrection<Dim>& correction = {});
 
   Index size() const { return size_; }
   Channels channels() const { return channels_; }
@@ -124,6 +139,8 @@ class MomentOperator {
   double shared_share() const;
 
  private:
+  std::vector<char> summed_channels() const;
+
   Index size_ = 0;
   Channels channels_;
   Ghosts<Dim> ghosts_;
@@ -144,12 +161,14 @@ void MomentOperator<Dim>::for_each_entry(Index row, Visitor&& visit) const {
   const auto lane = static_cast<std::size_t>(row - segment.first);
   double weights[most_channels<Dim>];
   for (std::size_t k = 0; k < static_cast<std::size_t>(segment.width); ++k) {
-    if (segment.shared) {
+    if (segment.kind == SegmentedRows::Kind::shared) {
       visit(row + forward_.ids[segment.id_begin + k],
             &forward_.weights[segment.weight_begin + k * m]);
       continue;
     }
-    const Index b = forward_.ids[segment.id_begin + 4 * k + lane];
+    const Index b = segment.kind == SegmentedRows::Kind::aligned
+                        ? forward_.ids[segment.id_begin + k] + static_cast<Index>(lane)
+                        : forward_.ids[segment.id_begin + 4 * k + lane];
     if (b == row) continue;  // filler of a shorter row
     for (std::size_t c = 0; c < m; ++c) {
       weights[c] = forward_.weights[segment.weight_begin + (k * m + c) * 4 + lane];

@@ -1,0 +1,165 @@
+#include "model/carry.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+namespace model {
+namespace {
+
+// What a point of an interface is known again by.
+template <int Dim>
+using FaceKey = std::pair<std::string, std::array<double, 2 * Dim>>;
+
+template <int Dim>
+FaceKey<Dim> key_of(const Interface<Dim>& interface, Eigen::Index c) {
+  FaceKey<Dim> key;
+  key.first = interface.is_rigid() ? "rigid " + interface.support : "";
+  for (int i = 0; i < Dim; ++i) {
+    key.second[static_cast<std::size_t>(i)] = interface.faces.points.position(c, i);
+    key.second[static_cast<std::size_t>(Dim + i)] = interface.faces.points.normal(c, i);
+  }
+  return key;
+}
+
+// Calls visit(interface, point of it, point of all).
+template <class Model, class Visitor>
+void for_each_point(Model& model, Visitor&& visit) {
+  Eigen::Index k = 0;
+  for (auto& interface : model.interfaces) {
+    for (Eigen::Index c = 0; c < interface.faces.points.size(); ++c) visit(interface, c, k++);
+  }
+}
+
+template <int Dim>
+std::map<FaceKey<Dim>, std::pair<const Interface<Dim>*, std::array<Eigen::Index, 2>>> faces_of(
+    const Model<Dim>& model) {
+  std::map<FaceKey<Dim>, std::pair<const Interface<Dim>*, std::array<Eigen::Index, 2>>> faces;
+  for_each_point(model, [&](const Interface<Dim>& interface, Eigen::Index c, Eigen::Index k) {
+    faces.try_emplace(key_of(interface, c), &interface, std::array<Eigen::Index, 2>{c, k});
+  });
+  return faces;
+}
+
+// Into a particle field, whichever way it lies.
+template <class Matrix>
+void carry_field(const Matrix& from, const std::vector<fpm::Index>& source, Matrix& to) {
+  if (from.size() == 0 || to.size() == 0) return;
+  for (std::size_t k = 0; k < source.size(); ++k) {
+    const auto a = static_cast<Eigen::Index>(k), b = static_cast<Eigen::Index>(source[k]);
+    if (b < 0) continue;
+    if constexpr (Matrix::ColsAtCompileTime == Eigen::Dynamic) {
+      to.col(a) = from.col(b);
+    } else {
+      to.row(a) = from.row(b);
+    }
+  }
+}
+
+template <int Dim>
+void carry_particles(State<Dim>& before, const std::vector<fpm::Index>& source, State<Dim>& after) {
+  after.for_each_particle_field([&](std::string_view name, const char*, auto& to) {
+    before.for_each_particle_field([&](std::string_view other, const char*, const auto& from) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(from)>,
+                                   std::remove_cvref_t<decltype(to)>>) {
+        if (name == other) carry_field(from, source, to);
+      }
+    });
+  });
+}
+
+// New particles lie on the ground as it is. A row that sees them has no memory of a shape that they
+// were no part of.
+template <int Dim>
+void settle_new_particles(const Model<Dim>& before, const State<Dim>& state,
+                          const Model<Dim>& after, const std::vector<fpm::Index>& source,
+                          State<Dim>& carried) {
+  const auto is_new = [&](fpm::Index a) {
+    return a < static_cast<fpm::Index>(source.size()) && source[static_cast<std::size_t>(a)] < 0;
+  };
+  for (fpm::Index a = 0; a < static_cast<fpm::Index>(source.size()); ++a) {
+    if (is_new(a)) {
+      Eigen::Index nearest = 0;
+      (before.particles.position.rowwise() - after.particles.position.row(a))
+          .rowwise()
+          .squaredNorm()
+          .minCoeff(&nearest);
+      carried.displacement.row(a) = state.displacement.row(nearest);
+    }
+    const bool sees_new = is_new(a) || std::ranges::any_of(carried.rows.neighbours(a), is_new);
+    if (sees_new && carried.released.size() > 0) carried.released[a] = 1.0;
+  }
+}
+
+template <int Dim>
+void carry_faces(const Model<Dim>& before, const State<Dim>& state, const Model<Dim>& after,
+                 State<Dim>& carried) {
+  const auto known = faces_of(before);
+  for_each_point(after, [&](const Interface<Dim>& interface, Eigen::Index c, Eigen::Index k) {
+    const auto found = known.find(key_of(interface, c));
+    if (found != known.end()) {
+      carried.interface_slip.col(k) = state.interface_slip.col(found->second.second[1]);
+      carried.interface_traction.col(k) = state.interface_traction.col(found->second.second[1]);
+      return;
+    }
+    const fpm::Vector<Dim> motion = carried.programme.load * interface.drive;
+    carried.interface_slip.col(k) =
+        interface.faces.gap(static_cast<fpm::Index>(c), carried.displacement, motion);
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<fpm::Index> same_particles(const Model<Dim>& of, const Model<Dim>& in) {
+  std::vector<fpm::Index> source;
+  for (fpm::Index a = 0; a < static_cast<fpm::Index>(of.size()); ++a) {
+    const fpm::Vector<Dim> site = of.cells.site(a);
+    const fpm::Index b = in.cells.containing(site);
+    source.push_back(b >= 0 && in.cells.site(b) == site ? b : -1);
+  }
+  return source;
+}
+
+template <int Dim>
+void carry_initial_tractions(const Model<Dim>& before, Model<Dim>& after) {
+  const auto known = faces_of(before);
+  for_each_point(after, [&](Interface<Dim>& interface, Eigen::Index c, Eigen::Index) {
+    const auto found = known.find(key_of(interface, c));
+    const bool is_known = found != known.end();
+    interface.initial_traction.row(c).setZero();
+    if (is_known) {
+      const auto& [other, at] = found->second;
+      interface.initial_traction.row(c) = other->initial_traction.row(at[0]);
+    }
+  });
+}
+
+template <int Dim>
+State<Dim> carry_state(const Model<Dim>& before, State<Dim>& state, const Model<Dim>& after,
+                       bool keeps_rows) {
+  State<Dim> carried;
+  carried.layout = after.layout;
+  carried.resize(after.size(), after.interface_points());
+  carried.programme = state.programme;
+  const std::vector<fpm::Index> source = same_particles(after, before);
+  carry_particles(state, source, carried);
+  carried.rows =
+      keeps_rows ? state.rows : fpm::Rows<Dim>(after.particles, after.ghosts, after.row_options);
+  settle_new_particles(before, state, after, source, carried);
+  carry_faces(before, state, after, carried);
+  return carried;
+}
+
+template std::vector<fpm::Index> same_particles<2>(const Model<2>&, const Model<2>&);
+template std::vector<fpm::Index> same_particles<3>(const Model<3>&, const Model<3>&);
+template void carry_initial_tractions<2>(const Model<2>&, Model<2>&);
+template void carry_initial_tractions<3>(const Model<3>&, Model<3>&);
+template State<2> carry_state<2>(const Model<2>&, State<2>&, const Model<2>&, bool);
+template State<3> carry_state<3>(const Model<3>&, State<3>&, const Model<3>&, bool);
+
+}  // namespace model

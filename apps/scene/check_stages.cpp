@@ -1,0 +1,352 @@
+// Rules on stages: what they name, what they change, how far they go.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "constitutive/parameters.hpp"
+#include "scene/check.hpp"
+#include "scene/derived.hpp"
+#include "scene/ground.hpp"
+#include "scene/names.hpp"
+#include "scene/outline_faces.hpp"
+#include "scene/stages.hpp"
+#include "tables/nearest_name.hpp"
+
+namespace scene {
+namespace {
+
+// Whether a material's strength is made of what stages change and a reduction divides.
+bool has_cohesion(const Material& material) {
+  return yields(material) && !model_of(material).critical_state;
+}
+
+using Names = std::vector<std::string>;
+
+std::string key_of(std::size_t stage, const char* name) {
+  return fmt::format("stage.{}.{}", stage, name);
+}
+
+template <class Entry>
+std::vector<std::string_view> names_of_all(const std::vector<Entry>& entries) {
+  std::vector<std::string_view> names;
+  for (const Entry& entry : entries) {
+    if (!entry.name.empty()) names.push_back(entry.name);
+  }
+  return names;
+}
+
+// Whether all of a list are names of something.
+bool check_known(const Names& list, const std::vector<std::string_view>& known,
+                 const std::string& key, const char* what, tables::Diagnosis& diagnosis) {
+  if (!diagnosis.good({key})) return false;
+  for (const std::string& name : list) {
+    if (std::ranges::count(known, std::string_view(name)) > 0) continue;
+    diagnosis.error(key, fmt::format("found \"{}\"", name),
+                    known.empty() ? fmt::format("the scene has no {} of a name", what)
+                                  : fmt::format("{}s are {}", what, tables::joined(known)),
+                    tables::nearest_name(name, known));
+    return false;
+  }
+  return true;
+}
+
+// That a thing is there when it is taken away, and not when it is put down.
+void check_order(const Scene& scene, const std::string& name, const char* taken, const char* put,
+                 Names Stage::*take, Names Stage::*give, tables::Diagnosis& diagnosis) {
+  std::optional<bool> there;
+  for (std::size_t s = 0; s < scene.stage.size(); ++s) {
+    const auto count = [&](const Names& list) { return std::ranges::count(list, name); };
+    const auto takes = count(scene.stage[s].*take), gives = count(scene.stage[s].*give);
+    if (takes + gives == 0) continue;
+    const std::string key = key_of(s, takes > 0 ? taken : put);
+    if (!diagnosis.good({key})) return;
+    if (takes + gives > 1) {
+      diagnosis.error(key, fmt::format("found \"{}\" more than once in a stage", name),
+                      fmt::format("it is either {} or {}, once", taken, put));
+      return;
+    }
+    if (there == (gives > 0)) {
+      diagnosis.error(key, fmt::format("found \"{}\" again", name),
+                      gives > 0 ? "it is there already" : "it is no longer there");
+      return;
+    }
+    there = gives > 0;
+  }
+}
+
+void check_regions(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const auto known = names_of_all(scene.region);
+  bool all = true;
+  for (std::size_t s = 0; s < scene.stage.size(); ++s) {
+    all =
+        check_known(scene.stage[s].remove, known, key_of(s, "remove"), "region", diagnosis) && all;
+    all = check_known(scene.stage[s].place, known, key_of(s, "place"), "region", diagnosis) && all;
+  }
+  if (!all) return;
+  for (const std::string_view name : known) {
+    check_order(scene, std::string(name), "remove", "place", &Stage::remove, &Stage::place,
+                diagnosis);
+  }
+  for (std::size_t s = 0; s < scene.stage.size() && diagnosis.errors().empty(); ++s) {
+    const Scene then = scene_of_stage(scene, s);
+    const bool any =
+        scene.region.empty() ||
+        std::ranges::any_of(then.region, [](const Region& region) { return region.present; });
+    if (any) continue;
+    diagnosis.error(key_of(s, "remove"), "found every region that is left",
+                    "some ground must stay");
+    return;
+  }
+}
+
+void check_names_of_regions(const Scene& scene, tables::Diagnosis& diagnosis) {
+  for (std::size_t s = 0; s < scene.stage.size(); ++s) {
+    for (const std::string& name : scene.stage[s].remove) {
+      if (std::ranges::count(scene.region, name, &Region::name) < 2) continue;
+      diagnosis.warning(key_of(s, "remove"), fmt::format("\"{}\" is the name of several", name),
+                        "all of them are taken away");
+    }
+  }
+}
+
+// What carries the plate of the drive cannot be taken from under it, nor be put there later.
+void check_plate_stays(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const auto footing = footing_of(scene);
+  if (!footing || !diagnosis.errors().empty()) return;
+  const shape::Outline outline = outline_of(scene);
+  for (const shape::OutlineSegment& segment : outline.segments) {
+    if (segment.right >= 0 || segment.side != static_cast<int>(*footing)) continue;
+    const std::string& name = scene.region[static_cast<std::size_t>(segment.left)].name;
+    for (std::size_t s = 0; s < scene.stage.size(); ++s) {
+      for (const auto& [list, key] :
+           {std::pair(&Stage::remove, "remove"), std::pair(&Stage::place, "place")}) {
+        if (std::ranges::count(scene.stage[s].*list, name) == 0) continue;
+        diagnosis.error(key_of(s, key), fmt::format("found \"{}\"", name),
+                        fmt::format("it carries the plate \"{}\", from first to last",
+                                    scene.side[*footing].name));
+        return;
+      }
+    }
+  }
+}
+
+// Springs cannot come and go, and images cannot come.
+void check_method(const Scene& scene, const Support& support, tables::Diagnosis& diagnosis) {
+  const bool springs =
+      support.method == SupportMethod::penalty || support.method == SupportMethod::contact;
+  for (std::size_t s = 0; s < scene.stage.size(); ++s) {
+    const bool begins = std::ranges::count(scene.stage[s].hold, support.name) > 0;
+    const bool ends = std::ranges::count(scene.stage[s].release, support.name) > 0;
+    const std::string key = key_of(s, begins ? "hold" : "release");
+    if (springs && (begins || ends) && diagnosis.good({key})) {
+      diagnosis.error(key, fmt::format("found \"{}\"", support.name),
+                      fmt::format("a support by {} stays as it is: auto or direct may change",
+                                  name_of(support.method)));
+      return;
+    }
+    if (begins && support.method == SupportMethod::ghosts && diagnosis.good({key})) {
+      diagnosis.error(key, fmt::format("found \"{}\", by ghosts", support.name),
+                      "a support that begins holds the particles where they are: auto or direct");
+      return;
+    }
+  }
+}
+
+void check_supports(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const auto known = names_of_all(scene.support);
+  bool all = true;
+  for (std::size_t s = 0; s < scene.stage.size(); ++s) {
+    const Stage& stage = scene.stage[s];
+    all = check_known(stage.release, known, key_of(s, "release"), "support", diagnosis) && all;
+    all = check_known(stage.hold, known, key_of(s, "hold"), "support", diagnosis) && all;
+  }
+  if (!all) return;
+  for (const Support& support : scene.support) {
+    check_order(scene, support.name, "release", "hold", &Stage::release, &Stage::hold, diagnosis);
+    check_method(scene, support, diagnosis);
+  }
+}
+
+void check_list(const Point& list, const Stage& stage, const std::string& key, double least,
+                double below, tables::Diagnosis& diagnosis) {
+  if (list.empty() || !diagnosis.good({key})) return;
+  if (list.size() != stage.materials.size()) {
+    diagnosis.error(key, fmt::format("found {} values", list.size()),
+                    fmt::format("one for each of materials, {}", stage.materials.size()));
+    return;
+  }
+  for (const double value : list) {
+    if (value >= least && value < below) continue;
+    const std::string allowed = std::isfinite(below)
+                                    ? fmt::format("allowed is {} <= value < {}", least, below)
+                                    : fmt::format("allowed is a number >= {}", least);
+    diagnosis.error(key, fmt::format("found {}", value), allowed);
+    return;
+  }
+}
+
+void check_values(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis) {
+  const Stage& stage = scene.stage[s];
+  const bool any =
+      !stage.cohesion.empty() || !stage.friction_angle.empty() || !stage.dilation_angle.empty();
+  if (stage.materials.empty()) {
+    if (any) {
+      diagnosis.error(key_of(s, "materials"), "is missing", "needed are names of materials");
+    }
+    return;
+  }
+  if (!any) {
+    diagnosis.error(key_of(s, "materials"), "found without a value",
+                    "needed is cohesion, friction_angle or dilation_angle, one for each");
+  }
+  if (!check_known(stage.materials, names_of_all(scene.material), key_of(s, "materials"),
+                   "material", diagnosis)) {
+    return;
+  }
+  for (const std::string& name : stage.materials) {
+    const auto material = std::ranges::find(scene.material, name, &Material::name);
+    if (has_cohesion(*material)) continue;
+    diagnosis.error(key_of(s, "materials"), fmt::format("found \"{}\"", name),
+                    fmt::format("material model {} has no cohesion or friction angle that could "
+                                "change",
+                                material->model));
+  }
+  constexpr double right_angle = 90.0;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  check_list(stage.cohesion, stage, key_of(s, "cohesion"), 0.0, infinity, diagnosis);
+  check_list(stage.friction_angle, stage, key_of(s, "friction_angle"), 0.0, right_angle, diagnosis);
+  check_list(stage.dilation_angle, stage, key_of(s, "dilation_angle"), 0.0, right_angle, diagnosis);
+}
+
+// That values fit each other once they have changed.
+void check_flow(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis) {
+  if (scene.stage[s].materials.empty() || !diagnosis.errors().empty()) return;
+  const Scene then = scene_of_stage(scene, s);
+  for (const Material& material : then.material) {
+    const double phi = material.friction_angle.value_or(0.0);
+    if (material.dilation_angle.value_or(0.0) <= phi) continue;
+    diagnosis.error(key_of(s, "friction_angle"),
+                    fmt::format("\"{}\" then has {}, and dilates by {}", material.name, phi,
+                                *material.dilation_angle),
+                    "a material dilates by its friction angle at most: give dilation_angle, too");
+  }
+}
+
+bool puts_down(const Scene& scene) {
+  return std::ranges::any_of(scene.stage, [](const Stage& s) { return !s.place.empty(); });
+}
+
+bool changes_body(const Scene& scene) {
+  return puts_down(scene) || std::ranges::any_of(scene.stage, [](const Stage& stage) {
+           return !stage.remove.empty() || !stage.release.empty() || !stage.hold.empty();
+         });
+}
+
+bool drives(const Scene& scene) {
+  return scene.drive.kind == DriveKind::displacement || scene.drive.kind == DriveKind::load;
+}
+
+void check_way(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis) {
+  const Stage& stage = scene.stage[s];
+  const std::string to = key_of(s, "to");
+  if (stage.to && !drives(scene) && diagnosis.good({to, "drive.kind"})) {
+    diagnosis.error(to, fmt::format("found {}, and no drive", *stage.to),
+                    "what moves or grows is a [drive] of kind displacement or load");
+    return;
+  }
+  const bool displaced = stage.to && scene.drive.kind == DriveKind::displacement;
+  const bool has_steps = stage.steps || scene.programme.steps.value_or(0) > 0;
+  if (!displaced && !has_steps && diagnosis.good({key_of(s, "steps")})) {
+    diagnosis.error(key_of(s, "steps"), "is missing",
+                    "a stage needs the number of its steps, >= 1, unless a displacement goes on");
+  }
+  if (!diagnosis.errors().empty()) return;
+  const Course course = scene_of_stage(scene, s).course;
+  const bool moves = course.load_begin != course.load_end ||
+                     course.reduction_begin != course.reduction_end || changes_ground(stage);
+  if (moves) return;
+  diagnosis.error(fmt::format("stage.{}", s), fmt::format("nothing happens in \"{}\"", stage.name),
+                  "give it a way to go (to, reduction) or something to change");
+}
+
+void check_stage(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis) {
+  const Stage& stage = scene.stage[s];
+  if (stage.name.empty() && diagnosis.good({key_of(s, "name")})) {
+    diagnosis.error(key_of(s, "name"), "found an empty one", "stages are known by their names");
+  }
+  if (!stage.water_table.empty() && scene.water.table.empty()) {
+    diagnosis.error(key_of(s, "water_table"), "found without water.table",
+                    "a table moves that is there from the first: give water.table, below the body "
+                    "if it is dry");
+  }
+  check_values(scene, s, diagnosis);
+  check_flow(scene, s, diagnosis);
+  check_way(scene, s, diagnosis);
+}
+
+}  // namespace
+
+void check_reduction(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const Drive& drive = scene.drive;
+  if (!check_known(drive.weakened, names_of_all(scene.material), "drive.weakened", "material",
+                   diagnosis)) {
+    return;
+  }
+  const bool any = std::ranges::any_of(scene.material, [&](const Material& material) {
+    return has_cohesion(material) && is_weakened(scene, material.name);
+  });
+  for (const Material& material : scene.material) {
+    if (!yields(material) || has_cohesion(material) || !is_weakened(scene, material.name)) continue;
+    diagnosis.error("drive.weakened", fmt::format("would weaken \"{}\"", material.name),
+                    fmt::format("what is divided is cohesion and tan(phi), and material model {} "
+                                "has neither: name the others",
+                                material.model));
+    return;
+  }
+  if (!any && diagnosis.good({"drive.weakened", "material"})) {
+    diagnosis.error("drive.weakened", "no material of them has a strength",
+                    "what is divided is cohesion and tan(phi)");
+  }
+  if (drive.kind == DriveKind::strength && scene.stage.empty() && drive.target <= 1.0 &&
+      diagnosis.good({"drive.target"})) {
+    diagnosis.error(
+        "drive.target",
+        diagnosis.given("drive.target") ? fmt::format("found {}", drive.target) : "is missing",
+        "strength is divided by a factor that grows from 1 to this one, > 1");
+  }
+}
+
+void check_stages(const Scene& scene, tables::Diagnosis& diagnosis) {
+  if (scene.stage.empty()) return;
+  if (scene.re_search.enabled && changes_body(scene) && diagnosis.good({"re_search.enabled"})) {
+    diagnosis.error("re_search.enabled", "found true, and stages that change regions or supports",
+                    "a row that was searched anew does not know what it was before: leave one out");
+  }
+  const HourglassControl control = scene.hourglass.control;
+  if (puts_down(scene) && diagnosis.good({"hourglass.control"}) &&
+      (control == HourglassControl::stiffness || control == HourglassControl::viscosity ||
+       control == HourglassControl::none)) {
+    diagnosis.error("hourglass.control",
+                    fmt::format("found {}, and stages that put regions down", name_of(control)),
+                    "allowed are auto, incremental and mixed, which forget where the ground was");
+  }
+  check_names(scene.stage, "stage", diagnosis);
+  if (scene.drive.kind == DriveKind::strength && diagnosis.good({"drive.kind"})) {
+    diagnosis.error("drive.kind", "found strength with stages",
+                    "a stage says to which reduction it goes: leave the drive out");
+  }
+  if (scene.limit.check && diagnosis.good({"limit.check"})) {
+    diagnosis.error("limit.check", "found true with stages",
+                    "bounds are computed for a footing that is driven in one go");
+  }
+  if (reduces_strength(scene)) check_reduction(scene, diagnosis);
+  check_regions(scene, diagnosis);
+  check_names_of_regions(scene, diagnosis);
+  check_plate_stays(scene, diagnosis);
+  check_supports(scene, diagnosis);
+  for (std::size_t s = 0; s < scene.stage.size(); ++s) check_stage(scene, s, diagnosis);
+}
+
+}  // namespace scene

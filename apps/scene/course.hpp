@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace scene {
+
+struct Course;
+struct Scene;
+struct Stage;
+
+/// How many stages a run has: 1 if the scene lists none.
+[[nodiscard]] std::size_t stage_count(const Scene& scene);
+
+/// `stage 2 of 5, "unload"`.
+[[nodiscard]] std::string stage_title(const Scene& scene, std::size_t stage);
+
+/// Whether a stage begins with a change of the body, of values or of supports, rather than that its
+/// drive merely goes on.
+[[nodiscard]] bool changes_ground(const Stage& stage);
+
+/// Whether some stage does.
+[[nodiscard]] bool changes_ground(const Scene& scene);
+
+/// Whether strength is divided by more and more, in some stage at least.
+[[nodiscard]] bool reduces_strength(const Scene& scene);
+
+/// Whether a material's strength is divided when strength is.
+[[nodiscard]] bool is_weakened(const Scene& scene, const std::string& material);
+
+/// What strength is divided by, at a share of the way through its stage.
+[[nodiscard]] double reduction_at(const Course& course, double progress);
+
+}  // namespace scene

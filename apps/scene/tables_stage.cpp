@@ -1,0 +1,93 @@
+#include "scene/names.hpp"
+#include "scene/scene.hpp"
+#include "scene/tables.hpp"
+#include "tables/builder.hpp"
+
+namespace scene {
+
+namespace {
+
+tables::TableBuilder<Scene, Stage>& with_changes(tables::TableBuilder<Scene, Stage>& table) {
+  return table
+      .key("remove", &Stage::remove,
+           {.need = tables::Need::optional,
+            .doc = "Names of regions that are taken away; what they bore fades in the stage's "
+                   "steps.",
+            .absent = "none"})
+      .key("place", &Stage::place,
+           {.need = tables::Need::optional,
+            .doc = "Names of regions that are put down without stress, and whose weight grows in "
+                   "the stage's steps. What is put down before it was taken away is not there at "
+                   "first.",
+            .absent = "none"})
+      .key("release", &Stage::release,
+           {.need = tables::Need::optional,
+            .doc = "Names of supports that end; what they bore fades in the stage's steps.",
+            .absent = "none"})
+      .key("hold", &Stage::hold,
+           {.need = tables::Need::optional,
+            .doc = "Names of supports that begin, where the ground then is. What holds before it "
+                   "was released does not at first.",
+            .absent = "none"})
+      .key("water_table", &Stage::water_table,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "The water table from then on, in place of water.table.",
+            .absent = "as it was"})
+      .key("materials", &Stage::materials,
+           {.need = tables::Need::optional,
+            .doc = "Names of materials whose strength changes, to one value of each list below. "
+                   "What a stress has too much then fades in the stage's steps.",
+            .absent = "none"})
+      .key("cohesion", &Stage::cohesion,
+           {.need = tables::Need::optional,
+            .unit = "Pa",
+            .doc = "Of each of materials.",
+            .absent = "as it was"})
+      .key("friction_angle", &Stage::friction_angle,
+           {.need = tables::Need::optional,
+            .unit = "deg",
+            .doc = "Of each of materials.",
+            .absent = "as it was"})
+      .key("dilation_angle", &Stage::dilation_angle,
+           {.need = tables::Need::optional,
+            .unit = "deg",
+            .doc = "Of each of materials.",
+            .absent = "as it was"});
+}
+
+SceneTable stage() {
+  tables::TableBuilder<Scene, Stage> table(
+      "stage", &Scene::stage,
+      "A part of a run: what changes at its beginning, and how far the drive then goes, there or "
+      "back. Stages follow each other; a run goes on from the end of any of them (--from-stage).");
+  table
+      .key("name", &Stage::name,
+           {.need = tables::Need::required, .doc = "Unique; serves messages and --from-stage."})
+      .key("to", &Stage::to,
+           {.need = tables::Need::optional,
+            .unit = "m, or factor",
+            .doc = "Where the drive is at the stage's end: the displacement along its direction, "
+                   "or what the loads that grow are multiplied by. Less than before is unloading.",
+            .absent = "where it was"})
+      .key("reduction", &Stage::reduction,
+           {.need = tables::Need::optional,
+            .range = tables::positive(),
+            .doc = "What cohesion and tan(phi) of the materials drive.weakened are divided by at "
+                   "the stage's end.",
+            .absent = "as it was"})
+      .key("steps", &Stage::steps,
+           {.need = tables::Need::optional,
+            .range = tables::at_least(1),
+            .doc = "Nominal number of equal steps.",
+            .absent = "programme.steps, or for a displacement increment_over_spacing"});
+  return with_changes(table).build();
+}
+
+}  // namespace
+
+std::vector<SceneTable> stage_tables() {
+  return {stage()};
+}
+
+}  // namespace scene

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "constitutive/parameters.hpp"
+
+namespace constitutive {
+
+/// A material whose cohesion and tan(phi), residual ones included, are divided by a factor, and
+/// tan(psi) with them, so that flow that is associated stays so.
+/// @param factor  > 0; below 1 it strengthens
+[[nodiscard]] inline MaterialParameters with_strength_over(MaterialParameters parameters,
+                                                           double factor) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  const auto divided = [&](double angle) {
+    return std::atan(std::tan(angle * degree) / factor) / degree;
+  };
+  if (factor == 1.0) return parameters;
+  parameters.cohesion /= factor;
+  parameters.friction_angle = divided(parameters.friction_angle);
+  parameters.dilation_angle = divided(parameters.dilation_angle);
+  parameters.residual_cohesion /= factor;
+  if (std::isfinite(parameters.residual_friction_angle)) {
+    parameters.residual_friction_angle = divided(parameters.residual_friction_angle);
+  }
+  return parameters;
+}
+
+}  // namespace constitutive
