@@ -134,13 +134,14 @@ class BalanceEquations {
   algebra::EquationBuilder equations_;
 };
 
-// What no stress may exceed: yield in each triangle's corner, no tension where a footing may lift
-// off.
+// What no stress may exceed: yield in each triangle's corner, tension where it is cut off, none
+// where a footing may lift off.
 struct Ceiling {
   Eigen::Index corner = 0;
   const problem::Soil* soil = nullptr;  // none: no tension
   double cohesion = 0.0;                // there; linear, as the stress between corners is
   mesh::Point normal{0.0, 0.0};
+  bool is_cut = false;  // the soil's cut-off instead of its yield
 };
 
 std::vector<Ceiling> ceilings_of(const problem::Problem& problem) {
@@ -152,6 +153,9 @@ std::vector<Ceiling> ceilings_of(const problem::Problem& problem) {
       const int node = mesh.triangles[t].nodes[static_cast<std::size_t>(i)];
       ceilings.push_back(
           {static_cast<Eigen::Index>(9 * t) + 3 * i, &soil, soil.cohesion_at(node_at(mesh, node))});
+      if (!soil.cuts_tension()) continue;
+      ceilings.push_back(ceilings.back());
+      ceilings.back().is_cut = true;
     }
   }
   for (const mesh::Edge& edge : mesh::edges_of(mesh)) {
@@ -166,7 +170,8 @@ std::vector<Ceiling> ceilings_of(const problem::Problem& problem) {
   return ceilings;
 }
 
-// Radius of Mohr's circle less the one that yields, over a stress that cannot vanish; or tension.
+// Radius of Mohr's circle less the one that yields, over a stress that cannot vanish; or tension,
+// of the larger principal stress less the soil's.
 double excess(const Ceiling& ceiling, const Eigen::VectorXd& field) {
   const auto stress = field.segment<3>(ceiling.corner);
   if (ceiling.soil == nullptr) {
@@ -176,6 +181,7 @@ double excess(const Ceiling& ceiling, const Eigen::VectorXd& field) {
   const double mean = (stress[0] + stress[1]) / 2.0;
   const double radius = std::hypot((stress[0] - stress[1]) / 2.0, stress[2]);
   const problem::Soil& soil = *ceiling.soil;
+  if (ceiling.is_cut) return mean + radius - soil.tension;
   const double strength =
       ceiling.cohesion * std::cos(soil.friction_angle) - mean * std::sin(soil.friction_angle);
   return radius - strength;

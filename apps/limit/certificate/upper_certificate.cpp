@@ -26,13 +26,24 @@ double value(const Terms& terms, const Eigen::VectorXd& velocities) {
 
 /// A place where soil flows: a corner of a triangle or a control point of a jump. It must dilate by
 /// at least `ratio` times the shear, or, if it may not dilate, not at all, and dissipates, times
-/// `weight`, `per_dilation` times the dilation and `per_shear` times the shear.
+/// `weight`, `per_dilation` times the dilation, `per_shear` times the shear and `per_excess` times
+/// what the shear is more than the dilation.
+///
+/// Where tension is cut off at T, the mean stress p and the radius R of Mohr's circle, whose power
+/// is p dilation + R shear, are in a polygon with one corner at p = T, R = 0 and another where
+/// Rankine meets Coulomb, R = (c cos(phi) - T sin(phi)) / (1 - sin(phi)), p = T - R: the power is
+/// at most T dilation, and R (shear - dilation) more if that is positive. It is linear in the
+/// cohesion.
 struct FlowPoint {
   Terms dilation;
   std::array<Terms, 2> shear;  // the root of the sum of their squares
   double ratio = 0.0;
   bool may_dilate = false;
-  double per_dilation = 0.0, per_shear = 0.0;
+  double per_dilation = 0.0, per_shear = 0.0, per_excess = 0.0;
+  bool is_layer = false;  // a jump: of a thin layer, whose shear is the root of both components'
+  /// Under a contact that may open, of soil whose tension is cut off: the traction's circle.
+  bool is_contact = false;
+  double circle_middle = 0.0, circle_radius = 0.0;
   double weight = 0.0;
   std::size_t triangle = 0;
 };
@@ -82,8 +93,13 @@ class Flow {
     point.ratio = ratio;
     point.weight = weight;
     point.triangle = triangle;
-    point.may_dilate = soil.friction_angle > 0.0;
-    if (point.may_dilate) {
+    point.may_dilate = soil.friction_angle > 0.0 || soil.cuts_tension();
+    if (soil.cuts_tension()) {
+      const double sine = std::sin(soil.friction_angle);
+      point.per_dilation = soil.tension;
+      point.per_excess =
+          (cohesion * std::cos(soil.friction_angle) - soil.tension * sine) / (1.0 - sine);
+    } else if (point.may_dilate) {
       point.per_dilation = cohesion / std::tan(soil.friction_angle);
     } else {
       point.per_shear = cohesion;
@@ -181,7 +197,17 @@ class Flow {
       const double cohesion = soil.cohesion_at(a + centre * (b - a));
       FlowPoint jump = point(t, soil, cohesion, slips_freely ? 0.0 : std::tan(soil.friction_angle),
                              (b - a).norm() / 3.0);
-      if (may_open) {
+      jump.is_layer = true;
+      if (may_open && soil.cuts_tension()) {
+        jump.is_contact = true;
+        jump.circle_radius = jump.per_excess;
+        jump.circle_middle = soil.tension - jump.circle_radius;
+        jump.per_shear = cohesion;
+        if (jump.circle_middle + jump.circle_radius * std::sin(soil.friction_angle) < 0.0) {
+          jump.per_shear = std::sqrt((jump.circle_radius - jump.circle_middle) *
+                                     (jump.circle_radius + jump.circle_middle));
+        }
+      } else if (may_open) {
         // The largest power of a traction that yields and does not pull: that of the cohesion.
         jump.may_dilate = true;
         jump.per_dilation = 0.0;
@@ -276,6 +302,20 @@ double shear_of(const FlowPoint& point, const Eigen::VectorXd& x) {
   return std::hypot(value(point.shear[0], x), value(point.shear[1], x));
 }
 
+// Times its weight.
+double power_of(const FlowPoint& point, const Eigen::VectorXd& x) {
+  const double dilation = value(point.dilation, x), shear = shear_of(point, x);
+  const double size = point.is_layer ? std::hypot(dilation, shear) : shear;
+  if (point.is_contact) {
+    // Of the tractions on the circle that do not pull, or of their last one, with no pressure.
+    const bool presses = point.circle_middle * size + point.circle_radius * dilation < 0.0;
+    return presses ? point.circle_middle * dilation + point.circle_radius * size
+                   : point.per_shear * shear;
+  }
+  return point.per_dilation * dilation + point.per_shear * shear +
+         point.per_excess * std::max(0.0, size - dilation);
+}
+
 // What a point that may dilate lacks of the dilation its shear demands.
 double lack(const FlowPoint& point, const Eigen::VectorXd& x) {
   return point.ratio * shear_of(point, x) - value(point.dilation, x);
@@ -343,8 +383,7 @@ UpperCertificate certify_upper(const problem::Problem& problem,
   x /= live;
   certificate.of_triangle.assign(problem.mesh.triangles.size(), 0.0);
   for (const FlowPoint& point : flow.points()) {
-    const double power = point.weight * (point.per_dilation * value(point.dilation, x) +
-                                         point.per_shear * shear_of(point, x));
+    const double power = point.weight * power_of(point, x);
     certificate.dissipation += power;
     certificate.of_triangle[point.triangle] += power;
   }

@@ -242,6 +242,12 @@ std::vector<std::string> assumptions_of(const GroundScene& scene, const problem:
                                       "hydrostatic below it; ") +
         "loads and pressures are in addition to the water's, stresses effective");
   }
+  if (std::any_of(problem.soils.begin(), problem.soils.end(),
+                  [](const problem::Soil& soil) { return soil.cuts_tension(); })) {
+    assumptions.emplace_back(
+        "where tension is cut off what opens flows by the normality of Rankine; where strength is "
+        "divided, so is that tension");
+  }
   if (scene.load.sought == Sought::strength) {
     assumptions.emplace_back(
         "cohesion and tan(friction angle) of all materials are divided by the factor");
@@ -265,6 +271,10 @@ void describe(const GroundScene& scene, problem::Case& result) {
           fmt::format(" at ({:g}, {:g}), growing by ({:g}, {:g}) {}/{}", material.cohesion.at[0],
                       material.cohesion.at[1], material.cohesion.gradient[0],
                       material.cohesion.gradient[1], scene.units.stress, scene.units.length);
+    }
+    if (material.soil.cuts_tension()) {
+      cohesion +=
+          fmt::format(", tension cut off at {:g} {}", material.soil.tension, scene.units.stress);
     }
     result.data.emplace_back(
         material.name,

@@ -115,9 +115,10 @@ class Reader {
            "fpm-limit brackets collapse");
     refuse(material.match != "plane_strain", table + "match", "found " + material.match,
            "only strengths matched in plane strain are those of Mohr-Coulomb");
-    refuse(material.tension_cutoff.has_value(), table + "tension_cutoff",
-           fmt::format("found {:g}", material.tension_cutoff.value_or(0.0)),
-           "the bounds are those of a soil without a tension cut-off");
+    refuse(
+        material.tension_cutoff && material.model != "mohr_coulomb", table + "tension_cutoff",
+        fmt::format("found {:g}, of a {}", material.tension_cutoff.value_or(0.0), material.model),
+        "cut off in tension, only mohr_coulomb is the same soil in plane strain");
     refuse(material.residual_strain.has_value(), table + "residual_strain",
            fmt::format("found {:g}", material.residual_strain.value_or(0.0)),
            "the bounds are those of a soil whose strength stays");
@@ -130,6 +131,7 @@ class Reader {
     soil.cohesion = material.cohesion.value_or(parameters.cohesion);
     soil.soil.friction_angle = parameters.friction_angle * degree;
     soil.dilation_angle = parameters.dilation_angle * degree;
+    soil.tension_cutoff = material.tension_cutoff;
     soil.soil.unit_weight = material.density * weight_;
     if (material.saturated_unit_weight) {
       soil.saturated_unit_weight = scene::saturated_density(material) * weight_;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "scene/mesh_groups.hpp"
@@ -116,6 +118,13 @@ GroundTable material() {
             .doc = "for the Davis-reduced bracket",
             .absent = "the friction angle"})
       .in(degree)
+      .key("tension_cutoff", &GroundMaterial::tension_cutoff,
+           {.need = Need::optional,
+            .unit = "Pa",
+            .range = at_least(0.0),
+            .doc = "more than zero, largest principal stress (Rankine); beyond the apex it changes "
+                   "nothing",
+            .absent = "none"})
       .key("unit_weight", [](auto& m) -> auto& { return m.soil.unit_weight; },
            {.unit = "N/m3", .range = at_least(0.0)})
       .key("saturated_unit_weight", &GroundMaterial::saturated_unit_weight,
@@ -252,6 +261,41 @@ void tell_cohesion(GroundScene& scene, std::size_t m, tables::Diagnosis& diagnos
   soil.centre = middle;
 }
 
+// The least tension at which a cut-off changes nothing is that of the apex, infinite in clay. Where
+// the cohesion changes, it must be below the apex everywhere.
+void tell_tension(GroundScene& scene, std::size_t m, tables::Diagnosis& diagnosis) {
+  const GroundMaterial& material = scene.materials[m];
+  problem::Soil& soil = scene.materials[m].soil;
+  if (!material.tension_cutoff) return;
+  if (*material.tension_cutoff == 0.0) {
+    diagnosis.error(fmt::format("material.{}.tension_cutoff", m), "found 0",
+                    "at a free face no stress is strictly below none, and no stress field can be "
+                    "certified: allowed is a trace, as a thousandth of the cohesion");
+    return;
+  }
+  const double tangent = std::tan(soil.friction_angle);
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const GroundRegion& region : scene.regions) {
+    if (region.material != m) continue;
+    for (const mesh::Point& place : region.outline) {
+      const double apex = tangent > 0.0 ? soil.cohesion_at(place) / tangent
+                                        : std::numeric_limits<double>::infinity();
+      least = std::min(least, apex);
+      most = std::max(most, apex);
+    }
+  }
+  if (*material.tension_cutoff < least) {
+    soil.tension = *material.tension_cutoff;
+  } else if (*material.tension_cutoff < most) {
+    diagnosis.error(
+        fmt::format("material.{}.tension_cutoff", m),
+        fmt::format("found {:g}, and the cohesion bears {:g} Pa of tension in one place "
+                    "and {:g} in another",
+                    *material.tension_cutoff, least, most),
+        "allowed is a cut-off below what the cohesion bears everywhere, or none");
+  }
+}
+
 void check_side(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnosis) {
   GroundSide& side = scene.sides[i];
   const std::string table = fmt::format("side.{}.", i);
@@ -284,6 +328,8 @@ void check_side(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnosis)
 
 void tell_cohesions(GroundScene& scene, tables::Diagnosis& diagnosis) {
   for (std::size_t m = 0; m < scene.materials.size(); ++m) tell_cohesion(scene, m, diagnosis);
+  if (!diagnosis.errors().empty()) return;
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) tell_tension(scene, m, diagnosis);
 }
 
 std::optional<GroundScene> read_ground_scene(std::string_view text,

@@ -21,6 +21,7 @@ struct GroundMaterial {
   problem::Soil soil;                           // live_unit_weight unused
   tables::LinearField cohesion;                 // as it is told
   double dilation_angle = 0.0;                  // [rad] 0 .. friction angle
+  std::optional<double> tension_cutoff;         // [Pa] of the largest principal stress
   std::optional<double> saturated_unit_weight;  // [N/m3] below the water table
   bool grows = true;                            // its weight is multiplied where gravity is sought
 };
@@ -107,8 +108,8 @@ struct GroundScene {
   GroundLoad load;
 };
 
-/// Gives the soils of a scene the cohesion of their materials. A linear one that is not more than
-/// zero wherever its material is is an error.
+/// Gives the soils of a scene the cohesion and the tension cut-off of their materials. A linear
+/// cohesion that is not more than zero wherever its material is is an error.
 void tell_cohesions(GroundScene& scene, tables::Diagnosis& diagnosis);
 
 /// Reads such a scene from TOML text, settings (`--set`) applied. Only what can be judged key by

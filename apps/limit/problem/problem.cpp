@@ -20,6 +20,7 @@ Problem in_units(const Problem& problem, const Units& units) {
   for (Soil& soil : scaled.soils) {
     soil.cohesion /= units.stress;
     soil.cohesion_gradient /= units.stress / units.length;
+    soil.tension /= units.stress;
     soil.centre /= units.length;
     soil.unit_weight /= units.stress / units.length;
     soil.live_unit_weight *= live * units.length;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +22,10 @@ struct Soil {
   /// [N/m3] of the pore water on the grains, less the gradient of its pressure: stresses are then
   /// effective ones. Per unit of the multiplier, too.
   mesh::Point seepage{0.0, 0.0}, live_seepage{0.0, 0.0};
+  /// [Pa] a tension cut-off (Rankine): no principal stress is more. Infinite: none.
+  double tension = std::numeric_limits<double>::infinity();
 
+  [[nodiscard]] bool cuts_tension() const { return std::isfinite(tension); }
   [[nodiscard]] bool varies() const { return !cohesion_gradient.isZero(0.0); }
   [[nodiscard]] double cohesion_at(const mesh::Point& place) const {
     return cohesion + cohesion_gradient.dot(place - centre);

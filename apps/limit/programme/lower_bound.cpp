@@ -1,5 +1,8 @@
 #include "limit/programme/lower_bound.hpp"
 
+#include <optional>
+#include <utility>
+
 #include "limit/programme/yield_cones.hpp"
 
 namespace limit::programme {
@@ -51,6 +54,7 @@ class Builder {
         add_cone(triangle.region, problem.mesh.nodes[static_cast<std::size_t>(node)]);
       }
     }
+    for (std::size_t corner = 0; corner < cuts_.size(); ++corner) add_cut(corner);
     for (const mesh::Edge& edge : edges_) add_contacts(edge);
     if (problem.most_multiplier) {
       cones_.push_back(half_line_cone(*problem.most_multiplier));
@@ -63,6 +67,7 @@ class Builder {
     equilibrium_of_sides();
     equilibrium_of_footing();
     stresses_of_contacts();
+    stresses_of_cuts();
     end_of_multiplier();
     const Eigen::Index variables = multiplier() + 1;
     ConeProgram program;
@@ -95,6 +100,26 @@ class Builder {
     const double load = overburden_.at(soil, place);
     cones_.push_back(yield_cone(soil, load, reserve));
     starts_.push_back(inner_point(cones_.back(), load));
+    cuts_.push_back(soil.cuts_tension() ? std::optional(tension_cone(soil, load, reserve))
+                                        : std::nullopt);
+  }
+
+  // The stress of a corner once more, in Rankine's cone.
+  void add_cut(std::size_t corner) {
+    if (!cuts_[corner]) return;
+    copies_.emplace_back(static_cast<Eigen::Index>(3 * corner), multiplier());
+    cones_.push_back(*cuts_[corner]);
+    starts_.push_back(inner_point(cones_.back(), -starts_[corner][0]));
+  }
+
+  void stresses_of_cuts() {
+    for (const auto& [stress, copy] : copies_) {
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        begin_equation(0.0);
+        add(stress + i, 1.0);
+        add(copy + i, -1.0);
+      }
+    }
   }
 
   // Cones of the normal stress at both ends of a side that may open.
@@ -238,6 +263,8 @@ class Builder {
     mesh::Point normal;
   };
   std::vector<Contact> contacts_;
+  std::vector<std::optional<YieldCone>> cuts_;                 // of the corners
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> copies_;  // first variables
   std::vector<Eigen::Triplet<double, Eigen::Index>> entries_;  // of the equations, row by row
   std::vector<double> right_side_;
 };

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "limit/programme/velocity_shapes.hpp"
 #include "limit/programme/yield_cones.hpp"
@@ -89,13 +90,22 @@ class Builder {
   ConeProgram program() {
     for (std::size_t t = 0; t < problem_.mesh.triangles.size(); ++t) add_triangle(t);
     for (const mesh::Edge& edge : edges_) add_side(edge);
-    const int equations =
-        rows_.count + static_cast<int>(contacts_.size()) + (problem_.most_multiplier ? 1 : 0);
-    for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      const int row = rows_.count + static_cast<int>(c);
-      add(row, contacts_[c].traction, 1.0);
-      add(row, contacts_[c].variable, -1.0);
+    int equations = rows_.count;
+    for (const Contact& contact : contacts_) {
+      add(equations, contact.traction, 1.0);
+      if (contact.has_deviator) add(equations, contact.traction + 1, 1.0);
+      add(equations++, contact.variable, -1.0);
     }
+    for (const auto& [column, cone] : cuts_) {
+      const auto copy = static_cast<int>(3 * cones_.size());
+      cones_.push_back(cone);
+      starts_.push_back(inner_point(cone, -starts_[static_cast<std::size_t>(column / 3)][0]));
+      for (int i = 0; i < 3; ++i) {
+        add(equations, column + i, 1.0);
+        add(equations++, copy + i, -1.0);
+      }
+    }
+    if (problem_.most_multiplier) ++equations;
     if (problem_.most_multiplier) {
       cones_.push_back(half_line_cone(*problem_.most_multiplier));
       starts_.push_back(inner_point(cones_.back(), 0.0));
@@ -131,13 +141,15 @@ class Builder {
     const double load = overburden_.at(soil, place);
     cones_.push_back(yield_cone(soil, load, 0.0));
     starts_.push_back(inner_point(cones_.back(), load));
-    return 3 * static_cast<int>(cones_.size() - 1);
+    const int column = 3 * static_cast<int>(cones_.size() - 1);
+    if (soil.cuts_tension()) cuts_.emplace_back(column, tension_cone(soil, load, 0.0));
+    return column;
   }
 
   // A normal traction (variable `traction`) that may not pull, as a variable of its own: the
   // multiplier of their equality is the opening, which costs nothing.
-  void add_contact(int traction) {
-    contacts_.push_back({traction, 3 * static_cast<int>(cones_.size())});
+  void add_contact(int traction, bool has_deviator) {
+    contacts_.push_back({traction, 3 * static_cast<int>(cones_.size()), has_deviator});
     cones_.push_back(contact_cone(cones_[static_cast<std::size_t>(traction / 3)].scale, 0.0));
     starts_.push_back(inner_point(cones_.back(), 0.0));
   }
@@ -176,7 +188,8 @@ class Builder {
 
   // Power of the tractions at the control points of the jump across a side: of the neighbour's
   // velocity, the footing's or nothing, less that of the triangle. (p, t) is (normal, shear x
-  // cos(phi)); d stays out.
+  // cos(phi)); d stays out. Where tension is cut off, it is the stress of a thin layer, whose third
+  // component has no power: p + d is normal, t the shear.
   void add_side(const mesh::Edge& edge) {
     bool has_shear = true, may_open = false;
     if (edge.boundary >= 0) {
@@ -215,37 +228,43 @@ class Builder {
       const double cohesion =
           (1.0 - share) * soil.cohesion_at(at[0]) + share * soil.cohesion_at(at[2]);
       const int column = add_cone(region, at[c], cohesion);
-      if (may_open) add_contact(column);
+      const bool cut = soil.cuts_tension();
+      if (may_open) add_contact(column, cut);
       for (std::size_t i = 0; i < 3; ++i) {
         const double factor = control[c][i] * length / 3.0;
         const mesh::Point n = factor * normal;
         const mesh::Point s =
-            has_shear ? mesh::Point(factor / cosine * tangent) : mesh::Point(0, 0);
-        add_power(2 * inside[i], column, -n, -s);
+            has_shear ? mesh::Point((cut ? factor : factor / cosine) * tangent) : mesh::Point(0, 0);
+        add_power(2 * inside[i], column, -n, -s, cut);
         if (edge.right >= 0) {
-          add_power(2 * places_along(mesh, edge.right, edge)[i], column, n, s);
+          add_power(2 * places_along(mesh, edge.right, edge)[i], column, n, s, cut);
         } else {
-          add_footing_power(edge.boundary, at[i], column, n, s);
+          add_footing_power(edge.boundary, at[i], column, n, s, cut);
         }
       }
     }
   }
 
-  void add_power(int row, int column, const mesh::Point& normal, const mesh::Point& shear) {
+  void add_power(int row, int column, const mesh::Point& normal, const mesh::Point& shear,
+                 bool has_deviator) {
     for (int xy = 0; xy < 2; ++xy) {
       add(row + xy, column, normal[xy]);
+      if (has_deviator) add(row + xy, column + 1, normal[xy]);
       add(row + xy, column + 2, shear[xy]);
     }
   }
 
   void add_footing_power(int boundary, const mesh::Point& at, int column, const mesh::Point& normal,
-                         const mesh::Point& shear) {
+                         const mesh::Point& shear, bool has_deviator) {
     const problem::Boundary& conditions = problem_.boundaries[static_cast<std::size_t>(boundary)];
     for (int motion = 0; motion < 3; ++motion) {
       const int row = rows_.footing[static_cast<std::size_t>(motion)];
       if (row < 0) continue;
       const mesh::Point velocity = rigid_velocity(at - problem_.footing.centre, motion);
-      if (conditions.normal == problem::Known::footing) add(row, column, normal.dot(velocity));
+      if (conditions.normal == problem::Known::footing) {
+        add(row, column, normal.dot(velocity));
+        if (has_deviator) add(row, column + 1, normal.dot(velocity));
+      }
       if (conditions.tangential == problem::Known::footing)
         add(row, column + 2, shear.dot(velocity));
     }
@@ -259,8 +278,10 @@ class Builder {
   std::vector<Eigen::Vector3d> starts_;
   struct Contact {
     int traction, variable;
+    bool has_deviator;
   };
   std::vector<Contact> contacts_;
+  std::vector<std::pair<int, YieldCone>> cuts_;  // of which variables, Rankine's cone
   std::vector<Eigen::Triplet<double>> entries_;
 };
 

@@ -62,6 +62,12 @@ YieldCone yield_cone(const problem::Soil& soil, double overburden, double reserv
   return {strength, slope, std::max(strength + slope * overburden, least)};
 }
 
+YieldCone tension_cone(const problem::Soil& soil, double overburden, double reserve) {
+  constexpr double least = 1e-6;
+  const double strength = soil.tension * (1.0 - 2.0 * reserve), slope = 1.0 - reserve;
+  return {strength, slope, std::max(strength + slope * overburden, least)};
+}
+
 YieldCone half_line_cone(double scale) {
   return {0.0, 1.0, scale};
 }

@@ -33,6 +33,10 @@ class Overburden {
 /// cohesion's.
 [[nodiscard]] YieldCone yield_cone(const problem::Soil& soil, double overburden, double reserve);
 
+/// Rankine's cone, no principal stress above the soil's tension, for a second copy of a stress that
+/// is in the soil's own cone; p + sqrt(d^2 + t^2) <= tension less `reserve`, as above.
+[[nodiscard]] YieldCone tension_cone(const problem::Soil& soil, double overburden, double reserve);
+
 /// The cone whose variable p is a normal stress across a contact that bears no tension, p <= 0 less
 /// the fraction `reserve` of the scale, a stress typical of the place. Nothing else may name its d
 /// and t: what remains of it is one-dimensional.

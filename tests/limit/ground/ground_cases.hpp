@@ -44,6 +44,7 @@ inline std::vector<KnownGround> known_grounds() {
   const double digits = 1e-6;
   return {
       {"vertical_cut", 3.776, 3.778, "Lyamin & Sloan 2002 below, Pastor et al. 2000 above"},
+      {"vertical_cut_cracked", 2.0, 3.778, "columns by themselves; the same with all its tension"},
       {"slope", 0.0, 10.3907, "the best logarithmic spiral through the toe (Chen 1975)"},
       {"slope_safety", 1.0, 1.25189, "the same spiral with the strength divided"},
       {"slope_gentle", 1.0, 1.3540, "the best logarithmic spiral with the strength divided"},

@@ -1,0 +1,163 @@
+// Soil whose tension is cut off: Rankine's cone beside Mohr and Coulomb's, in both programmes and
+// both certificates.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "limit/certificate/lower_certificate.hpp"
+#include "limit/ground/ground_cases.hpp"
+
+namespace {
+
+using namespace limit;
+using ::testing::HasSubstr;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+std::string material(double friction, const std::string& cut) {
+  return fmt::format(
+      "[[material]]\nname = \"soil\"\ncohesion = 1e3\nfriction_angle = {}\nunit_weight = {}\n{}\n",
+      friction, 0.0, cut);
+}
+
+// A block two wide and three high on a smooth base, pulled or pushed at its top.
+std::string block(double friction, const std::string& cut, double push) {
+  return "[load]\nsought = \"traction\"\n" + material(friction, cut) +
+         fmt::format(R"([[region]]
+material = "soil"
+outline = [[0, 0], [2, 0], [2, 3], [0, 3]]
+[[side]]
+name = "faces"
+kind = "free"
+along = [[2, 0], [2, 3]]
+[[side]]
+name = "axis"
+kind = "symmetry"
+along = [[0, 0], [0, 3]]
+[[side]]
+name = "top"
+kind = "loaded"
+along = [[0, 3], [2, 3]]
+live_pressure = {}
+[[side]]
+name = "base"
+kind = "roller"
+along = [[0, 0], [2, 0]]
+)",
+                     push);
+}
+
+bracket::Solution solution(const std::string& text, double gap = 0.01) {
+  const auto problem = case_of(text);
+  EXPECT_TRUE(problem);
+  bracket::BracketOptions options;
+  options.gap = gap;
+  return problem ? bracket::solution_of(problem->associated, options, {}) : bracket::Solution{};
+}
+
+// One state of stress is exact: the least of the cut-off and of Mohr and Coulomb's tension.
+TEST(TensionCutOff, IsAllThatAPulledBlockBears) {
+  for (const double friction : {0.0, 20.0}) {
+    const double phi = friction * degree;
+    const double uncut = 2e3 * std::cos(phi) / (1.0 + std::sin(phi));
+    for (const double tension : {30.0, 0.5 * uncut, 1.1 * uncut}) {
+      const bracket::Solution found =
+          solution(block(friction, fmt::format("tension_cutoff = {}", tension), -1.0));
+      ASSERT_TRUE(found.lower && found.upper) << friction << ' ' << tension;
+      const double exact = std::min(tension, uncut);
+      constexpr double reserve = 1e-5;  // of the solver and of the lower programme
+      EXPECT_LE(*found.lower, exact * (1.0 + 1e-9));
+      EXPECT_GE(*found.upper, exact * (1.0 - 1e-9));
+      EXPECT_NEAR(*found.lower, exact, 10.0 * reserve * uncut) << friction << ' ' << tension;
+      EXPECT_NEAR(*found.upper, exact, 10.0 * reserve * uncut) << friction << ' ' << tension;
+    }
+  }
+}
+
+// In compression it changes nothing.
+TEST(TensionCutOff, DoesNotMatterToAPushedBlock) {
+  const double phi = 20.0 * degree;
+  const double exact = 2e3 * std::cos(phi) / (1.0 - std::sin(phi));
+  const bracket::Solution found = solution(block(20.0, "tension_cutoff = 10", 1.0));
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_LE(*found.lower, exact * (1.0 + 1e-9));
+  EXPECT_GE(*found.upper, exact * (1.0 - 1e-9));
+  EXPECT_LT(found.gap(), 0.01);
+}
+
+// The certificate knows the cut-off by itself: a field beyond it is drawn back to it.
+TEST(TensionCutOff, IsHeldToByTheCertificateOfStresses) {
+  const auto cut = case_of(block(0.0, "tension_cutoff = 500", -1.0));
+  ASSERT_TRUE(cut);
+  const problem::Problem& problem = cut->associated.lower;
+  Eigen::Matrix3d pulled = Eigen::Matrix3d::Zero();
+  pulled.row(1).setConstant(1500.0);  // yy, less than 2 c
+  const problem::StressField field(problem.mesh.triangles.size(), pulled);
+  const auto certificate = certificate::certify_lower(problem, field, 1500.0);
+  ASSERT_TRUE(certificate.kept < 1.0);
+  EXPECT_NEAR(certificate.multiplier, 500.0, 500.0 * 1e-5);
+  EXPECT_LE(certificate.multiplier, 500.0);
+}
+
+// gamma H / c of a vertical cut. Drucker and Prager's (1952) columns stand without tension up to 2;
+// with all of its tension clay comes to 3.776 .. 3.778.
+std::string cut(double tension) {
+  return fmt::format(
+             "[load]\nsought = \"gravity\"\n[[material]]\nname = \"clay\"\ncohesion = 1\n"
+             "friction_angle = 0\nunit_weight = 1\ntension_cutoff = {}\n",
+             tension) +
+         R"([[region]]
+material = "clay"
+outline = [[-2, -1], [2, -1], [2, 1], [0, 1], [0, 0], [-2, 0]]
+[[side]]
+name = "free"
+kind = "free"
+along = [[-2, 0], [0, 0], [0, 1], [2, 1]]
+[[side]]
+name = "rigid"
+kind = "fixed"
+along = [[-2, 0], [-2, -1], [2, -1], [2, 1]]
+)";
+}
+
+TEST(TensionCutOff, LowersAVerticalCut) {
+  // On the first meshes, which are near enough to tell.
+  const auto coarse = [](double tension) {
+    const auto problem = case_of(cut(tension));
+    EXPECT_TRUE(problem);
+    bracket::BracketOptions options;
+    options.max_triangles = 1;
+    return problem ? bracket::solution_of(problem->associated, options, {}) : bracket::Solution{};
+  };
+  const bracket::Solution whole = coarse(100.0), little = coarse(0.01);
+  ASSERT_TRUE(whole.lower && whole.upper && little.lower && little.upper);
+  EXPECT_LE(*whole.lower, 3.778);
+  EXPECT_GE(*whole.upper, 3.776);
+  EXPECT_GE(*little.upper, 2.0);
+  EXPECT_LE(*little.lower, *little.upper);
+  EXPECT_LT(*little.upper, *whole.lower);
+}
+
+std::string complaint(const std::string& text) {
+  tables::Diagnosis diagnosis("scene");
+  std::optional<tables::Complaint> unreadable;
+  const auto scene = ground::read_ground_scene(text, {}, diagnosis, unreadable);
+  if (scene) static_cast<void>(ground::ground_case(*scene, diagnosis));
+  return diagnosis.errors().empty() ? "" : diagnosis.errors().front().text();
+}
+
+TEST(TensionCutOff, ThatLeavesNothingOrIsBesideTheApexIsRefusedInWords) {
+  EXPECT_THAT(complaint(block(20.0, "tension_cutoff = 0", 1.0)),
+              HasSubstr("material.0.tension_cutoff: found 0"));
+  EXPECT_THAT(complaint(block(20.0, "tension_cutoff = -1", 1.0)),
+              HasSubstr("material.0.tension_cutoff"));
+  std::string varying = block(45.0, "tension_cutoff = 1000", 1.0);
+  varying.replace(varying.find("cohesion = 1e3"), 14,
+                  "cohesion = { at = [0, 1.5], value = 1e3, gradient = [0, 100] }");
+  EXPECT_THAT(complaint(varying), HasSubstr("bears 850 Pa of tension in one place and 1150"));
+}
+
+}  // namespace
