@@ -174,6 +174,24 @@ class Flow {
     return {velocity(t, a), velocity(t, 3 + middle), velocity(t, b)};
   }
 
+  // A jump across which no traction pulls.
+  static void let_open(FlowPoint& jump, const problem::Soil& soil, double cohesion) {
+    jump.per_shear = cohesion;
+    if (!soil.cuts_tension()) {
+      // The largest power of a traction that yields and does not pull: that of the cohesion.
+      jump.may_dilate = true;
+      jump.per_dilation = 0.0;
+      return;
+    }
+    jump.is_contact = true;
+    jump.circle_radius = jump.per_excess;
+    jump.circle_middle = soil.tension - jump.circle_radius;
+    if (jump.circle_middle + jump.circle_radius * std::sin(soil.friction_angle) < 0.0) {
+      jump.per_shear = std::sqrt((jump.circle_radius - jump.circle_middle) *
+                                 (jump.circle_radius + jump.circle_middle));
+    }
+  }
+
   void jumps(const mesh::Edge& edge) {
     bool slips_freely = false, may_open = false;
     if (edge.boundary >= 0) {
@@ -198,21 +216,7 @@ class Flow {
       FlowPoint jump = point(t, soil, cohesion, slips_freely ? 0.0 : std::tan(soil.friction_angle),
                              (b - a).norm() / 3.0);
       jump.is_layer = true;
-      if (may_open && soil.cuts_tension()) {
-        jump.is_contact = true;
-        jump.circle_radius = jump.per_excess;
-        jump.circle_middle = soil.tension - jump.circle_radius;
-        jump.per_shear = cohesion;
-        if (jump.circle_middle + jump.circle_radius * std::sin(soil.friction_angle) < 0.0) {
-          jump.per_shear = std::sqrt((jump.circle_radius - jump.circle_middle) *
-                                     (jump.circle_radius + jump.circle_middle));
-        }
-      } else if (may_open) {
-        // The largest power of a traction that yields and does not pull: that of the cohesion.
-        jump.may_dilate = true;
-        jump.per_dilation = 0.0;
-        jump.per_shear = cohesion;
-      }
+      if (may_open) let_open(jump, soil, cohesion);
       const auto add = [&](Eigen::Index x, const mesh::Point& unit, double factor) {
         jump.dilation.emplace_back(x, factor * unit.dot(normal));
         if (!slips_freely) jump.shear[0].emplace_back(x, factor * unit.dot(tangent));
