@@ -24,6 +24,7 @@ struct Traffic {
 template <int Dim>
 Traffic traffic_of(const Prepared<Dim>& p) {
   constexpr double number = sizeof(double);
+  constexpr double single = sizeof(float);  // of tangents
   constexpr double field = Dim * number;  // one vector over the unknowns
   constexpr double tensor = Dim * Dim * number;
   constexpr double flags = Dim;  // of prescribed unknowns
@@ -49,8 +50,8 @@ Traffic traffic_of(const Prepared<Dim>& p) {
   if (layout.incremental) pair_row += number;
 
   const double strain = Dim * Dim + (layout.subpoints ? second : 0);
-  const double tangent = strain * strain * number;
-  const double rotation = layout.incremental ? tensor * Dim * Dim : 0.0;
+  const double tangent = strain * strain * single;
+  const double rotation = layout.incremental ? Dim * Dim * Dim * Dim * single : 0.0;
   const double released = layout.incremental ? p.state.released.mean() : 0.0;
 
   Traffic t;
