@@ -25,7 +25,7 @@ template <int Dim>
 Traffic traffic_of(const Prepared<Dim>& p) {
   constexpr double number = sizeof(double);
   constexpr double single = sizeof(float);  // of tangents
-  constexpr double field = Dim * number;  // one vector over the unknowns
+  constexpr double field = Dim * number;    // one vector over the unknowns
   constexpr double tensor = Dim * Dim * number;
   constexpr double flags = Dim;  // of prescribed unknowns
   const auto n = static_cast<double>(p.model.size());
