@@ -51,9 +51,10 @@ std::vector<int> sorted_along(const Mesh& mesh) {
 template <int Dim>
 BackgroundGrid<Dim>::BackgroundGrid(const model::Model<Dim>& model, double grid_over_spacing)
     : prescribed_(model.prescribed) {
-  if (model.cells.graded()) {
+  const fpm::Cells<Dim>& cells = model.background.size() > 0 ? model.background : model.cells;
+  if (cells.graded()) {
     const int levels = std::max(1, static_cast<int>(std::floor(std::log2(grid_over_spacing))));
-    build(model, TreeMesh<Dim>(model.cells.coarsened(levels)));
+    build(model, TreeMesh<Dim>(cells.coarsened(levels)));
   } else {
     build(model, BoxMesh<Dim>(model, grid_over_spacing * model.spacing));
   }

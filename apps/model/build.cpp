@@ -8,15 +8,17 @@
 #include <tuple>
 
 #include "model/bodies.hpp"
+#include "model/cut_body.hpp"
+#include "model/elements.hpp"
 #include "model/initial_stress.hpp"
 #include "model/interfaces.hpp"
 #include "model/loads.hpp"
 #include "model/planes.hpp"
 #include "model/pore_water.hpp"
 #include "model/selection.hpp"
-#include "model/surface.hpp"
 #include "scene/cutouts.hpp"
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
 #include "scene/grading.hpp"
 #include "scene/scene.hpp"
 #include "scene/stages.hpp"
@@ -47,9 +49,13 @@ void place_particles(const scene::Scene& scene, Model<Dim>& model) {
   model.box_min = to_vector<Dim>(geometry.min);
   model.box_max = to_vector<Dim>(geometry.max);
   model.spacing = geometry.spacing;
-  model.cells = cells_of<Dim>(scene);
-  model.particles = fpm::make_particles(model.cells);
-  if (scene::is_cut(scene)) cut_body(scene, model);
+  if (scene::has_elements(scene)) {
+    place_elements(scene, model);
+  } else {
+    model.cells = cells_of<Dim>(scene);
+    model.particles = fpm::make_particles(model.cells);
+    if (scene::is_cut(scene)) cut_body(scene, model);
+  }
 
   model.row_options.kernel = to_kernel(scene.approximation.kernel);
   model.row_options.support_radius = scene.approximation.support_over_spacing * geometry.spacing;
@@ -67,11 +73,12 @@ void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
   // By where its cell is: jitter moves no particle into another material. What is left of a cell
   // that was cut is where its particle is.
   for (Eigen::Index a = 0; a < n; ++a) {
-    fpm::Vector<Dim> place = model.cells.site(static_cast<fpm::Index>(a));
-    if (!model.surface.empty() && model.particles.volume[a] != std::pow(model.spacing_at(a), Dim)) {
-      place = model.particles.position.row(a).transpose();
-    }
     if (!known) {
+      fpm::Vector<Dim> place = model.cells.site(static_cast<fpm::Index>(a));
+      if (!model.surface.empty() &&
+          model.particles.volume[a] != std::pow(model.spacing_at(a), Dim)) {
+        place = model.particles.position.row(a).transpose();
+      }
       model.material[static_cast<std::size_t>(a)] =
           static_cast<MaterialIndex>(scene::material_at(scene, {place.data(), Dim}));
     }
@@ -254,11 +261,12 @@ fpm::Cells<Dim> cells_of(const scene::Scene& scene) {
 }
 
 std::int64_t particle_count(const scene::Scene& scene) {
-  if (scene::is_cut(scene)) {
-    Model<2> model;
+  const auto count = [&](auto model) {
     place_particles(scene, model);
-    return model.size();
-  }
+    return static_cast<std::int64_t>(model.size());
+  };
+  if (scene::is_solid(scene)) return count(Model<3>());
+  if (scene::is_cut(scene)) return count(Model<2>());
   if (!scene.grading.enabled) return scene::particle_count(scene.geometry);
   return scene.geometry.dimension == 2 ? cells_of<2>(scene).size() : cells_of<3>(scene).size();
 }

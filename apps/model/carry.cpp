@@ -112,10 +112,34 @@ void carry_faces(const Model<Dim>& before, const State<Dim>& state, const Model<
   });
 }
 
+// By their centroids, which stay what they are whatever regions are there.
+template <int Dim>
+std::vector<fpm::Index> same_elements(const Model<Dim>& of, const Model<Dim>& in) {
+  using Place = std::array<double, static_cast<std::size_t>(Dim)>;
+  const auto place_of = [](const Model<Dim>& model, Eigen::Index a) {
+    Place place{};
+    for (int i = 0; i < Dim; ++i) {
+      place[static_cast<std::size_t>(i)] = model.particles.position(a, i);
+    }
+    return place;
+  };
+  std::map<Place, fpm::Index> known;
+  for (Eigen::Index b = 0; b < in.size(); ++b) {
+    known.emplace(place_of(in, b), static_cast<fpm::Index>(b));
+  }
+  std::vector<fpm::Index> source;
+  for (Eigen::Index a = 0; a < of.size(); ++a) {
+    const auto found = known.find(place_of(of, a));
+    source.push_back(found == known.end() ? -1 : found->second);
+  }
+  return source;
+}
+
 }  // namespace
 
 template <int Dim>
 std::vector<fpm::Index> same_particles(const Model<Dim>& of, const Model<Dim>& in) {
+  if (of.cells.size() == 0) return same_elements(of, in);
   std::vector<fpm::Index> source;
   for (fpm::Index a = 0; a < static_cast<fpm::Index>(of.size()); ++a) {
     const fpm::Vector<Dim> site = of.cells.site(a);

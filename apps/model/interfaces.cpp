@@ -14,6 +14,7 @@
 #include "model/surface.hpp"
 #include "scene/cutouts.hpp"
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
 #include "scene/ground.hpp"
 #include "scene/outline_faces.hpp"
 #include "scene/scene.hpp"
@@ -250,6 +251,14 @@ fpm::CommonFaces<Dim> faces_under_plate(const scene::Scene& scene, const Model<D
   });
 }
 
+// A rough footing of a solid body holds on to it as nothing else does that is a contact.
+bool is_tied(const scene::Scene& scene) {
+  const auto footing = scene::footing_of(scene);
+  if (!scene::is_solid(scene) || !footing) return false;
+  const scene::OutlineSide& side = scene.side[*footing];
+  return side.base == scene::Base::rough && side.tension;
+}
+
 template <int Dim>
 void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
   for (const scene::Support& support : scene.support) {
@@ -270,7 +279,8 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
   if (is_free && model.layout.plastic && !contact.stiffness_factor) {
     contact.stiffness_factor = free_plates_stiffness;
   }
-  Interface<Dim> plate = interface_at(scene, model, under, contact, law_of(contact));
+  const auto law = is_tied(scene) ? constitutive::InterfaceLaw{} : law_of(contact);
+  Interface<Dim> plate = interface_at(scene, model, under, contact, law);
   // The plate bears nothing at first, whatever lies under it.
   plate.initial_traction.setZero();
   if (pushes) {
@@ -283,7 +293,7 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
 
 SurfacePart held_part(const scene::Scene& scene, std::size_t side) {
   SurfacePart part = SurfacePart::of_side(side);
-  for (int face = 0; face < 4; ++face) {
+  for (int face = 0; face < 2 * scene.geometry.dimension; ++face) {
     part.without[static_cast<std::size_t>(face)] =
         scene::is_held(scene, static_cast<scene::Side>(face));
   }

@@ -176,7 +176,7 @@ SurfacePart bounding_part(const scene::Scene& scene, std::size_t side,
   SurfacePart part = SurfacePart::of_side(side);
   const bool tied = scene::holds(scene.side[side].kind);
   part.without[SurfacePart::no_face] = tied;
-  for (int f = 0; f < 4; ++f) {
+  for (int f = 0; f < 2 * scene.geometry.dimension; ++f) {
     const auto face = static_cast<scene::Side>(f);
     const bool bounds = std::ranges::any_of(faces, [&](const fpm::Face& other) {
       return other.axis == scene::axis_of(face) && other.upper == scene::is_upper(face);
@@ -205,7 +205,7 @@ fpm::Field<Dim> cut_area_vectors(const scene::Scene& scene, const Model<Dim>& mo
   for (const fpm::Face& face : faces) {
     if (scene.region.empty()) add(SurfacePart::of_face(face), 1.0);
   }
-  for (const auto& plate : plates) {
+  for (const auto& plate : plates) {  // of plane bodies only
     const int along = 1 - plate.axis;
     const double middle = 0.5 * (model.box_min[plate.axis] + model.box_max[plate.axis]);
     SurfacePart under = SurfacePart::of_face(face_at(plate.axis, plate.position, middle));

@@ -91,20 +91,49 @@ struct ReducedLaw {
   constitutive::MaterialParameters parameters;  // undivided
 };
 
-/// A straight piece of the surface of a plane body of any shape, within one cell; the body is to
-/// its left.
-struct SurfacePiece {
+/// A piece of the surface of a body of any shape that is one particle's.
+template <int Dim>
+struct SurfacePiece;
+
+/// A straight one, with the body to its left, within a cell or an edge of an element.
+template <>
+struct SurfacePiece<2> {
   Eigen::Vector2d from, to;  // [m]
-  fpm::Index particle = 0;   // of that cell
-  int cut = -1;              // index of the cutout that made it
-  int side = -1;             // index of the scene's side
-  int face = -1;             // of the box: 0 left, 1 right, 2 bottom, 3 top
+  fpm::Index particle = 0;
+  int cut = -1;   // index of the cutout that made it
+  int side = -1;  // index of the scene's side
+  int face = -1;  // of the box: 0 left, 1 right, 2 bottom, 3 top
 };
 
-/// A straight piece of where two regions of a plane body meet, about a spacing long; the particle
-/// `first` is to its left.
-struct JointPiece {
+/// A flat one, of a face of an element.
+template <>
+struct SurfacePiece<3> {
+  Eigen::Vector3d middle;   // [m] centroid
+  Eigen::Vector3d outward;  // unit normal
+  double area = 0.0;        // [m2]
+  fpm::Index particle = 0;
+  int cut = -1;   // none
+  int side = -1;  // as above
+  int face = -1;  // as above, 4 front, 5 back
+};
+
+/// A piece of where two regions of a body meet.
+template <int Dim>
+struct JointPiece;
+
+/// A straight one, about a spacing long; the particle `first` is to its left.
+template <>
+struct JointPiece<2> {
   Eigen::Vector2d from, to;  // [m]
+  fpm::Index first = 0, second = 0;
+};
+
+/// A flat one.
+template <>
+struct JointPiece<3> {
+  Eigen::Vector3d middle;  // [m]
+  Eigen::Vector3d normal;  // unit, from the first into the second
+  double area = 0.0;       // [m2]
   fpm::Index first = 0, second = 0;
 };
 
@@ -112,7 +141,9 @@ struct JointPiece {
 /// during a run. Vectors over unknowns are component-major (all x, then all y, ...), length n Dim.
 template <int Dim>
 struct Model {
-  fpm::Cells<Dim> cells;  // one around each particle
+  fpm::Cells<Dim> cells;  // one around each particle, unless they are elements of a mesh
+  // Of those: about as wide as particles are apart, for a grid behind them.
+  fpm::Cells<Dim> background;
   fpm::ParticleSet<Dim> particles;
   fpm::Ghosts<Dim> ghosts;
   fpm::RowOptions row_options;
@@ -157,8 +188,8 @@ struct Model {
   std::vector<FollowingPressure<Dim>> following_pressures;
   std::vector<PenaltySupport<Dim>> penalty_supports;
   std::vector<Interface<Dim>> interfaces;
-  std::vector<SurfacePiece> surface;  // of a body with cutouts or regions only
-  std::vector<JointPiece> joints;     // of a body of regions only
+  std::vector<SurfacePiece<Dim>> surface;  // of a body with cutouts or regions only
+  std::vector<JointPiece<Dim>> joints;     // of a body of regions only
 
   /// [Pa] Young's modulus of a particle.
   double youngs_modulus_of(Eigen::Index particle) const {

@@ -1,5 +1,7 @@
 #include "model/pore_water.hpp"
 
+#include <cmath>
+
 #include "scene/scene.hpp"
 #include "scene/water.hpp"
 
@@ -15,10 +17,15 @@ void add_pore_water(const scene::Scene& scene, Model<Dim>& model) {
   for (Eigen::Index a = 0; a < n; ++a) {
     const auto cell = static_cast<fpm::Index>(a);
     const fpm::Vector<Dim> place = model.particles.position.row(a).transpose();
-    // Of a cell that was cut, what is left is as wet as the whole.
-    const auto part =
-        water.in_cell(model.cells.lower(cell).template head<2>(),
-                      model.cells.upper(cell).template head<2>(), place.template head<2>());
+    // Of a cell that was cut, what is left is as wet as the whole, and an element as a square
+    // around it.
+    const bool is_cell = model.cells.size() > 0;
+    const fpm::Vector<Dim> half =
+        fpm::Vector<Dim>::Constant(0.5 * std::pow(model.particles.volume[a], 1.0 / Dim));
+    const fpm::Vector<Dim> lower = is_cell ? model.cells.lower(cell) : place - half;
+    const fpm::Vector<Dim> upper = is_cell ? model.cells.upper(cell) : place + half;
+    const auto part = water.in_cell(lower.template head<2>(), upper.template head<2>(),
+                                    place.template head<2>());
     const scene::Material& material = scene.material[model.material[static_cast<std::size_t>(a)]];
     model.mass[a] += part.wet * (scene::saturated_density(material) - material.density) *
                      model.particles.volume[a];

@@ -8,19 +8,7 @@
 #include "fpm/bodies.hpp"
 #include "model/model.hpp"
 
-namespace scene {
-struct Scene;
-}
-
 namespace model {
-
-/// Cuts the cells and the particles of a plane body with cutouts or of regions: a particle is at
-/// the centroid of what is left of its cell and stands for its area. What is left of a cell and too
-/// small for a particle of its own, or of another region than most of it, goes to a cell beside it.
-/// Fills `model.surface` with the pieces of the surface, each within one cell, and, of regions,
-/// `model.joints` and `model.material`.
-template <int Dim>
-void cut_body(const scene::Scene& scene, Model<Dim>& model);
 
 /// `SurfacePiece::side` of a piece that was next to a region that is not there.
 inline constexpr int exposed_side = -2;
@@ -34,12 +22,12 @@ struct SurfacePart {
   double from = -std::numeric_limits<double>::infinity();  // [m] along a face
   double to = std::numeric_limits<double>::infinity();
   // Of a side, what does not count: its pieces on each face of the box, and those on none.
-  std::array<bool, 5> without{};
+  std::array<bool, 7> without{};
 
   static SurfacePart of_cutout(std::size_t i) { return {Of::cutout, static_cast<int>(i)}; }
   static SurfacePart of_side(std::size_t i) { return {Of::side, static_cast<int>(i)}; }
   static SurfacePart of_exposed() { return {Of::exposed, 0}; }
-  static constexpr std::size_t no_face = 4;
+  static constexpr std::size_t no_face = 6;
   static SurfacePart of_face(const fpm::Face& face) {
     return {Of::face, 2 * face.axis + (face.upper ? 1 : 0)};
   }

@@ -12,6 +12,7 @@
 #include "program/command_line.hpp"
 #include "program/version.hpp"
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
 #include "scene/names.hpp"
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
@@ -269,6 +270,10 @@ std::string graded_text(const scene::Scene& scene) {
 }
 
 std::string particles_text(const scene::Scene& scene) {
+  if (scene::has_elements(scene)) {
+    return fmt::format("{} (elements of a mesh, the finest {:.4g} m apart)",
+                       model::particle_count(scene), scene.geometry.spacing);
+  }
   if (scene::is_cut(scene)) {
     return fmt::format("{} ({}cut to shape, spacing {} m)", model::particle_count(scene),
                        scene.grading.enabled ? "graded, " : "", scene.geometry.spacing);

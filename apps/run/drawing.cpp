@@ -38,7 +38,7 @@ class Drawing {
   std::string text() {
     add_particles();
     add_outline();
-    for (const model::JointPiece& joint : model_.joints) line(joint.from, joint.to, held, 0.7);
+    for (const model::JointPiece<2>& joint : model_.joints) line(joint.from, joint.to, held, 0.7);
     for (const scene::OutlineSide& side : scene_.side) add_side(side);
     for (const scene::Cutout& cutout : scene_.cutout) add_cutout(cutout);
     for (const scene::Support& support : scene_.support) add_support(support);
@@ -98,7 +98,7 @@ class Drawing {
   }
 
   void add_outline() {
-    for (const model::SurfacePiece& piece : model_.surface) line(piece.from, piece.to, held, 1.0);
+    for (const model::SurfacePiece<2>& piece : model_.surface) line(piece.from, piece.to, held, 1.0);
     if (!model_.surface.empty()) return;
     fmt::format_to(std::back_inserter(out_),
                    "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
@@ -130,13 +130,13 @@ class Drawing {
     const auto index = static_cast<int>(&cutout - scene_.cutout.data());
     const bool is_loaded = cutout.pressure != 0.0 || cutout.shear != 0.0;
     const std::string_view colour = is_loaded ? loaded : held;
-    for (const model::SurfacePiece& piece : model_.surface) {
+    for (const model::SurfacePiece<2>& piece : model_.surface) {
       if (piece.cut != index) continue;
       if (is_loaded || cutout.kind != scene::CutoutKind::free) {
         line(piece.from, piece.to, colour, 3.0);
       }
     }
-    const auto first = std::ranges::find(model_.surface, index, &model::SurfacePiece::cut);
+    const auto first = std::ranges::find(model_.surface, index, &model::SurfacePiece<2>::cut);
     if (first == model_.surface.end()) return;
     std::string text = fmt::format("{}: {}", cutout.name, scene::name_of(cutout.kind));
     if (cutout.pressure != 0.0) text += fmt::format(" {:g} Pa", cutout.pressure);

@@ -11,6 +11,10 @@ namespace scene {
 /// rule is silent when one of its keys is already bad.
 void check_scene(const Scene& scene, tables::Diagnosis& diagnosis);
 
+/// Judges what a scene says of its mesh, before regions are joined.
+/// @param dimension  of the mesh; 0: there is none
+void check_mesh(const Scene& scene, int dimension, tables::Diagnosis& diagnosis);
+
 // The parts of check_scene.
 void check_geometry(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_cutouts(const Scene& scene, tables::Diagnosis& diagnosis);

@@ -6,6 +6,7 @@
 #include "constitutive/parameters.hpp"
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
 #include "scene/names.hpp"
 #include "scene/places.hpp"
 #include "tables/table.hpp"
@@ -77,6 +78,7 @@ bool is_resolved(const Geometry& geometry, tables::Diagnosis& diagnosis) {
 void check_spacing(const Scene& scene, tables::Diagnosis& diagnosis) {
   const Geometry& geometry = scene.geometry;
   if (!is_resolved(geometry, diagnosis)) return;
+  if (has_elements(scene)) return;  // which fill their box as they are
   double particles = 1.0;
   for (std::size_t i = 0; i < geometry.min.size(); ++i) {
     const double extent = geometry.max[i] - geometry.min[i];

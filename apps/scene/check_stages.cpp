@@ -115,10 +115,8 @@ void check_names_of_regions(const Scene& scene, tables::Diagnosis& diagnosis) {
 void check_plate_stays(const Scene& scene, tables::Diagnosis& diagnosis) {
   const auto footing = footing_of(scene);
   if (!footing || !diagnosis.errors().empty()) return;
-  const shape::Outline outline = outline_of(scene);
-  for (const shape::OutlineSegment& segment : outline.segments) {
-    if (segment.right >= 0 || segment.side != static_cast<int>(*footing)) continue;
-    const std::string& name = scene.region[static_cast<std::size_t>(segment.left)].name;
+  for (const std::size_t region : regions_at(scene, *footing)) {
+    const std::string& name = scene.region[region].name;
     for (std::size_t s = 0; s < scene.stage.size(); ++s) {
       for (const auto& [list, key] :
            {std::pair(&Stage::remove, "remove"), std::pair(&Stage::place, "place")}) {

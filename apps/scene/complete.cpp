@@ -9,7 +9,9 @@
 #include <string>
 
 #include "scene/box.hpp"
+#include "scene/complete_elements.hpp"
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
 #include "scene/ground.hpp"
 #include "scene/names.hpp"
 #include "scene/outline_faces.hpp"
@@ -89,8 +91,8 @@ bool is_ground(const Scene& scene, tables::Diagnosis& diagnosis) {
                           const std::string& allowed) {
     if (refused && diagnosis.good({key})) diagnosis.error(key, found, allowed);
   };
-  refuse(scene.geometry.dimension != 2, "geometry.dimension", "found 3 with a [[region]]",
-         "only plane bodies have regions");
+  refuse(scene.geometry.dimension != 2 && !has_elements(scene), "geometry.dimension",
+         "found 3 with a [[region]]", "regions in 3D are volumes of a solid mesh");
   refuse(scene.geometry.layout != Layout::cell, "geometry.layout", "found vertex with a [[region]]",
          "particles of regions are those of cells: layout = \"cell\"");
   refuse(scene.initial_stress.kind == InitialStressKind::geostatic, "initial_stress.kind",
@@ -188,9 +190,11 @@ void complete_box(Scene& scene, tables::Diagnosis& diagnosis) {
   }
 }
 
-void complete_supports(Scene& scene, const shape::Outline& outline) {
-  const OutlineFaces faces(scene, outline);
-  for (const Side face : {Side::left, Side::right, Side::bottom, Side::top}) {
+void complete_supports(Scene& scene, const OutlineFaces& faces) {
+  std::vector<Axis> all{Axis::x, Axis::y};
+  if (scene.geometry.dimension == 3) all.push_back(Axis::z);
+  for (int f = 0; f < 2 * scene.geometry.dimension; ++f) {
+    const auto face = static_cast<Side>(f);
     const auto holders = faces.holders_of(face);
     if (holders.empty()) continue;
     const OutlineKind kind = scene.side[holders.front()].kind;
@@ -204,8 +208,7 @@ void complete_supports(Scene& scene, const shape::Outline& outline) {
     Support support;
     support.name = faces.name_of_holders(holders, face);
     support.side = face;
-    support.directions = kind == OutlineKind::fixed ? std::vector<Axis>{Axis::x, Axis::y}
-                                                    : std::vector<Axis>{across};
+    support.directions = kind == OutlineKind::fixed ? all : std::vector<Axis>{across};
     const bool is_known = std::ranges::any_of(scene.support, [&](const Support& known) {
       return known.name == support.name && known.side == face;
     });
@@ -252,22 +255,27 @@ std::optional<BasePlace> base_of(const shape::Outline& outline, std::size_t side
   return base;
 }
 
+// Whether there is at most one footing, which something moves or loads.
+bool check_footing(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const auto s = footing_of(scene);
+  if (!s) return true;
+  const std::string key = fmt::format("side.{}.kind", *s);
+  if (std::ranges::count(scene.side, OutlineKind::footing, &OutlineSide::kind) > 1) {
+    diagnosis.error(key, "a footing among several", "one footing at most");
+    return false;
+  }
+  if (scene.drive.kind == DriveKind::displacement || loads_plate(scene.drive)) return true;
+  diagnosis.error(key, "found a footing that nothing moves or loads",
+                  "a footing wants [drive] kind = \"displacement\", or \"load\" with plate among "
+                  "its scales");
+  return false;
+}
+
 // The one footing of a scene is where its drive acts.
 void complete_drive(Scene& scene, const shape::Outline& outline, tables::Diagnosis& diagnosis) {
   const auto s = footing_of(scene);
   if (!s) return;
-  const auto key = [&](const char* name) { return fmt::format("side.{}.{}", *s, name); };
-  if (std::ranges::count(scene.side, OutlineKind::footing, &OutlineSide::kind) > 1) {
-    diagnosis.error(key("kind"), "a footing among several", "one footing at most");
-    return;
-  }
   Drive& drive = scene.drive;
-  if (drive.kind != DriveKind::displacement && !loads_plate(drive)) {
-    diagnosis.error(key("kind"), "found a footing that nothing moves or loads",
-                    "a footing wants [drive] kind = \"displacement\", or \"load\" with plate among "
-                    "its scales");
-    return;
-  }
   const auto base = base_of(outline, *s, diagnosis);
   if (!base) return;
   const OutlineSide& footing = scene.side[*s];
@@ -311,16 +319,35 @@ void complete_course(Scene& scene) {
 void complete(Scene& scene, tables::Diagnosis& diagnosis) {
   complete_course(scene);
   complete_weights(scene, diagnosis);
+  if (!has_elements(scene) && scene.geometry.spacing == 0.0 &&
+      diagnosis.good({"geometry", "geometry.spacing", "mesh", "mesh.particles"})) {
+    diagnosis.error("geometry.spacing", "is missing", "needed is a number > 0 [m]");
+  }
   if (!is_ground(scene, diagnosis)) return;
   check_regions(scene, diagnosis);
   check_sides(scene, diagnosis);
   if (!diagnosis.errors().empty()) return;
-  const shape::Outline outline = join_regions(scene, diagnosis);
+  shape::Outline outline;
+  if (!is_solid(scene)) outline = join_regions(scene, diagnosis);
   if (!diagnosis.errors().empty()) return;
-  complete_box(scene, diagnosis);
+  std::optional<ElementBody> elements;
+  if (has_elements(scene)) {
+    elements = read_elements(scene, diagnosis);
+    if (!elements) return;
+    complete_box_of_elements(scene, *elements);
+  } else {
+    complete_box(scene, diagnosis);
+  }
   if (!diagnosis.errors().empty()) return;
-  complete_supports(scene, outline);
-  complete_drive(scene, outline, diagnosis);
+  const OutlineFaces faces(scene, is_solid(scene) ? outer_pieces(scene, *elements)
+                                                  : outer_pieces(scene, outline));
+  complete_supports(scene, faces);
+  if (!check_footing(scene, diagnosis)) return;
+  if (is_solid(scene)) {
+    complete_drive_of_solid(scene, *elements, diagnosis);
+  } else {
+    complete_drive(scene, outline, diagnosis);
+  }
 }
 
 }  // namespace scene

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "scene/box.hpp"
+#include "scene/element_body.hpp"
 #include "scene/outline_faces.hpp"
 #include "scene/scene.hpp"
 
@@ -46,6 +48,24 @@ std::optional<std::size_t> footing_of(const Scene& scene) {
   return static_cast<std::size_t>(found - scene.side.begin());
 }
 
+std::vector<std::size_t> regions_at(const Scene& scene, std::size_t side) {
+  std::set<std::size_t> regions;
+  if (is_solid(scene)) {
+    const ElementBody body = elements_of(scene);
+    for (std::size_t f = 0; f < body.side.size(); ++f) {
+      if (body.side[f] != static_cast<int>(side)) continue;
+      const auto part = static_cast<std::size_t>(body.joined.facets[f].part);
+      regions.insert(static_cast<std::size_t>(body.joined.parts[part].region));
+    }
+  } else {
+    for (const shape::OutlineSegment& segment : outline_of(scene).segments) {
+      if (segment.right >= 0 || segment.side != static_cast<int>(side)) continue;
+      regions.insert(static_cast<std::size_t>(segment.left));
+    }
+  }
+  return {regions.begin(), regions.end()};
+}
+
 std::size_t material_of(const Scene& scene, std::size_t region) {
   const auto has_its_name = [&](const Material& material) {
     return material.name == scene.region[region].material;
@@ -80,13 +100,9 @@ std::vector<std::string> tied_surfaces(const Scene& scene) {
     if (cutout.kind != CutoutKind::free) names.push_back(cutout.name);
   }
   if (scene.region.empty()) return names;
-  const shape::Outline outline = outline_of(scene);
-  const OutlineFaces faces(scene, outline);
-  for (const shape::OutlineSegment& segment : outline.segments) {
-    if (segment.right >= 0 || segment.side < 0) continue;
-    const OutlineSide& side = scene.side[static_cast<std::size_t>(segment.side)];
-    const auto face = faces.face_of(segment);
-    if (!holds(side.kind) || (face && is_held(scene, *face))) continue;
+  for (const OuterPiece& piece : outer_pieces(scene)) {
+    const OutlineSide& side = scene.side[piece.side];
+    if (!holds(side.kind) || (piece.face && is_held(scene, *piece.face))) continue;
     if (std::ranges::count(names, side.name) == 0) names.push_back(side.name);
   }
   return names;
@@ -94,7 +110,7 @@ std::vector<std::string> tied_surfaces(const Scene& scene) {
 
 std::vector<shape::Point> singular_corners(const Scene& scene) {
   std::vector<shape::Point> corners;
-  if (scene.region.empty()) return corners;
+  if (scene.region.empty() || scene.geometry.dimension != 2) return corners;
   const shape::Outline outline = outline_of(scene);
   // Less is a step of a polygon that stands for a curve.
   constexpr double turn = 0.17;  // sine of 10 degrees

@@ -23,6 +23,9 @@ struct Scene;
 /// Index of the side that is a footing.
 [[nodiscard]] std::optional<std::size_t> footing_of(const Scene& scene);
 
+/// Indices of the regions whose surface a side is.
+[[nodiscard]] std::vector<std::size_t> regions_at(const Scene& scene, std::size_t side);
+
 /// Index of a region's material.
 [[nodiscard]] std::size_t material_of(const Scene& scene, std::size_t region);
 

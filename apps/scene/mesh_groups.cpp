@@ -22,32 +22,40 @@ std::vector<std::string_view> names_of(const shape::GmshMesh& mesh, int dimensio
 
 }  // namespace
 
-std::optional<shape::GmshMesh> read_mesh(const MeshFile& mesh, tables::Diagnosis& diagnosis) {
+std::optional<shape::GmshMesh> read_mesh(MeshFile& mesh, tables::Diagnosis& diagnosis) {
+  const bool is_inline = mesh.file.empty();
   const auto path = std::filesystem::path(diagnosis.source()).parent_path() / mesh.file;
-  std::string text;
-  try {
-    text = files::read_text(path);
-  } catch (const files::FileError& failure) {
-    diagnosis.error("mesh.file", fmt::format("{}: {}", path.string(), failure.reason()),
-                    "allowed is a mesh of Gmsh (.msh), its path from the scene's folder");
+  if (!is_inline && !mesh.text.empty()) {
+    diagnosis.error("mesh.text", "found beside a file", "give one of them");
     return std::nullopt;
   }
+  const std::string key = is_inline ? "mesh.text" : "mesh.file";
+  const std::string source = is_inline ? "the text" : path.string();
+  if (!is_inline) {
+    try {
+      mesh.text = files::read_text(path);
+    } catch (const files::FileError& failure) {
+      diagnosis.error(key, fmt::format("{}: {}", source, failure.reason()),
+                      "allowed is a mesh of Gmsh (.msh), its path from the scene's folder");
+      return std::nullopt;
+    }
+    mesh.file.clear();
+  }
   try {
-    shape::GmshMesh found = shape::read_gmsh(text, mesh.unit);
+    shape::GmshMesh found = shape::read_gmsh(mesh.text, mesh.unit);
     if (!found.groups.empty()) {
-      for (std::size_t g = 0; g < found.groups.size(); ++g) {
+      for (std::size_t g = 0; found.dimension == 2 && g < found.groups.size(); ++g) {
         if (found.groups[g].dimension == 2) (void)shape::pieces_of(found, static_cast<int>(g));
       }
       return found;
     }
-    diagnosis.error("mesh.file",
-                    fmt::format("{} has no physical group with elements", path.string()),
-                    "regions are physical surfaces, sides physical curves of Gmsh");
+    diagnosis.error(key, fmt::format("{} has no physical group with elements", source),
+                    "regions are physical surfaces, sides physical curves of Gmsh; of a solid "
+                    "volumes and surfaces");
   } catch (const shape::GmshError& failure) {
     const std::string place = failure.line() > 0 ? fmt::format(":{}", failure.line()) : "";
-    diagnosis.error(
-        "mesh.file", fmt::format("{}{}: {}", path.string(), place, failure.what()),
-        "allowed is a plane mesh of Gmsh, MSH 4.1 or 2.2 as text, of straight elements");
+    diagnosis.error(key, fmt::format("{}{}: {}", source, place, failure.what()),
+                    "allowed is a mesh of Gmsh, MSH 4.1 or 2.2 as text, of straight elements");
   }
   return std::nullopt;
 }
@@ -79,7 +87,9 @@ std::optional<int> group_of(const shape::GmshMesh* mesh, int dimension, const st
     const auto names = names_of(*mesh, dimension);
     diagnosis.error(key, fmt::format("found \"{}\"", group),
                     fmt::format("the mesh's physical {} with elements are {}",
-                                dimension == 2 ? "surfaces" : "curves",
+                                dimension == 3   ? "volumes"
+                                : dimension == 2 ? "surfaces"
+                                                 : "curves",
                                 names.empty() ? "none" : tables::joined(names)),
                     tables::nearest_name(group, names));
   }

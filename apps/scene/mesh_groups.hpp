@@ -16,11 +16,12 @@
 
 namespace scene {
 
-/// Reads a mesh beside the scene. What is wrong with it is an error of the diagnosis.
-[[nodiscard]] std::optional<shape::GmshMesh> read_mesh(const MeshFile& mesh,
+/// Reads a mesh, of its text or beside the scene, whose text it then has. What is wrong with it is
+/// an error of the diagnosis.
+[[nodiscard]] std::optional<shape::GmshMesh> read_mesh(MeshFile& mesh,
                                                        tables::Diagnosis& diagnosis);
 
-/// The group that a region (of dimension 2) or a side (1) names, if it names one. An error of the
+/// The group of a dimension that a region or a side names, if it names one. An error of the
 /// diagnosis if it names one that is not there or without elements, or has a shape besides, or
 /// neither.
 /// @param shape_key  of the table: what it has instead of a group
@@ -48,23 +49,45 @@ Entry& add_part(std::vector<Entry>& entries, std::size_t of, const std::string& 
 
 }  // namespace detail
 
-/// Gives regions and sides that name groups of the mesh their polygons and polylines; one whose
-/// group is in several parts becomes as many. Nothing of the mesh is left in the scene.
+/// Regions and sides of a solid mesh keep their groups, which are all they have.
 template <class Region, class Side>
-void take_groups(MeshFile& file, std::vector<Region>& regions, std::vector<Side>& sides,
-                 tables::Diagnosis& diagnosis) {
+void check_solid_groups(const shape::GmshMesh& mesh, const std::vector<Region>& regions,
+                        const std::vector<Side>& sides, tables::Diagnosis& diagnosis) {
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    (void)group_of(&mesh, 3, fmt::format("region.{}", r), "outline", !regions[r].outline.empty(),
+                   regions[r].group, diagnosis);
+  }
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    (void)group_of(&mesh, 2, fmt::format("side.{}", s), "along", !sides[s].along.empty(),
+                   sides[s].group, diagnosis);
+  }
+}
+
+/// Gives regions and sides that name groups of a plane mesh their polygons and polylines; one whose
+/// group is in several parts becomes as many. Of the mesh only the text is left in the scene, and
+/// that if particles are its elements.
+/// @returns the mesh's dimension, 0 if there is none or it cannot be read
+template <class Region, class Side>
+int take_groups(MeshFile& file, std::vector<Region>& regions, std::vector<Side>& sides,
+                tables::Diagnosis& diagnosis) {
   std::optional<shape::GmshMesh> mesh;
-  if (!file.file.empty()) {
+  const std::string name = file.file;
+  if (is_given(file)) {
     mesh = read_mesh(file, diagnosis);
-    if (!mesh) return;
+    if (!mesh) return 0;
   }
   const auto takes = [](const auto& entry) { return !entry.group.empty(); };
-  if (mesh && std::ranges::none_of(regions, takes) && std::ranges::none_of(sides, takes)) {
+  if (!name.empty() && std::ranges::none_of(regions, takes) && std::ranges::none_of(sides, takes)) {
     diagnosis.error("mesh.file",
-                    fmt::format("found {}, of which no region or side names a group", file.file),
-                    "group of [[region]] and [[side]] is a physical surface and curve of it");
+                    fmt::format("found {}, of which no region or side names a group", name),
+                    "group of [[region]] and [[side]] is a physical surface and curve of it, of a "
+                    "solid a volume and a surface");
   }
-  file = {};
+  if (file.particles == MeshParticles::cells) file = {};
+  if (mesh && mesh->dimension == 3) {
+    check_solid_groups(*mesh, regions, sides, diagnosis);
+    return 3;
+  }
   const shape::GmshMesh* const found = mesh ? &*mesh : nullptr;
   for (std::size_t r = 0, count = regions.size(); r < count; ++r) {
     const auto group = group_of(found, 2, fmt::format("region.{}", r), "outline",
@@ -91,6 +114,7 @@ void take_groups(MeshFile& file, std::vector<Region>& regions, std::vector<Side>
       detail::assign((k == 0 ? sides[s] : detail::add_part(sides, s, name, k)).along, lines[k]);
     }
   }
+  return mesh ? 2 : 0;
 }
 
 }  // namespace scene

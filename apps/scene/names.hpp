@@ -12,6 +12,7 @@ namespace scene {
 // The names of each enumeration's values, in the order of the enumerators.
 namespace names {
 inline constexpr std::array<std::string_view, 2> layout{"cell", "vertex"};
+inline constexpr std::array<std::string_view, 2> mesh_particles{"cells", "elements"};
 inline constexpr std::array<std::string_view, 3> kernel{"cubic_spline", "quintic_spline",
                                                         "wendland_c2"};
 inline constexpr std::array<std::string_view, 3> switch_{"auto", "on", "off"};
@@ -48,6 +49,9 @@ inline constexpr std::array<std::string_view, 3> preconditioner{"two_level", "bl
 /// The names of an enumeration's values as written in a scene, in the enumerators' order.
 constexpr std::span<const std::string_view> names_of(Layout) {
   return names::layout;
+}
+constexpr std::span<const std::string_view> names_of(MeshParticles) {
+  return names::mesh_particles;
 }
 constexpr std::span<const std::string_view> names_of(CutoutKind) {
   return names::cutout;

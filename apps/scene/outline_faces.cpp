@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "scene/box.hpp"
+#include "scene/element_body.hpp"
+#include "scene/ground.hpp"
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
 
@@ -15,25 +17,47 @@ bool holds(OutlineKind kind) {
   return kind == OutlineKind::fixed || kind == OutlineKind::roller || kind == OutlineKind::symmetry;
 }
 
-std::optional<Side> OutlineFaces::face_of(const shape::OutlineSegment& segment) const {
-  for (const Side face : {Side::left, Side::right, Side::bottom, Side::top}) {
-    const int axis = axis_of(face);
-    const double at = side_position(scene_.geometry, face);
-    const double slack = 1e-9 * outline_.size;
-    if (std::abs(outline_.at(segment.first)[axis] - at) <= slack &&
-        std::abs(outline_.at(segment.second)[axis] - at) <= slack) {
-      return face;
+std::vector<OuterPiece> outer_pieces(const Scene& scene, const shape::Outline& outline) {
+  const auto face_of = [&](const shape::OutlineSegment& segment) -> std::optional<Side> {
+    for (const Side face : {Side::left, Side::right, Side::bottom, Side::top}) {
+      const int axis = axis_of(face);
+      const double at = side_position(scene.geometry, face);
+      if (std::abs(outline.at(segment.first)[axis] - at) <= outline.tolerance() &&
+          std::abs(outline.at(segment.second)[axis] - at) <= outline.tolerance()) {
+        return face;
+      }
     }
+    return std::nullopt;
+  };
+  std::vector<OuterPiece> pieces;
+  for (const shape::OutlineSegment& segment : outline.segments) {
+    if (segment.right >= 0 || segment.side < 0) continue;
+    pieces.push_back({static_cast<std::size_t>(segment.side), face_of(segment)});
   }
-  return std::nullopt;
+  return pieces;
+}
+
+std::vector<OuterPiece> outer_pieces(const Scene& scene, const ElementBody& body) {
+  std::vector<OuterPiece> pieces;
+  for (std::size_t f = 0; f < body.side.size(); ++f) {
+    if (body.side[f] < 0) continue;
+    pieces.push_back({static_cast<std::size_t>(body.side[f]),
+                      face_of(scene, body.mesh, body.joined.facets[f].nodes)});
+  }
+  return pieces;
+}
+
+std::vector<OuterPiece> outer_pieces(const Scene& scene) {
+  return is_solid(scene) ? outer_pieces(scene, elements_of(scene))
+                         : outer_pieces(scene, outline_of(scene));
 }
 
 std::vector<std::size_t> OutlineFaces::holders_of(Side face) const {
   std::vector<std::size_t> sides;
-  for (const shape::OutlineSegment& segment : outline_.segments) {
-    if (segment.right >= 0 || face_of(segment) != face) continue;
-    const auto side = static_cast<std::size_t>(segment.side);
-    if (std::ranges::count(sides, side) == 0) sides.push_back(side);
+  for (const OuterPiece& piece : pieces_) {
+    if (piece.face == face && std::ranges::count(sides, piece.side) == 0) {
+      sides.push_back(piece.side);
+    }
   }
   if (sides.empty()) return {};
   const OutlineKind kind = scene_.side[sides.front()].kind;
@@ -44,10 +68,10 @@ std::vector<std::size_t> OutlineFaces::holders_of(Side face) const {
 
 std::size_t OutlineFaces::faces_of(std::size_t side) const {
   std::vector<std::optional<Side>> faces;
-  for (const shape::OutlineSegment& segment : outline_.segments) {
-    if (segment.right >= 0 || segment.side != static_cast<int>(side)) continue;
-    const auto face = face_of(segment);
-    if (std::ranges::count(faces, face) == 0) faces.push_back(face);
+  for (const OuterPiece& piece : pieces_) {
+    if (piece.side == side && std::ranges::count(faces, piece.face) == 0) {
+      faces.push_back(piece.face);
+    }
   }
   return faces.size();
 }

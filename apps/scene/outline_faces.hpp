@@ -11,18 +11,28 @@
 namespace scene {
 
 struct Scene;
+struct ElementBody;
 
 /// Whether a side holds the body: particles are tied to it, where no support or mirror holds it.
 [[nodiscard]] bool holds(OutlineKind kind);
 
-/// The outline's sides on the faces of the box.
+/// A piece of the surface of all regions together: its side, and the face of the box that it is on.
+struct OuterPiece {
+  std::size_t side = 0;
+  std::optional<Side> face;
+};
+[[nodiscard]] std::vector<OuterPiece> outer_pieces(const Scene& scene,
+                                                   const shape::Outline& outline);
+[[nodiscard]] std::vector<OuterPiece> outer_pieces(const Scene& scene, const ElementBody& body);
+/// Of a completed scene.
+[[nodiscard]] std::vector<OuterPiece> outer_pieces(const Scene& scene);
+
+/// The sides of regions on the faces of the box.
 class OutlineFaces {
  public:
-  OutlineFaces(const Scene& scene, const shape::Outline& outline)
-      : scene_(scene), outline_(outline) {}
+  OutlineFaces(const Scene& scene, std::vector<OuterPiece> pieces)
+      : scene_(scene), pieces_(std::move(pieces)) {}
 
-  /// The face that a piece of the outline is on.
-  [[nodiscard]] std::optional<Side> face_of(const shape::OutlineSegment& segment) const;
   /// The sides that hold all there is on a face in one way; none, if they do not.
   [[nodiscard]] std::vector<std::size_t> holders_of(Side face) const;
   /// Of a face's holders: theirs, with the face where one of them holds others, too.
@@ -32,7 +42,7 @@ class OutlineFaces {
   [[nodiscard]] std::size_t faces_of(std::size_t side) const;
 
   const Scene& scene_;
-  const shape::Outline& outline_;
+  std::vector<OuterPiece> pieces_;
 };
 
 }  // namespace scene

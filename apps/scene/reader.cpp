@@ -19,7 +19,8 @@ std::optional<Scene> parse_scene(std::string_view text, std::span<const std::str
   Scene scene;
   unreadable = tables::read_tables(text, settings, scene_tables(), scene, diagnosis);
   if (unreadable) return std::nullopt;
-  take_groups(scene.mesh, scene.region, scene.side, diagnosis);
+  const int dimension = take_groups(scene.mesh, scene.region, scene.side, diagnosis);
+  check_mesh(scene, dimension, diagnosis);
   complete(scene, diagnosis);
   // Of ground that is none nothing else can be judged.
   if (scene.region.empty() || diagnosis.errors().empty()) check_scene(scene, diagnosis);

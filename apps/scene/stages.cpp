@@ -45,8 +45,7 @@ bool begins_later(const Scene& scene, const std::string& support) {
 // Sides of the outline that hold where a support does go with it.
 void free_sides_of(const Support& support, Scene& scene) {
   if (scene.region.empty() || !support.side) return;
-  const shape::Outline outline = outline_of(scene);
-  const OutlineFaces faces(scene, outline);
+  const OutlineFaces faces(scene, outer_pieces(scene));
   for (const std::size_t s : faces.holders_of(*support.side)) {
     scene.side[s].kind = OutlineKind::free;
   }

@@ -91,11 +91,13 @@ SceneTable geometry() {
             .doc = "Upper corner; y points up.",
             .absent = "that of the regions, a whole number of spacings above min"})
       .key("spacing", &Geometry::spacing,
-           {.need = tables::Need::required,
+           {.need = tables::Need::optional,
             .unit = "m",
             .range = tables::positive(),
             .doc = "Distance between particles, where they are graded the finest; divides every "
-                   "extent a whole number of times."})
+                   "extent a whole number of times. Needed, unless particles are the elements of a "
+                   "mesh.",
+            .absent = "that of the finest elements"})
       .key(
           "layout", &Geometry::layout,
           {.doc = "cell: particles at cell centres, half a spacing inside the boundary, all of one "

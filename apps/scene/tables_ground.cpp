@@ -10,28 +10,35 @@ namespace {
 SceneTable mesh() {
   return tables::TableBuilder<Scene, MeshFile>(
              "mesh", &Scene::mesh,
-             "A plane mesh of Gmsh whose physical groups are regions and sides. Of its elements "
-             "only "
-             "the outlines of groups count: particles are those of the lattice or tree, as in any "
-             "region. Once read, its outlines are in the scene, and so in checkpoints.")
+             "A mesh of Gmsh whose physical groups are regions and sides: surfaces and curves of a "
+             "plane one, volumes and surfaces of a solid one. Once read, outlines and, where "
+             "particles are elements, the mesh are in the scene, and so in checkpoints.")
       .key("file", &MeshFile::file,
            {.doc = "Its path from the scene's folder: MSH 4.1 or 2.2, as text; empty: none."})
       .key("unit", &MeshFile::unit,
            {.unit = "m", .range = tables::positive(), .doc = "Of its coordinates; 0.001 for mm."})
+      .key("particles", &MeshFile::particles,
+           {.doc = "cells: of the elements only the outlines of groups count, and particles are "
+                   "those of the lattice or tree, as in any region. elements: there is a particle "
+                   "at the centroid of each element, which stands for its volume; triangles, "
+                   "quadrilaterals, tetrahedra, hexahedra, prisms and pyramids with straight "
+                   "edges. A solid body's are elements."})
+      .key("text", &MeshFile::text, {.doc = "The mesh itself, in place of its file."})
       .build();
 }
 
 SceneTable region() {
   return tables::TableBuilder<Scene, Region>(
              "region", &Scene::region,
-             "A polygon of one material; regions adjoin each other and are the body. Plane bodies "
-             "with the layout cell only. fpm-limit reads the same.")
+             "A polygon of one material, or a volume of a solid mesh; regions adjoin each other "
+             "and are the body. With the layout cell only. fpm-limit reads the same of plane ones.")
       .key("name", &Region::name, {.doc = "Serves messages."})
       .key("material", &Region::material,
            {.need = tables::Need::required, .doc = "Name of its material."})
       .key("group", &Region::group,
-           {.doc = "Physical surface of [mesh], by name or number, in place of outline and holes. "
-                   "Parts that do not hang together become regions of their own."})
+           {.doc = "Physical surface of [mesh], by name or number, in place of outline and holes; "
+                   "of a solid mesh physical volume. Parts of a surface that do not hang together "
+                   "become regions of their own."})
       .key("outline", &Region::outline,
            {.need = tables::Need::optional,
             .unit = "m",
@@ -66,7 +73,8 @@ SceneTable side() {
                    "roller, symmetry: it is held across, and free along. footing: a rigid plate, "
                    "what the drive moves or loads."})
       .key("group", &OutlineSide::group,
-           {.doc = "Physical curve of [mesh], by name or number, in place of along."})
+           {.doc = "Physical curve of [mesh], by name or number, in place of along; of a solid "
+                   "mesh physical surface."})
       .key("along", &OutlineSide::along,
            {.need = tables::Need::optional,
             .unit = "m",

@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "shape/mesh_solids.hpp"
 #include "shape/ring.hpp"
 
 namespace shape {
@@ -97,6 +98,14 @@ std::optional<Kind> kind_of(std::int64_t type) {
       return Kind{2, 3};
     case 3:
       return Kind{2, 4};
+    case 4:
+      return Kind{3, 4};
+    case 5:
+      return Kind{3, 8};
+    case 6:
+      return Kind{3, 6};
+    case 7:
+      return Kind{3, 5};
     case 15:
       return Kind{0, 1};
     default:
@@ -126,8 +135,13 @@ class Reader {
       expect_end(word);
     }
     if (mesh_.nodes.empty()) throw GmshError(0, "it has no nodes");
-    check_plane();
-    for (const auto& [element, place] : places_) check_face(mesh_.elements[element], place);
+    if (mesh_.dimension == 2) check_plane();
+    for (const auto& [element, place] : places_) {
+      GmshMesh::Element& checked = mesh_.elements[element];
+      const int dimension = mesh_.dimension_of(checked);
+      if (dimension == 3) check_solid(checked, place);
+      if (dimension == 2 && mesh_.dimension == 2) check_face(checked, place);
+    }
     return std::move(mesh_);
   }
 
@@ -219,8 +233,7 @@ class Reader {
     if (!node_.emplace(tag, static_cast<int>(mesh_.nodes.size())).second) {
       throw GmshError(words_.line(), fmt::format("node {} is there twice", tag));
     }
-    mesh_.nodes.emplace_back(unit_ * x, unit_ * y);
-    heights_.push_back(unit_ * z);
+    mesh_.nodes.emplace_back(unit_ * x, unit_ * y, unit_ * z);
   }
   void read_nodes_of_2() {
     const std::size_t count = words_.count("the number of nodes");
@@ -249,8 +262,9 @@ class Reader {
     const std::size_t line = words_.line();
     if (!kind) {
       throw GmshError(
-          line, fmt::format("element {} is of Gmsh's type {}: regions and sides of a plane are "
-                            "straight lines (1), triangles (2) and quadrilaterals (3)",
+          line, fmt::format("element {} is of Gmsh's type {}: allowed are straight lines (1), "
+                            "triangles (2), quadrilaterals (3), tetrahedra (4), hexahedra (5), "
+                            "prisms (6) and pyramids (7)",
                             number, type));
     }
     GmshMesh::Element element;
@@ -263,6 +277,7 @@ class Reader {
       element.nodes.push_back(found->second);
     }
     if (kind->dimension == 0) return;
+    if (!groups.empty()) mesh_.dimension = std::max(mesh_.dimension, kind->dimension);
     for (const std::int64_t group : groups) {
       element.group = group_of(kind->dimension, group);
       places_.emplace_back(mesh_.elements.size(), Place{line, number});
@@ -304,26 +319,38 @@ class Reader {
   }
 
   void check_plane() const {
-    Point low = mesh_.nodes.front(), high = low;
-    for (const Point& node : mesh_.nodes) {
+    SpacePoint low = mesh_.nodes.front(), high = low;
+    for (const SpacePoint& node : mesh_.nodes) {
       low = low.cwiseMin(node);
       high = high.cwiseMax(node);
     }
     constexpr double flat = 1e-9;
-    for (std::size_t i = 0; i < heights_.size(); ++i) {
-      if (std::abs(heights_[i] - heights_[0]) <= flat * (high - low).norm()) continue;
+    const double height = mesh_.nodes.front().z();
+    for (const SpacePoint& node : mesh_.nodes) {
+      if (std::abs(node.z() - height) <= flat * (high - low).head<2>().norm()) continue;
       throw GmshError(
-          0, fmt::format("nodes are at z = {:g} and at z = {:g}: only plane meshes z = const "
-                         "are read",
-                         heights_[0], heights_[i]));
+          0, fmt::format("nodes are at z = {:g} and at z = {:g}: without solids in a physical "
+                         "group a mesh is plane, z = const",
+                         height, node.z()));
     }
+  }
+
+  // Turns a solid inside out if its volume is negative.
+  void check_solid(GmshMesh::Element& solid, const Place& place) const {
+    const SolidShape shape = turn_outward(mesh_, solid);
+    if (shape == SolidShape::good) return;
+    const SpacePoint& at = mesh_.at(solid.nodes.front());
+    throw GmshError(place.line,
+                    fmt::format("element {} at ({:g}, {:g}, {:g}) {}", place.number, at.x(), at.y(),
+                                at.z(),
+                                shape == SolidShape::flat ? "has no volume" : "is folded"));
   }
 
   // Turns a face counterclockwise.
   void check_face(GmshMesh::Element& face, const Place& place) const {
     if (face.nodes.size() < 3) return;
-    const auto at = [&](std::size_t k) -> const Point& {
-      return mesh_.nodes[static_cast<std::size_t>(face.nodes[k % face.nodes.size()])];
+    const auto at = [&](std::size_t k) {
+      return mesh_.plane_at(face.nodes[k % face.nodes.size()]);
     };
     double least = 0.0, most = 0.0, size = 0.0;
     for (std::size_t k = 0; k < face.nodes.size(); ++k) {
@@ -353,7 +380,6 @@ class Reader {
   std::map<Numbered, int> group_;
   std::map<Numbered, std::vector<std::int64_t>> groups_of_entity_;
   std::unordered_map<std::int64_t, int> node_;
-  std::vector<double> heights_;  // [m] z of the nodes
   std::vector<std::pair<std::size_t, Place>> places_;
   GmshMesh mesh_;
 };

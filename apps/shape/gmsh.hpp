@@ -9,21 +9,32 @@
 
 namespace shape {
 
-/// What of a plane mesh of Gmsh says where regions and sides are: the faces and lines of its
-/// physical groups.
+/// What of a mesh of Gmsh says where regions and sides are, and may be a body's particles: the
+/// solids, faces and lines of its physical groups.
 struct GmshMesh {
   struct Group {
-    int dimension = 0;  // 1 lines, 2 faces
+    int dimension = 0;  // 1 lines, 2 faces, 3 solids
     int tag = 0;
     std::string name;  // its tag if the file gives it none
   };
   struct Element {
     int group = 0;
-    std::vector<int> nodes;  // 2 of a line; 3 or 4 of a face, counterclockwise
+    // 2 of a line; 3 or 4 of a face, counterclockwise in a plane mesh; of a solid as Gmsh orders
+    // them, turned so that its volume is positive (mesh_solids.hpp).
+    std::vector<int> nodes;
   };
+  int dimension = 2;  // 3: there are solids, and nodes anywhere
   std::vector<Group> groups;
-  std::vector<Point> nodes;
+  std::vector<SpacePoint> nodes;  // [m] of a plane mesh in one plane z = const
   std::vector<Element> elements;
+
+  [[nodiscard]] const SpacePoint& at(int node) const {
+    return nodes[static_cast<std::size_t>(node)];
+  }
+  [[nodiscard]] Point plane_at(int node) const { return at(node).head<2>(); }
+  [[nodiscard]] int dimension_of(const Element& element) const {
+    return groups[static_cast<std::size_t>(element.group)].dimension;
+  }
 };
 
 /// What is wrong with a mesh.
@@ -39,9 +50,9 @@ class GmshError : public std::runtime_error {
 
 /// Reads the text of a mesh in Gmsh's formats MSH 2.2 and 4.1, as of gmsh 4.8's manual.
 /// @param unit  [m] what a unit of the file's coordinates is
-/// @throws GmshError if it is binary, of another version or broken off; if nodes are not in one
-///   plane z = const; if a physical group has solid or curved elements; if a face has no area, is
-///   not convex or is folded
+/// @throws GmshError if it is binary, of another version or broken off; if an element is curved; if
+///   a solid has no volume or is folded; without solids, if nodes are not in one plane z = const,
+///   or a face has no area, is not convex or is folded
 [[nodiscard]] GmshMesh read_gmsh(std::string_view text, double unit = 1.0);
 
 }  // namespace shape

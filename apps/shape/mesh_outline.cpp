@@ -23,7 +23,7 @@ bool is_on_the_way(const Point& before, const Point& here, const Point& after) {
 
 std::vector<Point> places(const GmshMesh& mesh, const std::vector<int>& nodes) {
   std::vector<Point> all;
-  for (const int node : nodes) all.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
+  for (const int node : nodes) all.push_back(mesh.plane_at(node));
   return all;
 }
 
@@ -59,7 +59,7 @@ std::multimap<int, int> rim_of(const GmshMesh& mesh, int group) {
     for (std::size_t k = 0; k < face.nodes.size(); ++k) {
       const int from = face.nodes[k], to = face.nodes[(k + 1) % face.nodes.size()];
       if (edges.emplace(from, to).second) continue;
-      const Point& at = mesh.nodes[static_cast<std::size_t>(from)];
+      const Point at = mesh.plane_at(from);
       throw GmshError(0, fmt::format("faces overlap at ({:g}, {:g})", at.x(), at.y()));
     }
   }

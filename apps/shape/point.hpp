@@ -6,6 +6,7 @@
 namespace shape {
 
 using Point = Eigen::Vector2d;
+using SpacePoint = Eigen::Vector3d;
 using Ring = std::vector<Point>;  ///< corners of a polygon, either way around, not closed
 
 }  // namespace shape

@@ -82,7 +82,35 @@ std::vector<char> of_any_thick(Union& bodies, const std::vector<char>& thin) {
   return result;
 }
 
+// Numbers of the sets, by first appearance.
+std::vector<Index> numbers(Union& bodies, Index size) {
+  std::vector<Index> number(static_cast<std::size_t>(size), -1), body;
+  Index next = 0;
+  for (Index a = 0; a < size; ++a) {
+    Index& own = number[static_cast<std::size_t>(bodies.find(a))];
+    if (own < 0) own = next++;
+    body.push_back(own);
+  }
+  return body;
+}
+
 }  // namespace
+
+std::vector<Index> bodies_of(const std::vector<Index>& label,
+                             const std::vector<std::pair<Index, Index>>& meeting,
+                             const std::function<bool(Index, Index)>& joined) {
+  const auto size = static_cast<Index>(label.size());
+  Union bodies(size);
+  for (const auto& [a, b] : meeting) {
+    if (std::min(a, b) < 0 || std::max(a, b) >= size) {
+      throw ShapeError("a particle that meets another is none of the set");
+    }
+    const auto [low, high] =
+        std::minmax(label[static_cast<std::size_t>(a)], label[static_cast<std::size_t>(b)]);
+    if (low == high || joined(low, high)) bodies.unite(a, b);
+  }
+  return numbers(bodies, size);
+}
 
 template <int Dim>
 std::vector<Index> bodies_of(const Cells<Dim>& cells, const std::vector<Index>& label,
@@ -100,14 +128,7 @@ std::vector<Index> bodies_of(const Cells<Dim>& cells, const std::vector<Index>& 
       bodies.unite(a, b);
     }
   });
-  std::vector<Index> number(static_cast<std::size_t>(cells.size()), -1), body;
-  Index next = 0;
-  for (Index a = 0; a < cells.size(); ++a) {
-    Index& own = number[static_cast<std::size_t>(bodies.find(a))];
-    if (own < 0) own = next++;
-    body.push_back(own);
-  }
-  return body;
+  return numbers(bodies, cells.size());
 }
 
 template <int Dim>

@@ -53,7 +53,7 @@ TEST(Gmsh, GivesOutlinesOfItsGroupsWithoutCornersOnTheWay) {
 }
 
 TEST(Gmsh, IsInItsUnit) {
-  EXPECT_EQ(read_gmsh(l_and_rock, 1e-3).nodes[8], Point(2e-3, 2e-3));
+  EXPECT_EQ(read_gmsh(l_and_rock, 1e-3).plane_at(8), Point(2e-3, 2e-3));
 }
 
 // A ring of eight triangles and quadrilaterals around the middle, which is not of the group.
@@ -131,7 +131,7 @@ TEST(Gmsh, RefusesWhatIsNoPlaneMesh) {
   EXPECT_THAT(with("2 1 0 0", "2 1 0 nan"), HasSubstr("13: a coordinate is not finite"));
   EXPECT_THAT(with("2 1 0 0", "2 1 0 0.1"), HasSubstr("z = 0 and at z = 0.1"));
   EXPECT_THAT(with("2 1 0 0", "1 1 0 0"), HasSubstr("node 1 is there twice"));
-  EXPECT_THAT(with("15 2 0 1 1", "4 2 3 1 1"), HasSubstr("element 1 is of Gmsh's type 4"));
+  EXPECT_THAT(with("15 2 0 1 1", "9 2 3 1 1"), HasSubstr("element 1 is of Gmsh's type 9"));
   EXPECT_THAT(with("2 2 3 1 1 2 5", "2 2 3 1 1 2 12"), HasSubstr("has node 12, which is none"));
   EXPECT_THAT(with("2 2 3 1 1 2 5", "2 2 3 1 1 2 3"), HasSubstr("element 5 at (0, 0) has no area"));
   EXPECT_THAT(with("3 2 4 2 5 6 9 8", "3 2 4 2 5 6 8 9"), HasSubstr("is folded or not convex"));

@@ -50,6 +50,8 @@ GroundTable mesh_file() {
            {.doc = "MSH 4.1 or 2.2 as text, its path from the scene's folder; empty: none"})
       .key("unit", &scene::MeshFile::unit,
            {.unit = "m", .range = tables::positive(), .doc = "of its coordinates"})
+      .key("particles", &scene::MeshFile::particles, {.doc = "of fpm-run; has no effect here"})
+      .key("text", &scene::MeshFile::text, {.doc = "the mesh itself, in place of its file"})
       .build();
 }
 
@@ -339,7 +341,10 @@ std::optional<GroundScene> read_ground_scene(std::string_view text,
   GroundScene scene;
   unreadable = tables::read_tables(text, settings, ground_tables(), scene, diagnosis);
   if (unreadable) return std::nullopt;
-  scene::take_groups(scene.mesh, scene.regions, scene.sides, diagnosis);
+  if (scene::take_groups(scene.mesh, scene.regions, scene.sides, diagnosis) == 3) {
+    diagnosis.error("mesh.file", "found a solid mesh", "fpm-limit's ground is plane");
+    return std::nullopt;
+  }
   for (std::size_t i = 0; i < scene.materials.size(); ++i) check_material(scene, i, diagnosis);
   for (std::size_t i = 0; i < scene.regions.size(); ++i) find_material(scene, i, diagnosis);
   if (diagnosis.errors().empty()) tell_cohesions(scene, diagnosis);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "fpm/boundary.hpp"
@@ -22,6 +23,12 @@ namespace fpm {
 template <int Dim>
 std::vector<Index> bodies_of(const Cells<Dim>& cells, const std::vector<Index>& label,
                              const std::function<bool(Index, Index)>& joined, Index thickness);
+
+/// The same of particles around which there are no cells, however thin their bodies.
+/// @param meeting  pairs of particles whose elements share a face
+std::vector<Index> bodies_of(const std::vector<Index>& label,
+                             const std::vector<std::pair<Index, Index>>& meeting,
+                             const std::function<bool(Index, Index)>& joined);
 
 /// Points where two bodies meet, one per particle and face: more of them than particles would lock
 /// a body that flows.
