@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "equilibrium/box_mesh.hpp"
@@ -46,12 +47,27 @@ std::vector<int> sorted_along(const Mesh& mesh) {
   return unknowns;
 }
 
+// Whether images behind a plane hold the body where a piece of its surface on a face of the box is.
+template <int Dim>
+bool holds(const fpm::GhostPlane<Dim>& plane, int face, const fpm::Vector<Dim>& place,
+           const model::Model<Dim>& model) {
+  const double middle = 0.5 * (model.box_min[plane.axis] + model.box_max[plane.axis]);
+  if (face != 2 * plane.axis + (plane.position > middle ? 1 : 0)) return false;
+  for (int i = 0; i < Dim; ++i) {
+    if (i != plane.axis && (place[i] < plane.range_min[i] || place[i] > plane.range_max[i])) {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 template <int Dim>
 BackgroundGrid<Dim>::BackgroundGrid(const model::Model<Dim>& model, double grid_over_spacing)
     : prescribed_(model.prescribed) {
-  const fpm::Cells<Dim>& cells = model.background.size() > 0 ? model.background : model.cells;
+  const bool behind = model.background.size() > 0;
+  const fpm::Cells<Dim>& cells = behind ? model.background : model.cells;
   if (cells.graded()) {
     const int levels = std::max(1, static_cast<int>(std::floor(std::log2(grid_over_spacing))));
     build(model, TreeMesh<Dim>(cells.coarsened(levels)));
@@ -103,9 +119,11 @@ void BackgroundGrid<Dim>::add_grid_supports(const model::Model<Dim>& model, cons
   const Eigen::VectorXd most = penalty_factor *
                                std::pow(model.particles.volume.maxCoeff(), 1.0 - 2.0 / Dim) *
                                node_moduli(model, mesh.nodes());
+  // Behind elements the grid ends where it will: their own faces are held instead (below).
+  const bool behind = model.background.size() > 0;
   for (const fpm::GhostPlane<Dim>& plane : model.ghosts.planes()) {
     for (fpm::Index node = 0; node < mesh.nodes(); ++node) {
-      if (!mesh.is_on(plane, node)) continue;
+      if (behind || !mesh.is_on(plane, node)) continue;
       for (int i = 0; i < Dim; ++i) {
         if (plane.held[static_cast<std::size_t>(i)]) {
           entries.emplace_back(node * Dim + i, node * Dim + i, most[node]);
@@ -128,6 +146,15 @@ void BackgroundGrid<Dim>::add_grid_supports(const model::Model<Dim>& model, cons
       }
     }
   };
+  for (const model::SurfacePiece<Dim>& piece : model.surface) {
+    if (!behind || piece.face < 0) continue;
+    const fpm::Vector<Dim> middle = model::middle_of(piece);
+    for (const fpm::GhostPlane<Dim>& plane : model.ghosts.planes()) {
+      if (!holds(plane, piece.face, middle, model)) continue;
+      add_spring(middle.transpose(), std::numeric_limits<double>::infinity(),
+                 [&](int i) { return plane.held[static_cast<std::size_t>(i)]; });
+    }
+  }
   for (const model::Interface<Dim>& interface : model.interfaces) {
     if (!interface.is_rigid()) continue;  // two bodies are one on the grid
     const auto& points = interface.faces.points;

@@ -49,6 +49,9 @@ void place_particles(const scene::Scene& scene, Model<Dim>& model) {
   model.box_min = to_vector<Dim>(geometry.min);
   model.box_max = to_vector<Dim>(geometry.max);
   model.spacing = geometry.spacing;
+  model.row_options.kernel = to_kernel(scene.approximation.kernel);
+  model.row_options.support_radius = scene.approximation.support_over_spacing * geometry.spacing;
+  model.row_options.spacing = geometry.spacing;
   if (scene::has_elements(scene)) {
     place_elements(scene, model);
   } else {
@@ -56,10 +59,6 @@ void place_particles(const scene::Scene& scene, Model<Dim>& model) {
     model.particles = fpm::make_particles(model.cells);
     if (scene::is_cut(scene)) cut_body(scene, model);
   }
-
-  model.row_options.kernel = to_kernel(scene.approximation.kernel);
-  model.row_options.support_radius = scene.approximation.support_over_spacing * geometry.spacing;
-  model.row_options.spacing = geometry.spacing;
   // Rows may widen their support, and re-searched rows reach for particles that have moved.
   model.ghosts = fpm::make_ghosts(model.particles, ghost_planes<Dim>(scene), model.row_options);
 }

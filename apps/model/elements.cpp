@@ -9,6 +9,7 @@
 
 #include "fpm/bodies.hpp"
 #include "fpm/neighbour_search.hpp"
+#include "fpm/rows.hpp"
 #include "model/surface.hpp"
 #include "scene/derived.hpp"
 #include "scene/element_body.hpp"
@@ -61,6 +62,33 @@ void add_particles(const scene::Scene& scene, const scene::ElementBody& body,
     model.particles.spacing[a] = spacing[p];
     model.material.push_back(static_cast<MaterialIndex>(
         scene::material_of(scene, static_cast<std::size_t>(parts[p].region))));
+  }
+}
+
+// Where elements of very different widths meet, or at slivers, their own widths do not reach the
+// neighbours that a row needs: as many of its body as the corner of a lattice has.
+template <int Dim>
+void widen_spacings(const fpm::RowOptions& options, Model<Dim>& model) {
+  constexpr std::size_t fewest = Dim == 2 ? 7 : 16;
+  constexpr double widening = 1.1, most = 8.0;
+  const double reach = options.support_radius / options.spacing;
+  fpm::ParticleSet<Dim>& particles = model.particles;
+  const fpm::NeighbourSearch<Dim> search(particles.position);
+  std::vector<fpm::Index> near;
+  for (fpm::Index a = 0; a < particles.size(); ++a) {
+    const auto enough = [&](double spacing) {
+      search.within(particles.position.row(a).transpose(), reach * spacing, near);
+      if (!particles.body.empty()) {
+        std::erase_if(near, [&](fpm::Index b) {
+          return particles.body[static_cast<std::size_t>(a)] !=
+                 particles.body[static_cast<std::size_t>(b)];
+        });
+      }
+      return near.size() > fewest;  // itself included
+    };
+    double spacing = particles.spacing[a];
+    while (!enough(spacing) && spacing < most * particles.spacing[a]) spacing *= widening;
+    particles.spacing[a] = spacing;
   }
 }
 
@@ -132,16 +160,18 @@ void part_elements(const scene::Scene& scene, const scene::ElementBody& body,
   if (std::ranges::max(bodies) > 0) model.particles.body = std::move(bodies);
 }
 
-// The spacing of the particles in a box of space, without limit where there are none.
+// As wide as particles are apart there, and wide where there are none. The box holds a whole number
+// of the widest: what is left over would be filled by narrower ones, whatever particles are there.
 template <int Dim>
 fpm::Cells<Dim> cells_behind(const Model<Dim>& model) {
   fpm::LatticeOptions<Dim> finest;
   finest.spacing = model.spacing;
   finest.min = model.box_min;
+  const double ratio = model.particles.spacing.maxCoeff() / model.spacing;
+  const double widest = model.spacing * std::exp2(std::ceil(std::log2(ratio)) + 1.0);
   for (int i = 0; i < Dim; ++i) {
-    // As near to the far faces as half a spacing.
-    const double count = std::round((model.box_max[i] - model.box_min[i]) / model.spacing);
-    finest.max[i] = model.box_min[i] + std::max(1.0, count) * model.spacing;
+    const double extent = model.box_max[i] - model.box_min[i];
+    finest.max[i] = model.box_min[i] + std::ceil(extent / widest) * widest;
   }
   const fpm::NeighbourSearch<Dim> search(model.particles.position);
   std::vector<fpm::Index> near;
@@ -162,6 +192,7 @@ void place_elements(const scene::Scene& scene, Model<Dim>& model) {
   add_particles(scene, body, particle, model);
   add_facets(scene, body, particle, model);
   part_elements(scene, body, particle, model);
+  widen_spacings(model.row_options, model);
   model.background = cells_behind(model);
 }
 

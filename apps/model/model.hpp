@@ -117,6 +117,11 @@ struct SurfacePiece<3> {
   int face = -1;  // as above, 4 front, 5 back
 };
 
+inline Eigen::Vector2d middle_of(const SurfacePiece<2>& piece) {
+  return 0.5 * (piece.from + piece.to);
+}
+inline Eigen::Vector3d middle_of(const SurfacePiece<3>& piece) { return piece.middle; }
+
 /// A piece of where two regions of a body meet.
 template <int Dim>
 struct JointPiece;

@@ -13,6 +13,7 @@
 #include "bounds/accuracy_note.hpp"
 #include "bounds/limit_check.hpp"
 #include "files/durable_file.hpp"
+#include "fpm/rows.hpp"
 #include "model/build.hpp"
 #include "model/measures.hpp"
 #include "model/state_file.hpp"
@@ -340,6 +341,11 @@ program::ExitCode run_programme(const RunRequest& request, std::ostream& out, st
       return Run<2>(begun, in_force.stage, out, err, system)();
     }
     return Run<3>(begun, in_force.stage, out, err, system)();
+  } catch (const fpm::PoorNeighbourhood& failure) {
+    err << "error: " << failure.what()
+        << ": the particles there are too few or lie too unevenly; of a mesh, refine it there or "
+           "let its elements grow more slowly\n";
+    return program::ExitCode::input_refused;
   } catch (const stepping::DoesNotSettle& failure) {
     err << "error: " << failure.what() << '\n';
     return program::ExitCode::not_converged;

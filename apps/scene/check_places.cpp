@@ -43,6 +43,7 @@ void check_regions(const Scene& scene, tables::Diagnosis& diagnosis) {
 void check_held_and_moved(const Scene& scene, tables::Diagnosis& diagnosis) {
   const Drive& drive = scene.drive;
   if (drive.kind != DriveKind::displacement || !diagnosis.good({"drive"})) return;
+  if (drive.level) return;  // its particles are those of no face of the box
   if (!diagnosis.good({"drive.direction", "drive.side", "drive.range_min", "drive.range_max"})) {
     return;
   }

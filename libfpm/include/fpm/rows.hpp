@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
@@ -44,6 +45,12 @@ template <int Dim>
 Ghosts<Dim> make_ghosts(const ParticleSet<Dim>& particles,
                         const std::vector<GhostPlane<Dim>>& planes, const RowOptions& options);
 
+/// There are too few particles around one, or they lie too unevenly, for a row.
+class PoorNeighbourhood : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// The reference configuration of every row: its neighbours and where they were, with what
 /// volumes, when the row was last searched. This is primary state: together with the initial
 /// particles it determines every weight, bit for bit.
@@ -57,7 +64,7 @@ class Rows {
   /// First search, on the initial particles, among those of the row's own body. A row with too few
   /// neighbours or an ill-conditioned moment matrix gets a wider support and, if none will do, as
   /// at the tip of a wedge, sees all bodies.
-  /// @throws std::runtime_error naming the particle if no admissible support gives a valid row.
+  /// @throws PoorNeighbourhood naming the particle if no admissible support gives a valid row.
   Rows(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts, const RowOptions& options);
 
   Index size() const { return static_cast<Index>(support_radius_.size()); }
