@@ -42,7 +42,8 @@ constexpr double inward = 1e-6;  // spacings, to be on one side of a segment
 
 // Cuts the segments of a surface where they pass from one cell to another.
 std::vector<SurfacePiece<2>> pieces_of(const shape::Body& body, const CutCells& cut,
-                                    const fpm::Cells<2>& cells, const std::vector<char>& present) {
+                                       const fpm::Cells<2>& cells,
+                                       const std::vector<char>& present) {
   constexpr double sliver = 1e-9;  // spacings
   const auto& lattice = cells.lattice();
   std::vector<SurfacePiece<2>> pieces;
@@ -88,7 +89,7 @@ std::vector<double> joint_cuts(const shape::Joint& joint, const fpm::Cells<2>& c
 
 // Of two regions one of which is not there the joint is surface.
 std::vector<SurfacePiece<2>> exposed(const shape::Body& body, const CutCells& cut,
-                                  const fpm::Cells<2>& cells, const std::vector<char>& present) {
+                                     const fpm::Cells<2>& cells, const std::vector<char>& present) {
   std::vector<SurfacePiece<2>> pieces;
   for (const shape::Joint& joint : body.joints()) {
     const bool left = present[static_cast<std::size_t>(joint.left)] != 0;
@@ -100,7 +101,7 @@ std::vector<SurfacePiece<2>> exposed(const shape::Body& body, const CutCells& cu
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
       const Place middle = from + 0.5 * (cuts[k] + cuts[k + 1]) * (to - from);
       SurfacePiece<2> piece{from + cuts[k] * (to - from), from + cuts[k + 1] * (to - from),
-                         cut.particle_at(middle + within, region, cells)};
+                            cut.particle_at(middle + within, region, cells)};
       piece.side = exposed_side;
       pieces.push_back(piece);
     }
@@ -109,7 +110,7 @@ std::vector<SurfacePiece<2>> exposed(const shape::Body& body, const CutCells& cu
 }
 
 std::vector<JointPiece<2>> joints_of(const shape::Body& body, const CutCells& cut,
-                                  const fpm::Cells<2>& cells, const std::vector<char>& present) {
+                                     const fpm::Cells<2>& cells, const std::vector<char>& present) {
   std::vector<JointPiece<2>> pieces;
   for (const shape::Joint& joint : body.joints()) {
     if (present[static_cast<std::size_t>(joint.left)] == 0 ||

@@ -44,8 +44,8 @@ void add_particles(const scene::Scene& scene, const scene::ElementBody& body,
   std::vector<shape::Content> content;
   std::vector<double> volume;
   for (const shape::MeshPart& part : parts) {
-    content.push_back(shape::content_of(
-        body.mesh, body.mesh.elements[static_cast<std::size_t>(part.element)]));
+    content.push_back(
+        shape::content_of(body.mesh, body.mesh.elements[static_cast<std::size_t>(part.element)]));
     volume.push_back(content.back().volume);
   }
   // Of the whole body, so that regions come and go without a change to the others.

@@ -120,7 +120,9 @@ struct SurfacePiece<3> {
 inline Eigen::Vector2d middle_of(const SurfacePiece<2>& piece) {
   return 0.5 * (piece.from + piece.to);
 }
-inline Eigen::Vector3d middle_of(const SurfacePiece<3>& piece) { return piece.middle; }
+inline Eigen::Vector3d middle_of(const SurfacePiece<3>& piece) {
+  return piece.middle;
+}
 
 /// A piece of where two regions of a body meet.
 template <int Dim>

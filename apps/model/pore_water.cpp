@@ -24,8 +24,8 @@ void add_pore_water(const scene::Scene& scene, Model<Dim>& model) {
         fpm::Vector<Dim>::Constant(0.5 * std::pow(model.particles.volume[a], 1.0 / Dim));
     const fpm::Vector<Dim> lower = is_cell ? model.cells.lower(cell) : place - half;
     const fpm::Vector<Dim> upper = is_cell ? model.cells.upper(cell) : place + half;
-    const auto part = water.in_cell(lower.template head<2>(), upper.template head<2>(),
-                                    place.template head<2>());
+    const auto part =
+        water.in_cell(lower.template head<2>(), upper.template head<2>(), place.template head<2>());
     const scene::Material& material = scene.material[model.material[static_cast<std::size_t>(a)]];
     model.mass[a] += part.wet * (scene::saturated_density(material) - material.density) *
                      model.particles.volume[a];

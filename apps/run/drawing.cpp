@@ -98,7 +98,8 @@ class Drawing {
   }
 
   void add_outline() {
-    for (const model::SurfacePiece<2>& piece : model_.surface) line(piece.from, piece.to, held, 1.0);
+    for (const model::SurfacePiece<2>& piece : model_.surface)
+      line(piece.from, piece.to, held, 1.0);
     if (!model_.surface.empty()) return;
     fmt::format_to(std::back_inserter(out_),
                    "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "

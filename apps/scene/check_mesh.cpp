@@ -58,10 +58,9 @@ void check_solid(const Scene& scene, Refusal& refuse) {
            "a body of volumes is held by its sides of kind fixed or roller");
   }
   refuse(scene.drive.kind == DriveKind::displacement &&
-             std::ranges::none_of(scene.side,
-                                  [](const OutlineSide& side) {
-                                    return side.kind == OutlineKind::footing;
-                                  }),
+             std::ranges::none_of(
+                 scene.side,
+                 [](const OutlineSide& side) { return side.kind == OutlineKind::footing; }),
          "drive.kind", "found displacement, and no side of kind footing",
          "what a drive moves of a body of volumes is its footing");
 }
@@ -77,7 +76,8 @@ void check_mesh(const Scene& scene, int dimension, tables::Diagnosis& diagnosis)
   refuse(dimension == 3 && scene.geometry.dimension == 2, "geometry.dimension",
          "found 2 with a solid mesh", "volumes are regions of dimension 3");
   refuse(dimension == 2 && scene.geometry.dimension == 3, "geometry.dimension",
-         "found 3 with a plane mesh", "a solid mesh has a physical group of tetrahedra or the like");
+         "found 3 with a plane mesh",
+         "a solid mesh has a physical group of tetrahedra or the like");
   refuse(dimension == 3 && !elements, "mesh.particles", "found cells with a solid mesh",
          "particles of a solid are its elements: \"elements\"");
   if (elements) check_elements(scene, refuse);

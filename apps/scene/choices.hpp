@@ -5,7 +5,8 @@ namespace scene {
 // What a scene chooses among. Apart from the scene, as much that needs a choice needs no key.
 
 enum class Layout { cell, vertex };
-/// What the particles of a body drawn in Gmsh are: those of cells within its outline, or its elements.
+/// What the particles of a body drawn in Gmsh are: those of cells within its outline, or its
+/// elements.
 enum class MeshParticles { cells, elements };
 enum class KernelKind { cubic_spline, quintic_spline, wendland_c2 };
 enum class Switch { automatic, on, off };

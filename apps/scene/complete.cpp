@@ -339,8 +339,8 @@ void complete(Scene& scene, tables::Diagnosis& diagnosis) {
     complete_box(scene, diagnosis);
   }
   if (!diagnosis.errors().empty()) return;
-  const OutlineFaces faces(scene, is_solid(scene) ? outer_pieces(scene, *elements)
-                                                  : outer_pieces(scene, outline));
+  const OutlineFaces faces(
+      scene, is_solid(scene) ? outer_pieces(scene, *elements) : outer_pieces(scene, outline));
   complete_supports(scene, faces);
   if (!check_footing(scene, diagnosis)) return;
   if (is_solid(scene)) {

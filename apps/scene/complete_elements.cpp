@@ -25,7 +25,7 @@ struct BaseFace {
 };
 
 std::optional<BaseFace> base_of(const Scene& scene, const ElementBody& body, std::size_t footing,
-                            tables::Diagnosis& diagnosis) {
+                                tables::Diagnosis& diagnosis) {
   std::optional<BaseFace> base;
   constexpr double same = 1e-9;
   const auto& geometry = scene.geometry;
@@ -38,8 +38,8 @@ std::optional<BaseFace> base_of(const Scene& scene, const ElementBody& body, std
       const double area = piece.area.norm();
       const auto face = static_cast<Side>(2 * axis + (piece.area[axis] > 0.0 ? 1 : 0));
       const bool is_straight = std::abs(piece.area[axis]) >= (1.0 - same) * area;
-      const bool is_level = !base || (face == base->face &&
-                                      std::abs(piece.middle[axis] - base->position) <= slack);
+      const bool is_level =
+          !base || (face == base->face && std::abs(piece.middle[axis] - base->position) <= slack);
       if (!is_straight || !is_level) {
         diagnosis.error(fmt::format("side.{}.group", footing),
                         fmt::format("the base at ({:.6g}, {:.6g}, {:.6g}) is {}", piece.middle.x(),

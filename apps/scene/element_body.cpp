@@ -96,8 +96,7 @@ void check_filled(const Scene& scene, const ElementBody& body, tables::Diagnosis
   std::vector<double> volume(scene.region.size(), 0.0);
   for (const shape::MeshPart& part : body.joined.parts) {
     const auto& element = body.mesh.elements[static_cast<std::size_t>(part.element)];
-    volume[static_cast<std::size_t>(part.region)] +=
-        shape::content_of(body.mesh, element).volume;
+    volume[static_cast<std::size_t>(part.region)] += shape::content_of(body.mesh, element).volume;
   }
   for (std::size_t r = 0; r < scene.region.size() && body.mesh.dimension == 2; ++r) {
     const double area = polygon_area(scene.region[r]);

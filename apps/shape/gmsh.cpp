@@ -342,8 +342,7 @@ class Reader {
     const SpacePoint& at = mesh_.at(solid.nodes.front());
     throw GmshError(place.line,
                     fmt::format("element {} at ({:g}, {:g}, {:g}) {}", place.number, at.x(), at.y(),
-                                at.z(),
-                                shape == SolidShape::flat ? "has no volume" : "is folded"));
+                                at.z(), shape == SolidShape::flat ? "has no volume" : "is folded"));
   }
 
   // Turns a face counterclockwise.

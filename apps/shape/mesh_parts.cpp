@@ -55,8 +55,7 @@ MeshBody join_elements(const GmshMesh& mesh, const std::vector<int>& region) {
       }
       MeshFacet& facet = body.facets[at->second];
       if (facet.beyond >= 0) {
-        throw GmshError(
-            0, fmt::format("more than two elements meet at {}", place_of(mesh, nodes)));
+        throw GmshError(0, fmt::format("more than two elements meet at {}", place_of(mesh, nodes)));
       }
       facet.beyond = static_cast<int>(p);
     }

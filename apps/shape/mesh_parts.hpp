@@ -25,7 +25,8 @@ struct MeshBody {
   std::vector<MeshFacet> facets;  // each once
 };
 
-/// @param region  of each element; -1: it is not of the body. One that is there twice, in two groups,
+/// @param region  of each element; -1: it is not of the body. One that is there twice, in two
+/// groups,
 ///   counts once.
 /// @throws GmshError where an element is of two regions, or a facet of more than two elements
 [[nodiscard]] MeshBody join_elements(const GmshMesh& mesh, const std::vector<int>& region);

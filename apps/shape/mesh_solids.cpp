@@ -124,7 +124,8 @@ std::vector<FacetPiece> flat_pieces(const GmshMesh& mesh, const std::vector<int>
   constexpr double flat = 1e-9;
   const double size = whole.area.norm();
   const bool is_flat = std::ranges::all_of(pieces, [&](const FacetPiece& piece) {
-    return piece.area.cross(whole.area).norm() <= flat * size * size;
+    return piece.area.dot(whole.area) > 0.0 &&
+           piece.area.cross(whole.area).norm() <= flat * size * size;
   });
   return is_flat ? std::vector<FacetPiece>{whole} : pieces;
 }

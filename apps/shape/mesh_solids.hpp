@@ -17,8 +17,8 @@ struct FacetPiece {
   SpacePoint area = SpacePoint::Zero();    // [m^2, or m of an edge] times the outward normal
 };
 
-/// A facet as one flat piece, or as triangles about its middle if it has four corners that are in no
-/// plane, so that the elements on both sides see the same surface.
+/// A facet as one flat piece, or as triangles about its middle if it has four corners that are in
+/// no plane, so that the elements on both sides see the same surface.
 [[nodiscard]] std::vector<FacetPiece> flat_pieces(const GmshMesh& mesh,
                                                   const std::vector<int>& facet);
 

@@ -116,11 +116,10 @@ Rows<Dim>::Rows(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
         radius = narrowest;
       }
       if (radius > options.max_enlargement * narrowest) {
-        throw PoorNeighbourhood(
-            "particle " + std::to_string(a) + " at " +
-            text_of<Dim>(initial_position_.row(a)) +
-            " m has no well-conditioned neighbourhood within " + text_of(options.max_enlargement) +
-            " support radii");
+        throw PoorNeighbourhood("particle " + std::to_string(a) + " at " +
+                                text_of<Dim>(initial_position_.row(a)) +
+                                " m has no well-conditioned neighbourhood within " +
+                                text_of(options.max_enlargement) + " support radii");
       }
       search.within(initial_position_.row(a).transpose(), radius, found);
       const Vector<Dim> place = initial_position_.row(a).transpose();

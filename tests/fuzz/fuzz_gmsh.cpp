@@ -23,7 +23,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const shape::MeshBody body = shape::join_elements(mesh, region);
     std::vector<double> volume;
     for (const auto& part : body.parts) {
-      volume.push_back(shape::content_of(mesh, mesh.elements[static_cast<std::size_t>(part.element)]).volume);
+      volume.push_back(
+          shape::content_of(mesh, mesh.elements[static_cast<std::size_t>(part.element)]).volume);
     }
     (void)shape::spacings(mesh, body, volume);
   } catch (const shape::GmshError&) {
