@@ -38,6 +38,16 @@ TEST(Bodies, OfJoinedLabelsAreOne) {
   EXPECT_EQ(next, labels({"aabbbb", "aabbbb"}));
 }
 
+// A chain 0 - 1 - 2 - 3 and a particle of its own.
+TEST(BodiesOfPairs, AreThoseThatMeetWithEqualOrJoinedLabels) {
+  const std::vector<std::pair<Index, Index>> chain{{1, 0}, {1, 2}, {3, 2}};
+  const auto never = [](Index, Index) { return false; };
+  const auto always = [](Index low, Index high) { return low < high; };
+  EXPECT_EQ(fpm::bodies_of({5, 5, 7, 5, 7}, chain, never), (std::vector<Index>{0, 0, 1, 2, 3}));
+  EXPECT_EQ(fpm::bodies_of({5, 5, 7, 5, 7}, chain, always), (std::vector<Index>{0, 0, 0, 0, 1}));
+  EXPECT_THROW((void)fpm::bodies_of({5, 5}, chain, never), fpm::ShapeError);
+}
+
 TEST(Bodies, ThinOnesGoWithTheirNeighbours) {
   const std::vector<Index> seam = labels({"aaa", "aaa", "aaa", "bbb", "bbb", "aaa", "aaa", "aaa"});
   EXPECT_EQ(fpm::bodies_of<2>(Cells<2>(lattice<2>({3, 8})), seam, never, 3),

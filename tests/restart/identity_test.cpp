@@ -100,6 +100,8 @@ const std::vector<Case> cases{
       "initial_stress.kind=geostatic", "initial_stress.K0=0.7", "drive.target=0.02"},
      8},
     {"graded_cutouts", &tunnel, {"geometry.spacing=0.125", "grading.enabled=true"}, 8},
+    {"triangles", &triangles, {}, 20, true},
+    {"tetrahedra", &tetrahedra, {}, 6},
     {"stages", &staged, {}, 20, true},
     {"stages_of_a_load", &staged_load, {"re_search.enabled=false"}, 20},
     {"block_3d", &block, {}, 6},

@@ -11,6 +11,7 @@
 #include "record/curve_file.hpp"
 #include "run/command_line.hpp"
 #include "run/run_loop.hpp"
+#include "support/box_mesh.hpp"
 #include "support/small_footing.hpp"
 
 namespace restart {
@@ -81,6 +82,89 @@ steps = 5
 name = "on"
 to = 0.8
 steps = 6
+)";
+
+namespace {
+
+std::string of_elements(const support::BoxMesh& mesh) {
+  return "[mesh]\nparticles = \"elements\"\ntext = '''\n" + text_of(mesh) + R"('''
+[[material]]
+name = "soil"
+model = "drucker_prager"
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+cohesion = 8e3
+friction_angle = 20.0
+dilation_angle = 5.0
+density = 1800.0
+match = "MATCH"
+[[region]]
+material = "soil"
+group = "low"
+[[region]]
+material = "soil"
+group = "high"
+)";
+}
+
+std::string with_match(std::string text, const std::string& match) {
+  const std::string given = "MATCH";
+  return text.replace(text.find(given), given.size(), match);
+}
+
+std::string side(const std::string& name, const std::string& kind) {
+  return "[[side]]\nname = \"" + name + "\"\ngroup = \"" + name + "\"\nkind = \"" + kind + "\"\n";
+}
+
+}  // namespace
+
+const std::string triangles = "[geometry]\ndimension = 2\n" +
+                              with_match(of_elements({.kind = support::BoxMesh::Kind::triangles,
+                                                      .cells = {8, 6, 0},
+                                                      .size = {2.0, 1.5, 1.0},
+                                                      .jitter = 0.2}),
+                                         "plane_strain") +
+                              side("x0", "symmetry") + side("x1", "roller") + side("y0", "fixed") +
+                              R"(
+[[side]]
+name = "surface"
+kind = "free"
+along = [[0.5, 1.5], [2.0, 1.5]]
+[[side]]
+name = "strip"
+kind = "footing"
+along = [[0.0, 1.5], [0.5, 1.5]]
+[drive]
+kind = "displacement"
+target = 0.3
+[programme]
+steps = 20
+[re_search]
+enabled = true
+[output]
+checkpoints_every = 1
+checkpoints_kept = 1000
+)";
+
+const std::string tetrahedra = "[geometry]\ndimension = 3\n" +
+                               with_match(of_elements({.kind = support::BoxMesh::Kind::tetrahedra,
+                                                       .cells = {2, 4, 2},
+                                                       .size = {0.5, 1.0, 0.5},
+                                                       .jitter = 0.2}),
+                                          "compression_cone") +
+                               side("x0", "symmetry") + side("x1", "free") + side("y0", "fixed") +
+                               side("y1", "free") + side("z0", "symmetry") + side("z1", "free") +
+                               R"(
+[gravity]
+acceleration = [0.0, -9.81, 0.0]
+[drive]
+kind = "load"
+scales = ["gravity"]
+[programme]
+steps = 6
+[output]
+checkpoints_every = 1
+checkpoints_kept = 1000
 )";
 
 const std::string tunnel = R"(

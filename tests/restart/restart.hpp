@@ -27,6 +27,10 @@ extern const std::string loaded_plate;
 extern const std::string tunnel;
 /// A strip on a slope of two graded layers that was settled, pressed into it with re-search.
 extern const std::string layered_slope;
+/// A strip pressed into triangles of a mesh, with re-search.
+extern const std::string triangles;
+/// A block of tetrahedra of a mesh whose weight grows.
+extern const std::string tetrahedra;
 /// The footing pressed down, drawn back and pressed on.
 extern const std::string staged;
 /// The loaded plate, its load taken back in between.

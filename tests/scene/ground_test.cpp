@@ -288,8 +288,8 @@ TEST(GroundScene, ThatIsNoGroundIsRefused) {
        "regions: "
        "leave it out"},
       {replaced(good, "spacing = 0.1", "spacing = 0.1\ndimension = 3"),
-       "s.toml:3:13: geometry.dimension: found 3 with a [[region]]; only plane bodies have "
-       "regions"},
+       "s.toml:3:13: geometry.dimension: found 3 with a [[region]]; regions in 3D are "
+       "volumes of a solid mesh"},
       {base + "[geometry2]\n", "s.toml:14:2: geometry2: no such table; "},
       {replaced(good, layers, ""),
        "s.toml:14:1: side.0: found without a [[region]]; sides are parts of the outline of "

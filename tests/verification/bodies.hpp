@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
 
 #include "equilibrium/equilibrium.hpp"
+#include "support/box_mesh.hpp"
 
 namespace verification {
 
@@ -18,19 +20,44 @@ struct BodyOptions {
   std::string control = "mixed";
   std::string model = "drucker_prager";
   std::string consistency = "off";
+  bool elements = false;  // triangles or tetrahedra of a mesh, whose nodes are moved by the jitter
   std::string hourglass;  // further keys of [hourglass]
   std::string extra;      // further tables
 };
 
+inline std::string geometry_of(const BodyOptions& o) {
+  const bool plane = o.dimension == 2;
+  const std::string dimension = "[geometry]\ndimension = " + std::to_string(o.dimension);
+  if (!o.elements) {
+    return dimension +
+           (plane ? "\nmin = [0.0, 0.0]\nmax = [1.1, 0.9]\nspacing = 0.1\n"
+                  : "\nmin = [0.0, 0.0, 0.0]\nmax = [0.7, 0.6, 0.5]\nspacing = 0.1\n") +
+           "layout = \"" + o.layout + "\"\njitter = " + std::to_string(o.jitter) + "\n";
+  }
+  using Kind = support::BoxMesh::Kind;
+  const support::BoxMesh mesh{.kind = plane ? Kind::triangles : Kind::tetrahedra,
+                              .cells = plane ? std::array{9, 7, 0} : std::array{4, 4, 3},
+                              .size = plane ? std::array{1.1, 0.9, 1.0} : std::array{0.7, 0.6, 0.5},
+                              .jitter = o.jitter};
+  std::string text =
+      dimension + "\n[mesh]\nparticles = \"elements\"\ntext = '''\n" + text_of(mesh) + "'''\n";
+  for (const char* group : {"low", "high"}) {
+    text += std::string("[[region]]\nmaterial = \"soil\"\ngroup = \"") + group + "\"\n";
+  }
+  for (const char* group : {"x0", "x1", "y0", "y1", "z0", "z1"}) {
+    if (plane && group[0] == 'z') continue;
+    text += std::string("[[side]]\nkind = \"free\"\nname = \"") + group + "\"\ngroup = \"" + group +
+            "\"\n";
+  }
+  return text;
+}
+
 inline std::string body_scene(const BodyOptions& o) {
   const bool plane = o.dimension == 2;
-  std::string text = "[geometry]\ndimension = " + std::to_string(o.dimension) +
-                     (plane ? "\nmin = [0.0, 0.0]\nmax = [1.1, 0.9]\nspacing = 0.1\n"
-                            : "\nmin = [0.0, 0.0, 0.0]\nmax = [0.7, 0.6, 0.5]\nspacing = 0.1\n") +
-                     "layout = \"" + o.layout + "\"\njitter = " + std::to_string(o.jitter) +
-                     "\n[approximation]\nkinematics = \"" + o.kinematics + "\"\nconsistency = \"" +
-                     o.consistency + "\"\n[hourglass]\ncontrol = \"" + o.control + "\"\n" +
-                     o.hourglass + "[[material]]\nname = \"soil\"\nmodel = \"" + o.model +
+  std::string text = geometry_of(o) + "[approximation]\nkinematics = \"" + o.kinematics +
+                     "\"\nconsistency = \"" + o.consistency + "\"\n[hourglass]\ncontrol = \"" +
+                     o.control + "\"\n" + o.hourglass +
+                     "[[material]]\nname = \"soil\"\nmodel = \"" + o.model +
                      "\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3\n";
   if (o.model != "elastic") text += "cohesion = 5e3\n";
   if (o.model == "drucker_prager" || o.model == "mohr_coulomb") {

@@ -79,6 +79,16 @@ TEST(RigidRotation, FullTurnInThreeDimensionsDriftsByRoundOffWithSubPoints) {
   expect_full_turn_changes_nothing<3>(body);
 }
 
+TEST(RigidRotation, FullTurnOfElementsOfAMeshDriftsByRoundOff) {
+  BodyOptions body;
+  body.elements = true;
+  body.jitter = 0.2;
+  expect_full_turn_changes_nothing<2>(body);
+  body.dimension = 3;
+  body.control = "incremental";
+  expect_full_turn_changes_nothing<3>(body);
+}
+
 // The internal forces of a body that was bent and yielded turn with it.
 TEST(RigidRotation, TurnsTheForcesOfBentYieldedBody) {
   const TestScene scene = scene_of(body_scene({}));
