@@ -6,6 +6,8 @@
 
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
+#include "scene/ground.hpp"
 #include "scene/names.hpp"
 
 namespace scene {
@@ -42,9 +44,23 @@ std::vector<PlanePoint> corners_of_boxes(const Scene& scene, std::size_t index) 
   return corners;
 }
 
+// Corners of a solid's elements that are of a material.
+std::vector<PlanePoint> corners_of_elements(const Scene& scene, std::size_t index) {
+  std::vector<PlanePoint> corners;
+  const ElementBody body = elements_of(scene);
+  for (const shape::MeshPart& part : body.joined.parts) {
+    if (material_of(scene, static_cast<std::size_t>(part.region)) != index) continue;
+    for (const int node : body.mesh.elements[static_cast<std::size_t>(part.element)].nodes) {
+      corners.emplace_back(body.mesh.at(node).x(), body.mesh.at(node).y());
+    }
+  }
+  return corners;
+}
+
 // Corners of where a material is, in the plane.
 std::vector<PlanePoint> corners_of(const Scene& scene, std::size_t index) {
   if (scene.region.empty()) return corners_of_boxes(scene, index);
+  if (is_solid(scene)) return corners_of_elements(scene, index);
   std::vector<PlanePoint> corners;
   for (const Region& region : scene.region) {
     if (region.material != scene.material[index].name) continue;

@@ -140,6 +140,13 @@ TEST(ElementScene, RefusesWhatSolidsCannotHave) {
   EXPECT_THAT(errors_of(scene_of(aslant))[0], HasSubstr("is aslant; a footing has one flat base"));
 }
 
+TEST(ElementScene, RefusesValuesThatVanishInSomeElement) {
+  const std::string falling = "youngs_modulus = { at = [0, 1], value = 1e6, gradient = [0, ";
+  EXPECT_EQ(error_with(solid, "youngs_modulus = 1e6", falling + "9e5] }"), "");
+  EXPECT_THAT(error_with(solid, "youngs_modulus = 1e6", falling + "1.1e6] }"),
+              HasSubstr("allowed is a modulus of more than zero wherever the material is"));
+}
+
 TEST(ElementScene, RefusesAMeshGivenTwice) {
   EXPECT_THAT(error_with(plane, "[mesh]\n", "[mesh]\nfile = \"m.msh\"\n"),
               HasSubstr("mesh.text: found beside a file; give one of them"));
