@@ -3,14 +3,13 @@
 #include <algorithm>
 
 #include "scene/derived.hpp"
-#include "scene/element_body.hpp"
 #include "scene/scene.hpp"
 
 namespace model {
 
 template <int Dim>
 void part_into_bodies(const scene::Scene& scene, Model<Dim>& model) {
-  if (scene::has_elements(scene)) return;  // they know (elements.hpp)
+  if (model.cells.size() == 0) return;  // elements and prisms know (elements.hpp, extrude.hpp)
   const std::vector<fpm::Index> label(model.material.begin(), model.material.end());
   // Fewer particles across a body leave its rows singular, with second gradients or at a corner.
   constexpr fpm::Index thickness = 3;

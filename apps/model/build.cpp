@@ -10,6 +10,7 @@
 #include "model/bodies.hpp"
 #include "model/cut_body.hpp"
 #include "model/elements.hpp"
+#include "model/extrude.hpp"
 #include "model/initial_stress.hpp"
 #include "model/interfaces.hpp"
 #include "model/loads.hpp"
@@ -43,6 +44,17 @@ fpm::Kernel to_kernel(scene::KernelKind kind) {
   return fpm::Kernel::cubic_spline;
 }
 
+// The section of prisms, with its materials and bodies.
+Model<2> section_of(const scene::Scene& scene) {
+  Model<2> section;
+  section.spacing = scene.geometry.spacing;
+  section.cells = cells_of<2>(scene);
+  section.particles = fpm::make_particles(section.cells);
+  cut_body(scene, section);
+  part_into_bodies(scene, section);
+  return section;
+}
+
 template <int Dim>
 void place_particles(const scene::Scene& scene, Model<Dim>& model) {
   const scene::Geometry& geometry = scene.geometry;
@@ -54,6 +66,8 @@ void place_particles(const scene::Scene& scene, Model<Dim>& model) {
   model.row_options.spacing = geometry.spacing;
   if (scene::has_elements(scene)) {
     place_elements(scene, model);
+  } else if (scene::is_extruded(scene)) {
+    if constexpr (Dim == 3) extrude(section_of(scene), model);
   } else {
     model.cells = cells_of<Dim>(scene);
     model.particles = fpm::make_particles(model.cells);
@@ -264,7 +278,7 @@ std::int64_t particle_count(const scene::Scene& scene) {
     place_particles(scene, model);
     return static_cast<std::int64_t>(model.size());
   };
-  if (scene::is_solid(scene)) return count(Model<3>());
+  if (scene::is_solid(scene) || scene::is_extruded(scene)) return count(Model<3>());
   if (scene::is_cut(scene)) return count(Model<2>());
   if (!scene.grading.enabled) return scene::particle_count(scene.geometry);
   return scene.geometry.dimension == 2 ? cells_of<2>(scene).size() : cells_of<3>(scene).size();

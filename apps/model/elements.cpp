@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "fpm/bodies.hpp"
 #include "fpm/neighbour_search.hpp"
 #include "fpm/rows.hpp"
+#include "model/grid_cells.hpp"
 #include "model/surface.hpp"
 #include "scene/derived.hpp"
 #include "scene/element_body.hpp"
@@ -158,29 +158,6 @@ void part_elements(const scene::Scene& scene, const scene::ElementBody& body,
                .kind == scene::InterfaceKind::through;
   });
   if (std::ranges::max(bodies) > 0) model.particles.body = std::move(bodies);
-}
-
-// As wide as particles are apart there, and wide where there are none. The box holds a whole number
-// of the widest: what is left over would be filled by narrower ones, whatever particles are there.
-template <int Dim>
-fpm::Cells<Dim> cells_behind(const Model<Dim>& model) {
-  fpm::LatticeOptions<Dim> finest;
-  finest.spacing = model.spacing;
-  finest.min = model.box_min;
-  const double ratio = model.particles.spacing.maxCoeff() / model.spacing;
-  const double widest = model.spacing * std::exp2(std::ceil(std::log2(ratio)) + 1.0);
-  for (int i = 0; i < Dim; ++i) {
-    const double extent = model.box_max[i] - model.box_min[i];
-    finest.max[i] = model.box_min[i] + std::ceil(extent / widest) * widest;
-  }
-  const fpm::NeighbourSearch<Dim> search(model.particles.position);
-  std::vector<fpm::Index> near;
-  return {finest, [&](const fpm::Vector<Dim>& lower, const fpm::Vector<Dim>& upper) {
-            search.within(0.5 * (lower + upper), 0.5 * (upper - lower).norm(), near);
-            double wanted = std::numeric_limits<double>::infinity();
-            for (const fpm::Index a : near) wanted = std::min(wanted, model.spacing_at(a));
-            return wanted;
-          }};
 }
 
 }  // namespace

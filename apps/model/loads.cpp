@@ -8,6 +8,7 @@
 #include "model/side_points.hpp"
 #include "model/surface.hpp"
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
 #include "scene/ground.hpp"
 #include "scene/outline_faces.hpp"
 #include "scene/scene.hpp"
@@ -203,14 +204,17 @@ fpm::Field<Dim> cut_area_vectors(const scene::Scene& scene, const Model<Dim>& mo
   for (std::size_t i = 0; i < scene.side.size(); ++i) add(bounding_part(scene, i, faces), 1.0);
   add(SurfacePart::of_exposed(), 1.0);
   for (const fpm::Face& face : faces) {
-    if (scene.region.empty()) add(SurfacePart::of_face(face), 1.0);
+    // The ends of prisms are of no side.
+    const bool of_no_side = scene.region.empty() || (scene::is_extruded(scene) && face.axis == 2);
+    if (of_no_side) add(SurfacePart::of_face(face), 1.0);
   }
-  for (const auto& plate : plates) {  // of plane bodies only
-    const int along = 1 - plate.axis;
+  for (const auto& plate : plates) {
     const double middle = 0.5 * (model.box_min[plate.axis] + model.box_max[plate.axis]);
     SurfacePart under = SurfacePart::of_face(face_at(plate.axis, plate.position, middle));
-    under.from = plate.range_min[along];
-    under.to = plate.range_max[along];
+    for (int i = 0; i < Dim; ++i) {
+      under.from[static_cast<std::size_t>(i)] = plate.range_min[i];
+      under.to[static_cast<std::size_t>(i)] = plate.range_max[i];
+    }
     // Of planes the drive's alone has a range.
     if (scene.drive.level) under = SurfacePart::of_side(*scene::footing_of(scene));
     add(under, -1.0);

@@ -43,10 +43,11 @@ SurfacePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& mode
     return result;
   }
   if (!model.surface.empty()) {
-    const int along = 1 - face.axis;
     SurfacePart part = SurfacePart::of_face(face);
-    part.from = from[along];
-    part.to = to[along];
+    for (int i = 0; i < Dim; ++i) {
+      part.from[static_cast<std::size_t>(i)] = from[i];
+      part.to[static_cast<std::size_t>(i)] = to[i];
+    }
     return surface_points(model, part);
   }
   result.points = fpm::boundary_quadrature(model.cells, face, from, to);

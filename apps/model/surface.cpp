@@ -30,14 +30,25 @@ std::optional<SurfacePiece<2>> clipped(SurfacePiece<2> piece, const SurfacePart&
                                        double sliver) {
   if (part.of != SurfacePart::Of::face) return piece;
   const int along = 1 - part.index / 2;
-  for (double* x : {&piece.from[along], &piece.to[along]}) *x = std::clamp(*x, part.from, part.to);
+  const auto k = static_cast<std::size_t>(along);
+  for (double* x : {&piece.from[along], &piece.to[along]}) {
+    *x = std::clamp(*x, part.from[k], part.to[k]);
+  }
   if ((piece.to - piece.from).norm() <= sliver) return std::nullopt;
   return piece;
 }
 
-// Ranges along faces are those of plane bodies.
-std::optional<SurfacePiece<3>> clipped(const SurfacePiece<3>& piece, const SurfacePart& /*part*/,
+// A piece of a solid is within a range or not, as its middle is.
+std::optional<SurfacePiece<3>> clipped(const SurfacePiece<3>& piece, const SurfacePart& part,
                                        double /*sliver*/) {
+  if (part.of != SurfacePart::Of::face) return piece;
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const bool across = i == part.index / 2;
+    if (!across && (piece.middle[i] < part.from[k] || piece.middle[i] > part.to[k])) {
+      return std::nullopt;
+    }
+  }
   return piece;
 }
 

@@ -19,8 +19,9 @@ struct SurfacePart {
   enum class Of { cutout, side, face, exposed };
   Of of = Of::cutout;
   int index = 0;
-  double from = -std::numeric_limits<double>::infinity();  // [m] along a face
-  double to = std::numeric_limits<double>::infinity();
+  // [m] Of a face what counts, along its axes.
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 3> from{-infinity, -infinity, -infinity}, to{infinity, infinity, infinity};
   // Of a side, what does not count: its pieces on each face of the box, and those on none.
   std::array<bool, 7> without{};
 

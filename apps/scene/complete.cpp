@@ -70,6 +70,18 @@ void complete_weights(Scene& scene, tables::Diagnosis& diagnosis) {
   }
 }
 
+// Whether prisms have their length.
+bool complete_depth(const Scene& scene, tables::Diagnosis& diagnosis) {
+  const Point& depth = scene.geometry.depth;
+  if (!diagnosis.good({"geometry.depth", "geometry.dimension"})) return false;
+  if (depth.size() == 2 && depth[0] < depth[1]) return true;
+  diagnosis.error("geometry.depth",
+                  depth.empty() ? "is missing, with a [[region]] in 3D" : "is no length along z",
+                  "regions of polygons in 3D are prisms: needed is [from, to] along z [m], from "
+                  "below to; other bodies are volumes of a solid mesh");
+  return false;
+}
+
 // What only a body of regions has or has not.
 bool is_ground(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (scene.region.empty()) {
@@ -91,8 +103,14 @@ bool is_ground(const Scene& scene, tables::Diagnosis& diagnosis) {
                           const std::string& allowed) {
     if (refused && diagnosis.good({key})) diagnosis.error(key, found, allowed);
   };
-  refuse(scene.geometry.dimension != 2 && !has_elements(scene), "geometry.dimension",
-         "found 3 with a [[region]]", "regions in 3D are volumes of a solid mesh");
+  if (is_extruded(scene) && !complete_depth(scene, diagnosis)) return false;
+  refuse(!is_extruded(scene) && !scene.geometry.depth.empty(), "geometry.depth",
+         is_solid(scene) ? "found with volumes of a mesh" : "found in a plane",
+         "it belongs to polygons in dimension 3");
+  refuse(is_extruded(scene) && scene.geometry.jitter > 0.0, "geometry.jitter",
+         "found with regions in 3D", "particles of prisms are not moved");
+  refuse(is_extruded(scene) && scene.grading.enabled, "grading.enabled", "found with prisms",
+         "particles of prisms are equally fine; a solid mesh may grade them");
   refuse(scene.geometry.layout != Layout::cell, "geometry.layout", "found vertex with a [[region]]",
          "particles of regions are those of cells: layout = \"cell\"");
   refuse(scene.initial_stress.kind == InitialStressKind::geostatic, "initial_stress.kind",
@@ -157,6 +175,7 @@ void check_sides(const Scene& scene, tables::Diagnosis& diagnosis) {
 void complete_box(Scene& scene, tables::Diagnosis& diagnosis) {
   if (!diagnosis.good({"geometry.spacing", "geometry.min", "geometry.max"})) return;
   Point low(2, std::numeric_limits<double>::infinity()), high(2, -low[0]);
+  const std::size_t n = is_extruded(scene) ? 3 : 2;
   for (const Region& region : scene.region) {
     for (const PlanePoint& place : region.outline) {
       low = {std::min(low[0], place.x()), std::min(low[1], place.y())};
@@ -164,22 +183,26 @@ void complete_box(Scene& scene, tables::Diagnosis& diagnosis) {
     }
   }
   Geometry& geometry = scene.geometry;
+  if (n == 3) {
+    low.push_back(geometry.depth[0]);
+    high.push_back(geometry.depth[1]);
+  }
   if (geometry.min.empty()) geometry.min = low;
-  if (geometry.min.size() != 2) return;
+  if (geometry.min.size() != n) return;
   if (geometry.max.empty()) {
     constexpr double round_off = 1e-9;
     constexpr double most_cells = 1e9;
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < n; ++i) {
       const double cells = (high[i] - geometry.min[i]) / geometry.spacing;
       const bool is_whole = std::abs(cells - std::round(cells)) <= round_off * cells;
-      geometry.max.push_back(is_whole || cells > most_cells
+      geometry.max.push_back(is_whole || cells > most_cells || i == 2
                                  ? high[i]
                                  : geometry.min[i] + std::ceil(cells) * geometry.spacing);
     }
   }
-  if (geometry.max.size() != 2) return;
+  if (geometry.max.size() != n) return;
   const double slack = same_place(geometry);
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     const bool below = geometry.min[i] > low[i] + slack;
     if (!below && geometry.max[i] >= high[i] - slack) continue;
     diagnosis.error(below ? "geometry.min" : "geometry.max",
@@ -288,10 +311,16 @@ void complete_drive(Scene& scene, const shape::Outline& outline, tables::Diagnos
   const double away = base->position - side_position(scene.geometry, base->face);
   if (std::abs(away) > outline.tolerance()) drive.level = base->position;
   if (drive.kind == DriveKind::displacement && drive.direction.empty()) {
-    drive.direction = {0.0, 0.0};
+    drive.direction.assign(static_cast<std::size_t>(scene.geometry.dimension), 0.0);
     drive.direction[static_cast<std::size_t>(across)] = is_upper(base->face) ? -1.0 : 1.0;
   }
-  if (!drive.width) drive.width = along(high) - along(low);
+  const bool extruded = is_extruded(scene);
+  const double depth = extruded ? scene.geometry.max[2] - scene.geometry.min[2] : 1.0;
+  if (extruded) {
+    drive.range_min.push_back(scene.geometry.min[2]);
+    drive.range_max.push_back(scene.geometry.max[2]);
+  }
+  if (!drive.width) drive.width = (along(high) - along(low)) * depth;
   drive.lateral = footing.base == Base::rough ? Lateral::fixed : Lateral::free;
   if (!footing.tension && drive.method == DriveMethod::automatic) {
     drive.method = DriveMethod::contact;

@@ -179,7 +179,11 @@ bool has_elements(const Scene& scene) {
 }
 
 bool is_solid(const Scene& scene) {
-  return !scene.region.empty() && scene.geometry.dimension == 3;
+  return has_elements(scene) && scene.geometry.dimension == 3;
+}
+
+bool is_extruded(const Scene& scene) {
+  return !scene.region.empty() && scene.geometry.dimension == 3 && !has_elements(scene);
 }
 
 std::optional<ElementBody> read_elements(const Scene& scene, tables::Diagnosis& diagnosis) {

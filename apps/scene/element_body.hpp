@@ -25,6 +25,9 @@ struct ElementBody {
 /// Whether a scene's regions are volumes of a mesh.
 [[nodiscard]] bool is_solid(const Scene& scene);
 
+/// Whether they are polygons in space: prisms along z.
+[[nodiscard]] bool is_extruded(const Scene& scene);
+
 /// Reads the body of a scene whose particles are elements. What is no body is an error of the
 /// diagnosis: regions that elements do not fill or share, surface without a side, sides that are no
 /// surface.

@@ -26,6 +26,7 @@ struct Geometry {
   Layout layout = Layout::cell;
   double jitter = 0.0;  // [fraction of spacing]
   std::int64_t seed = 1;
+  Point depth{};  // [m] from and to along z, of polygons that are prisms; else empty
   bool operator==(const Geometry&) const = default;
 };
 

@@ -90,6 +90,13 @@ SceneTable geometry() {
             .unit = "m",
             .doc = "Upper corner; y points up.",
             .absent = "that of the regions, a whole number of spacings above min"})
+      .key("depth", &Geometry::depth,
+           {.need = tables::Need::optional,
+            .unit = "m",
+            .doc = "From and to along z, of regions of polygons in dimension 3, which are prisms "
+                   "then; a whole number of spacings. Their two ends are the faces front and back "
+                   "of the box.",
+            .absent = "regions are plane or volumes of a mesh"})
       .key("spacing", &Geometry::spacing,
            {.need = tables::Need::optional,
             .unit = "m",

@@ -30,8 +30,9 @@ SceneTable mesh() {
 SceneTable region() {
   return tables::TableBuilder<Scene, Region>(
              "region", &Scene::region,
-             "A polygon of one material, or a volume of a solid mesh; regions adjoin each other "
-             "and are the body. With the layout cell only. fpm-limit reads the same of plane ones.")
+             "A polygon of one material, in space a prism along z, or a volume of a solid mesh; "
+             "regions adjoin each other and are the body. With the layout cell only. fpm-limit "
+             "reads the same of plane ones.")
       .key("name", &Region::name, {.doc = "Serves messages."})
       .key("material", &Region::material,
            {.need = tables::Need::required, .doc = "Name of its material."})

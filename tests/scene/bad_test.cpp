@@ -74,7 +74,7 @@ colour = "red"
                   "[[region]]s are the body",
                   "s.toml:4:11: geometry.spacing: found -1; allowed is a number > 0 [m]",
                   "s.toml:5:1: geometry.colour: no such key; keys of [geometry] are dimension, "
-                  "min, max, spacing, layout, jitter, seed",
+                  "min, max, depth, spacing, layout, jitter, seed",
                   "s.toml: material: table is missing; a scene needs [[material]]"));
 }
 

@@ -18,6 +18,7 @@ namespace scene {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const std::string base =
     "[geometry]\nspacing = 0.1\n"
@@ -49,6 +50,31 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   const std::size_t at = text.find(what);
   if (at == std::string::npos) throw std::logic_error(what + " is not in the scene");
   return text.replace(at, what.size(), by);
+}
+
+TEST(Prisms, HaveADepthOfWholeSpacings) {
+  const std::string ends = "[[support]]\nname = \"end\"\nside = \"front\"\ndirections = [\"z\"]\n";
+  const auto with = [&](const std::string& geometry) {
+    const auto errors = errors_of(replaced(base, "spacing = 0.1\n", "spacing = 0.1\n" + geometry) +
+                                  layers + around + pressed + ends);
+    return errors.empty() ? "" : errors[0];
+  };
+  EXPECT_EQ(with("dimension = 3\ndepth = [-0.2, 0.3]\n"), "");
+  EXPECT_THAT(with("dimension = 3\ndepth = [0.3, -0.2]\n"),
+              HasSubstr("geometry.depth: is no length along z"));
+  EXPECT_THAT(with("dimension = 3\ndepth = [0, 0.55]\n"),
+              HasSubstr("5.5 times in the extent 0.55 along z"));
+  EXPECT_THAT(with("dimension = 3\ndepth = [0, 0.5]\njitter = 0.1\n"),
+              HasSubstr("geometry.jitter: found with regions in 3D"));
+  EXPECT_THAT(with("depth = [0, 0.5]\n"), HasSubstr("geometry.depth: found in a plane"));
+  const auto reading = parse_scene(
+      replaced(base, "spacing = 0.1\n", "spacing = 0.1\ndimension = 3\ndepth = [-0.2, 0.3]\n") +
+          layers + around + pressed + ends,
+      "s.toml");
+  ASSERT_TRUE(reading.scene);
+  EXPECT_THAT(reading.scene->drive.range_min, ElementsAre(0.0, -0.2));
+  EXPECT_THAT(reading.scene->drive.range_max, ElementsAre(0.5, 0.3));
+  EXPECT_NEAR(*reading.scene->drive.width, 0.25, 1e-15);
 }
 
 TEST(GroundScene, SaysWhatItsSidesComeTo) {
@@ -152,7 +178,6 @@ TEST(GroundScene, TakesRegionsAndSidesFromAMesh) {
 }
 
 TEST(GroundScene, RefusesGroupsThatAreNone) {
-  using ::testing::HasSubstr;
   const std::string good = of_groups("");
   const auto with = [&](const std::string& what, const std::string& by) {
     const auto errors = errors_of(replaced(good, what, by));
@@ -288,8 +313,8 @@ TEST(GroundScene, ThatIsNoGroundIsRefused) {
        "regions: "
        "leave it out"},
       {replaced(good, "spacing = 0.1", "spacing = 0.1\ndimension = 3"),
-       "s.toml:3:13: geometry.dimension: found 3 with a [[region]]; regions in 3D are "
-       "volumes of a solid mesh"},
+       "s.toml:1:1: geometry.depth: is missing, with a [[region]] in 3D; regions of polygons in 3D "
+       "are prisms"},
       {base + "[geometry2]\n", "s.toml:14:2: geometry2: no such table; "},
       {replaced(good, layers, ""),
        "s.toml:14:1: side.0: found without a [[region]]; sides are parts of the outline of "

@@ -75,7 +75,7 @@ TEST(SceneSettings, AreNamedInTheirErrors) {
 TEST(SceneSettings, OfferTheNearestName) {
   EXPECT_EQ(only_error({"geometry.spacin=1"}),
             "--set geometry.spacin=1: geometry.spacin: no such key; keys of [geometry] are "
-            "dimension, min, max, spacing, layout, jitter, seed; did you mean \"spacing\"?");
+            "dimension, min, max, depth, spacing, layout, jitter, seed; did you mean \"spacing\"?");
   EXPECT_THAT(only_error({"geometri.spacing=1"}),
               ::testing::EndsWith("; did you mean \"geometry\"?"));
   EXPECT_EQ(only_error({"material.sol.cohesion=1"}),

@@ -205,6 +205,10 @@ bool is_scene_of_both(std::string_view text) {
 
 std::optional<GroundScene> ground_of_scene(const scene::Scene& scene,
                                            tables::Diagnosis& diagnosis) {
+  if (scene.geometry.dimension != 2) {
+    diagnosis.error("geometry.dimension", "found 3", "fpm-limit's ground is plane");
+    return std::nullopt;
+  }
   GroundScene ground = Reader(scene, diagnosis).ground();
   if (!diagnosis.errors().empty()) return std::nullopt;
   return ground;

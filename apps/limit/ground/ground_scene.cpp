@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "scene/mesh_groups.hpp"
+#include "scene/names.hpp"
 #include "tables/builder.hpp"
 #include "tables/nearest_name.hpp"
 #include "tables/reader.hpp"
