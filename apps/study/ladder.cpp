@@ -40,6 +40,7 @@ class Climb {
     if (std::ranges::find(seen_, fineness) != seen_.end()) return;
     seen_.push_back(fineness);
     spent_ += reply.seconds;
+    answer_.evaluations += reply.evaluations;
   }
 
   bool within_budget(double seconds) {
