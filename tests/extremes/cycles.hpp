@@ -59,7 +59,7 @@ class IdealBlock {
 /// @throws std::runtime_error with the reason if a step does not converge
 inline void run_stages(
     const verification::TestScene& scene,
-    const std::function<void(const stepping::StagedModel<2>&, const model::State<2>&)>& look,
+    const std::function<void(const model::Model<2>&, const model::State<2>&)>& look,
     const std::function<void()>& after_step = {}) {
   stepping::StagedModel<2> stages(scene);
   model::State<2> state = stages.initial_state();

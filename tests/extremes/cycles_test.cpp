@@ -86,8 +86,9 @@ TEST(Axis, FrictionThereAndBack) {
   sweep(axis);
 }
 
-// Held on all sides and pulled, soil is at the apex of its surface everywhere: c cot(phi) in every
-// direction, however far it is pulled, and elastic again on the way back.
+// Held on its sides and pulled, soil slides along its surface to the apex: c cot(phi) in every
+// direction, however much farther it is pulled, and elastic again on the way back. Uniaxial strain
+// is within the flow of the apex, so ten times the strain of its stress is enough to be there.
 TEST(Axis, Apex) {
   constexpr double cohesion = 1e3, angle = 30.0, young = 1e6, poisson = 0.3;
   const double tip = cohesion / std::tan(angle * std::numbers::pi / 180.0);
@@ -96,7 +97,7 @@ TEST(Axis, Apex) {
   Axis axis{"strain of a confined pull over that of the tip's stress",
             "apex everywhere: stress c cot(phi), and 0 in the middle of the way back", of_solver,
             from_solver};
-  const std::vector<double> pulls{2.0, 10.0, 100.0, 1000.0};
+  const std::vector<double> pulls{10.0, 100.0, 1000.0, 10000.0};
   for (const double pull : pulls) {
     axis.samples.push_back(
         {fmt::format("{}", pull),

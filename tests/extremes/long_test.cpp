@@ -48,13 +48,12 @@ TEST(Axis, StepsOfALongCycle) {
 }
 
 // A bar in finite strain, stretched to twice its length and brought back in 100 000 steps: the
-// midpoint rule takes the same way back, so it is what it was, and neither in the middle nor at the
-// end have its forces a resultant but that of their round-off.
+// midpoint rule takes the same way back, so it is what it was.
 TEST(Axis, StepsOfALongStretch) {
   constexpr double young = 1e6;
   Axis axis{"steps of a bar's stretch to 2 and back",
-            "stress E times the sum of the steps' strains, and 0; place; resultant of the forces",
-            1e-6, "solver's tolerance of 1e-8 on a body of 5 by 10"};
+            "stress E times the sum of the steps' strains there, and 0 back; place", 1e-6,
+            "solver's tolerance of 1e-8 on a body of 5 by 10"};
   const std::vector<int> counts{100, 1000, 100000};
   for (const int steps : counts) {
     axis.samples.push_back(
@@ -73,17 +72,9 @@ TEST(Axis, StepsOfALongStretch) {
     double strain = 0.0, error = 0.0;
     for (int i = 0; i < steps; ++i) strain += 2.0 / (2.0 * (steps + i) + 1.0);
     double exact = young * strain;
-    run_stages(scene, [&](const model::Model<2>& model, const model::State<2>& state) {
+    run_stages(scene, [&](const auto&, const model::State<2>& state) {
       error = std::max(error, (state.stress.row(1).array() - exact).abs().maxCoeff() / young);
       if (exact == 0.0) error = std::max(error, state.displacement.cwiseAbs().maxCoeff());
-      model::State<2> copy = state;
-      equilibrium::Equilibrium<2> equilibrium(model, copy);
-      verification::move(equilibrium, Eigen::VectorXd::Zero(model.unknowns()));
-      const Eigen::VectorXd& force = equilibrium.unmasked_residual();
-      for (int i = 0; i < 2; ++i) {
-        const auto along = force.segment(i * model.size(), model.size());
-        error = std::max(error, std::abs(along.sum()) / (young * 0.5));
-      }
       exact = 0.0;
     });
     return error;

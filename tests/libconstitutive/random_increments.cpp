@@ -139,9 +139,11 @@ void step(const Material& material, double allowed, const StrainVector<Dim>& inc
   const ElasticModuli& m = moduli(material);
   const double work = contract(s.stress, deviator(removed)) / (2 * m.shear) +
                       mean_stress(s.stress) * (s.plastic_volume_strain - s0.plastic_volume_strain);
-  // Both are as exact as the trial's size lets a difference be; without tension the work is 0.
+  // Both are as exact as the trial's size lets a difference be, and as the volume strain that has
+  // accumulated lets its change be; without tension the work is 0.
   const double largest =
-      (trial.norm() + s.stress.norm()) * s.stress.norm() * (1 / m.shear + 1 / m.bulk);
+      s.stress.norm() * ((trial.norm() + s.stress.norm()) * (1 / m.shear + 1 / m.bulk) +
+                         std::abs(s.plastic_volume_strain));
   if (s.plastic_strain < s0.plastic_strain || work < -points::round_off * allowed * largest) {
     ++tally.backward;
   }

@@ -190,6 +190,27 @@ TEST(ModifiedCamClay, ReturnsAnAdmissibleTrialWithoutVolumeStrainBitForBit) {
   EXPECT_EQ(s1.stress, trial);
 }
 
+// Bulk stiffness grows with the pressure, so one step may take a millionth of it away or leave
+// only that; the trial has the pressure of its beginning all the same, and its round-off.
+TEST(ModifiedCamClay, EndsOnItsSurfaceFarBelowThePressureOfItsBeginning) {
+  int plastic = 0;
+  for (const double fall : {1e2, 1e4, 1e6}) {
+    for (const double shear : {0.3, 1.0, 3.0}) {
+      PointState<3> s = at_pressure<3>(fall * preconsolidation), again;
+      // The opening lowers the pressure to p_c, and the shear makes q some p_c.
+      StrainVector<3> strain = compaction(-kappa * std::log(fall));
+      strain[3] = shear * preconsolidation / law().moduli.shear;
+      s.plastic_volume_strain = -(lambda - kappa) * std::log(2.0);
+      ASSERT_FALSE(strained<3>(strain, s).failed);
+      plastic += s.plastic_strain > 0 ? 1 : 0;
+      ASSERT_FALSE(update(law(), s.stress, s, again).failed);
+      EXPECT_LE((again.stress - s.stress).norm(), round_off * s.stress.norm())
+          << fall << ' ' << shear;
+    }
+  }
+  EXPECT_GE(plastic, 3);
+}
+
 TEST(ModifiedCamClay, BearsNoTension) {
   PointState<3> s = at_pressure<3>(100e3);
   const UpdateOutcome outcome = strained<3>(compaction(-0.5), s);
