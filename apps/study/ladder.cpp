@@ -57,6 +57,12 @@ class Climb {
 
   bool within_budget(double seconds) {
     if (!wish_.budget || spent_ + seconds <= *wish_.budget) return true;
+    if (seconds == 0.0) {
+      answer_.obstacle = fmt::format(
+          "the budget of {:.3g} s was spent, {:.3g} s, before steps and tolerance were fine enough",
+          *wish_.budget, spent_);
+      return false;
+    }
     answer_.obstacle = fmt::format(
         "the budget of {:.3g} s does not allow a finer run, which takes some {:.3g} s "
         "after {:.3g} s spent",
