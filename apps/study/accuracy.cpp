@@ -88,8 +88,9 @@ class Runs {
     std::vector<std::optional<Reply>> replies;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       const Result result = result_of(campaign.status()[i], quantity_);
-      replies.push_back(result.value ? std::optional(Reply{*result.value, result.cost.cpu})
-                                     : std::nullopt);
+      replies.push_back(
+          result.value ? std::optional(Reply{*result.value, result.cost.cpu, result.evaluations})
+                       : std::nullopt);
       if (said_.insert(tasks[i].name).second) say(tasks[i].name, result);
     }
     return replies;
@@ -157,6 +158,7 @@ std::string answer_json(const AccuracyRequest& request, const Quantity& quantity
                         {"settings", settings},
                         {"effective", effective},
                         {"cpu_s", answer.seconds},
+                        {"evaluations", answer.evaluations},
                         {"obstacle", answer.obstacle}};
   for (const Part& part : answer.parts) {
     all["parts"].push_back({{"source", part.source}, {"error", part.error}, {"words", part.words}});

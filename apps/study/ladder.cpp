@@ -11,6 +11,18 @@ namespace {
 
 constexpr double share = 0.25;           // of the wish that steps, and the tolerance, may take each
 constexpr std::size_t first_levels = 3;  // spacings without which nothing is known of an order
+constexpr std::size_t more_levels = 4;   // and without which one that is not seen is not believed
+constexpr double cautious = 3.0;         // times the range of values that do not settle
+
+/// Whether the finest values say where they go.
+bool settles(convergence::Course course) {
+  return course == convergence::Course::still || course == convergence::Course::monotone;
+}
+
+double range_of(const std::vector<double>& values) {
+  const auto [least, largest] = std::ranges::minmax(values);
+  return largest - least;
+}
 
 class Climb {
  public:
@@ -40,10 +52,17 @@ class Climb {
     if (std::ranges::find(seen_, fineness) != seen_.end()) return;
     seen_.push_back(fineness);
     spent_ += reply.seconds;
+    answer_.evaluations += reply.evaluations;
   }
 
   bool within_budget(double seconds) {
     if (!wish_.budget || spent_ + seconds <= *wish_.budget) return true;
+    if (seconds == 0.0) {
+      answer_.obstacle = fmt::format(
+          "the budget of {:.3g} s was spent, {:.3g} s, before steps and tolerance were fine enough",
+          *wish_.budget, spent_);
+      return false;
+    }
     answer_.obstacle = fmt::format(
         "the budget of {:.3g} s does not allow a finer run, which takes some {:.3g} s "
         "after {:.3g} s spent",
@@ -52,9 +71,11 @@ class Climb {
   }
 
   /// Doubles the steps until what they leave is small: the error of implicit steps is of first
-  /// order.
+  /// order. Where the last three values do not settle, three of a course that goes astray may lie
+  /// near each other: then all that the steps have changed so far counts.
   bool settle_steps() {
     constexpr double most = 64.0;
+    std::vector<double> all;
     while (true) {
       Fineness twice = fineness_, four = fineness_;
       twice.steps *= 2.0;
@@ -63,9 +84,11 @@ class Climb {
       if (!now || !finer || !finest) return false;
       const convergence::Extrapolation found =
           convergence::extrapolate({{4.0, *now}, {2.0, *finer}, {1.0, *finest}}, 1.0);
+      all.insert(all.end(), {*now, *finer, *finest});
       // It speaks of the finest of the three; this run's is farther by what lies between.
-      const Part part{"steps", found.uncertainty + std::abs(*now - *finest),
-                      fmt::format("{}, twice and four times as many", name_of(found.course))};
+      Part part{"steps", found.uncertainty + std::abs(*now - *finest),
+                fmt::format("{}, twice and four times as many", name_of(found.course))};
+      if (!settles(found.course)) part.error = std::max(part.error, cautious * range_of(all));
       steps_ = {part, *now};
       if (part.error <= share * wish_.accuracy * std::abs(*now) || fineness_.steps >= most) {
         return true;
@@ -153,14 +176,16 @@ class Climb {
       last_seconds = reply->seconds;
       samples.push_back({wish_.spacings[level], reply->value});
       if (level + 1 < first_levels) continue;
-      judge(fineness, samples);
+      const bool settled = settles(judge(fineness, samples));
+      answer_.reached = answer_.reached && (settled || samples.size() >= more_levels);
       if (answer_.reached) return;
     }
     answer_.obstacle = fmt::format("the finest spacing on offer is {}", wish_.spacings.back());
   }
 
-  /// What the runs so far say of the last of them.
-  void judge(const Fineness& fineness, const std::vector<convergence::Sample>& samples) {
+  /// What the runs so far say of the last of them, and how they go.
+  convergence::Course judge(const Fineness& fineness,
+                            const std::vector<convergence::Sample>& samples) {
     constexpr std::size_t most = 4;  // coarser ones belong to another regime
     const auto from = samples.end() - static_cast<std::ptrdiff_t>(std::min(most, samples.size()));
     const convergence::Extrapolation found =
@@ -175,6 +200,7 @@ class Climb {
     for (const Part& part : answer_.parts) answer_.bar += part.error;
     if (control_) answer_.control = scaled(*control_);
     answer_.reached = answer_.bar <= wish_.accuracy * std::abs(answer_.value);
+    return found.course;
   }
 
   /// A part known at the coarse level, of the answer's size.

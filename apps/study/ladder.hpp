@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -23,6 +24,7 @@ struct Fineness {
 struct Reply {
   double value = 0.0;
   double seconds = 0.0;  // of processor time
+  std::int64_t evaluations = 0;
 };
 
 /// Makes runs, all of a list at a time; each is made once, however often it is asked for.
@@ -52,7 +54,8 @@ struct Answer {
   std::vector<Part> parts;      // that add up to it
   std::optional<Part> control;  // of what the spacing leaves: what the control's stiffness decides
   double seconds = 0.0;         // spent
-  std::string obstacle;         // why it was not reached
+  std::int64_t evaluations = 0;
+  std::string obstacle;  // why it was not reached
 };
 
 /// Climbs the ladder: first the steps and the tolerance are made fine enough, and the box wide

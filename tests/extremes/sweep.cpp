@@ -23,6 +23,7 @@ Outcome outcome_of(const Axis& axis, std::size_t k) {
   const scene::SceneReading reading = scene::parse_scene(axis.samples[k].scene, "scene");
   if (!reading.scene) return {{}, reading.errors.front().text()};
   try {
+    if (axis.course) return {axis.course(verification::TestScene(*reading.scene), k), ""};
     PlaneRun run{verification::TestScene(*reading.scene)};
     while (!run.stepper.finished()) {
       const stepping::StepResult result = run.stepper.advance();

@@ -26,6 +26,9 @@ struct Axis {
   std::vector<Sample> samples = {};
   /// The error of a finished run of a sample.
   std::function<double(PlaneRun& run, std::size_t sample)> error = {};
+  /// Makes the run itself and returns its error, where it is not one step after the other to the
+  /// end of the scene. What it throws is the reason why there is none.
+  std::function<double(const verification::TestScene& scene, std::size_t sample)> course = {};
 };
 
 /// Runs all samples. One that is wrong, or held and not right, fails the test. Adds a row to the

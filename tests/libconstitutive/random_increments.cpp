@@ -1,13 +1,17 @@
-// random_increments N: N random strain increments, up to 100 % strain each, on every model and on
-// parameters drawn anew every thousand. What must hold of any rate-independent law is checked
-// without knowing the law: no update fails, the stress returned is admissible (to be returned once
-// more changes it by round-off only), plastic strain grows, the plastic work is not negative.
-// Prints a line per model; exit code 1 if one fails.
+// random_increments N: N random strain increments, up to 100 % strain each, on every law and on
+// parameters drawn anew every thousand. A law is a model as it is, with a tension cut-off, or with
+// a strength that rises or falls with the plastic strain, or whose cohesion and friction go
+// opposite ways. What must hold of any rate-independent law is checked without knowing the law: no
+// update fails, the stress returned is admissible (to be returned once more changes it by round-off
+// only), plastic strain grows, the plastic work is not negative.
+// Prints a line per law; exit code 1 if one fails.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
+#include <vector>
 
 #include "points.hpp"
 
@@ -15,17 +19,66 @@ namespace {
 
 using namespace constitutive;
 
+/// What a model's strength does beside what its name says.
+enum class Strength { stays, is_cut_off, rises, falls, turns };
+
+const char* words_of(Strength strength) {
+  switch (strength) {
+    case Strength::stays:
+      return "";
+    case Strength::is_cut_off:
+      return "tension cut-off";
+    case Strength::rises:
+      return "hardens";
+    case Strength::falls:
+      return "softens";
+    case Strength::turns:
+      break;
+  }
+  return "c and phi oppositely";
+}
+
+std::vector<Strength> strengths_of(const ModelInfo& model) {
+  if (!model.yields || model.critical_state) return {Strength::stays};
+  std::vector<Strength> all{Strength::stays, Strength::is_cut_off, Strength::rises,
+                            Strength::falls};
+  if (model.frictional) all.push_back(Strength::turns);
+  return all;
+}
+
+constexpr double steepest = 50;  // friction angle [deg]
+
 /// Amplification of round-off by a corner whose two flows are nearly parallel (see test_extremes)
 /// and by the ratio of bulk to shear modulus, which a trial of given strain enters with.
 double condition(const MaterialParameters& p, const ModelInfo& model) {
   const double stiffness = (1 + p.poissons_ratio) / (1 - 2 * p.poissons_ratio);
   if (!model.frictional) return std::max(1.0, stiffness);
-  const double phi = radians(p.friction_angle), psi = radians(p.dilation_angle);
+  const double largest = std::isfinite(p.residual_friction_angle)
+                             ? std::max(p.friction_angle, p.residual_friction_angle)
+                             : p.friction_angle;
+  const double phi = radians(largest), psi = radians(p.dilation_angle);
   return 4 / ((1 - std::sin(phi)) * (1 - std::sin(psi))) * std::max(1.0, stiffness);
 }
 
-MaterialParameters drawn(const ModelInfo& model, std::mt19937_64& engine) {
-  std::uniform_real_distribution<double> share(0, 1);
+using Share = std::uniform_real_distribution<double>;
+
+/// Residual values that are higher or lower than those of the soil.
+void let_change(MaterialParameters& p, const ModelInfo& model, Strength strength,
+                std::mt19937_64& engine) {
+  Share share(0, 1);
+  const bool either = share(engine) < 0.5;
+  const bool cohesion_rises = strength == Strength::turns ? either : strength == Strength::rises;
+  const bool friction_rises = strength == Strength::turns ? !either : strength == Strength::rises;
+  p.residual_strain = std::pow(10, -3 + 3 * share(engine));
+  const double part = share(engine);
+  p.residual_cohesion = (cohesion_rises ? 1 + 2 * part : part) * p.cohesion;
+  if (!model.frictional) return;
+  const double end = friction_rises ? steepest : p.dilation_angle;
+  p.residual_friction_angle = p.friction_angle + share(engine) * (end - p.friction_angle);
+}
+
+MaterialParameters drawn(const ModelInfo& model, Strength strength, std::mt19937_64& engine) {
+  Share share(0, 1);
   MaterialParameters p;
   p.model = model.name;
   p.youngs_modulus = std::pow(10, 5 + 5 * share(engine));
@@ -40,19 +93,15 @@ MaterialParameters drawn(const ModelInfo& model, std::mt19937_64& engine) {
   }
   if (model.yields) p.cohesion = std::pow(10, 1 + 5 * share(engine));
   if (model.frictional) {
-    p.friction_angle = 50 * share(engine);
+    p.friction_angle = steepest * share(engine);
     p.dilation_angle = p.friction_angle * share(engine);
   }
-  // Every other material has a tension cut-off, from none at all to beyond the apex.
-  if (model.yields && share(engine) < 0.5) {
+  if (strength == Strength::stays) return p;
+  if (strength == Strength::is_cut_off) {
+    // From no tension at all to beyond the apex.
     p.tension_cutoff = share(engine) < 0.2 ? 0 : 3 * share(engine) * p.cohesion;
-  }
-  if (model.yields && !std::isfinite(p.tension_cutoff) && share(engine) < 0.5) {
-    p.residual_strain = std::pow(10, -3 + 3 * share(engine));
-    p.residual_cohesion = (0.1 + 2 * share(engine)) * p.cohesion;
-    if (model.frictional) {
-      p.residual_friction_angle = p.dilation_angle + (50 - p.dilation_angle) * share(engine);
-    }
+  } else {
+    let_change(p, model, strength, engine);
   }
   return p;
 }
@@ -90,23 +139,25 @@ void step(const Material& material, double allowed, const StrainVector<Dim>& inc
   const ElasticModuli& m = moduli(material);
   const double work = contract(s.stress, deviator(removed)) / (2 * m.shear) +
                       mean_stress(s.stress) * (s.plastic_volume_strain - s0.plastic_volume_strain);
-  // Both are as exact as the trial's size lets a difference be; without tension the work is 0.
+  // Both are as exact as the trial's size lets a difference be, and as the volume strain that has
+  // accumulated lets its change be; without tension the work is 0.
   const double largest =
-      (trial.norm() + s.stress.norm()) * s.stress.norm() * (1 / m.shear + 1 / m.bulk);
+      s.stress.norm() * ((trial.norm() + s.stress.norm()) * (1 / m.shear + 1 / m.bulk) +
+                         std::abs(s.plastic_volume_strain));
   if (s.plastic_strain < s0.plastic_strain || work < -points::round_off * allowed * largest) {
     ++tally.backward;
   }
 }
 
 template <int Dim>
-Tally walk(const ModelInfo& model, long increments) {
+Tally walk(const ModelInfo& model, Strength strength, long increments) {
   std::mt19937_64 engine(20 + Dim);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> decades(-5, 0);
   constexpr long of_one_material = 1000;
   Tally tally;
   for (long done = 0; done < increments;) {
-    const MaterialParameters p = drawn(model, engine);
+    const MaterialParameters p = drawn(model, strength, engine);
     const Material material = make_material(p);
     PointState<Dim> begin;
     if (model.critical_state) begin.stress = isotropic<Dim>(-0.7 * p.preconsolidation_pressure);
@@ -121,12 +172,12 @@ Tally walk(const ModelInfo& model, long increments) {
   return tally;
 }
 
-bool report(const ModelInfo& model, int dimension, const Tally& tally) {
+bool report(const ModelInfo& model, Strength strength, int dimension, const Tally& tally) {
   std::printf(
-      "%-28s %dD: %ld plastic, %ld at the apex; %ld failed, %ld not admissible (%.2g of "
+      "%-28s %-20s %dD: %ld plastic, %ld at the apex; %ld failed, %ld not admissible (%.2g of "
       "round-off at most), %ld backward\n",
-      std::string(model.name).c_str(), dimension, tally.plastic, tally.apex, tally.failed,
-      tally.inadmissible, tally.worst, tally.backward);
+      std::string(model.name).c_str(), words_of(strength), dimension, tally.plastic, tally.apex,
+      tally.failed, tally.inadmissible, tally.worst, tally.backward);
   return tally.good() && (tally.plastic > 0 || !model.yields);
 }
 
@@ -136,9 +187,11 @@ int main(int count, char** words) {
   const long increments = count > 1 ? std::atol(words[1]) : 10000;
   bool good = true;
   for (const ModelInfo& model : material_models()) {
-    good = report(model, 2, walk<2>(model, increments)) && good;
-    if (!model.only_plane_strain.empty()) continue;
-    good = report(model, 3, walk<3>(model, increments)) && good;
+    for (const Strength strength : strengths_of(model)) {
+      good = report(model, strength, 2, walk<2>(model, strength, increments)) && good;
+      if (!model.only_plane_strain.empty()) continue;
+      good = report(model, strength, 3, walk<3>(model, strength, increments)) && good;
+    }
   }
   return good ? 0 : 1;
 }

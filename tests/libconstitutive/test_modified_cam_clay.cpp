@@ -190,6 +190,29 @@ TEST(ModifiedCamClay, ReturnsAnAdmissibleTrialWithoutVolumeStrainBitForBit) {
   EXPECT_EQ(s1.stress, trial);
 }
 
+// Found by random_increments: a step that takes away all but a millionth of a pressure. The trial
+// has the pressure of its beginning, whose round-off is 1e-10 of the deviator at the end; with that
+// much of a trace in it the end was off the surface, in a state that softens faster than it
+// unloads.
+TEST(ModifiedCamClay, EndsOnItsSurfaceFarBelowThePressureOfItsBeginning) {
+  ModifiedCamClay soft;
+  soft.moduli.shear = 956585998.43538988;
+  soft.moduli.bulk = 1718431200.5956302;
+  soft.slope = 0.75286138461694252;
+  soft.compression = 0.040932046307207801;
+  soft.swelling = 0.019087567771819899;
+  soft.preconsolidation = 6407630.6684317458;
+  PointState<2> s, again;
+  s.stress << -3611589610534607, -3611592870274629, -3611592883895245, 808979475.90428388;
+  s.plastic_volume_strain = -0.51788704402513619;
+  StressVector<2> trial;
+  trial << -3611587748385355.5, -3611591290609703.5, -3611590531034928, 372058655.34452176;
+  ASSERT_TRUE(update(soft, trial, s, s).plastic);
+  ASSERT_LT(-mean_stress(s.stress), -1e-6 * mean_stress(trial));
+  EXPECT_FALSE(update(soft, s.stress, s, again).plastic);
+  EXPECT_EQ(again.stress, s.stress);
+}
+
 TEST(ModifiedCamClay, BearsNoTension) {
   PointState<3> s = at_pressure<3>(100e3);
   const UpdateOutcome outcome = strained<3>(compaction(-0.5), s);

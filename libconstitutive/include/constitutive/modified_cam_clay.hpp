@@ -168,6 +168,13 @@ class CamClayStep {
          round_off_ = 0;
 };
 
+/// The deviator, without the trace that round-off of a mean stress far larger than it would leave:
+/// the clay may end at a pressure that is that much smaller.
+template <int Dim>
+StressVector<Dim> small_deviator(const StressVector<Dim>& stress) {
+  return deviator(StressVector<Dim>(deviator(stress)));
+}
+
 /// What a trial means to the clay.
 struct CamClayTrial {
   double volume_strain;  ///< Of the step, compression positive.
@@ -186,7 +193,8 @@ CamClayTrial cam_clay_trial(const ModifiedCamClay& m, const StressVector<Dim>& t
   const double from = std::log(std::max(-before, m.least_pressure()));
   const double to = from + strain / m.swelling;
   const double turns = std::abs(s0.plastic_volume_strain) / (m.compression - m.swelling);
-  return {strain, std::max(to, least), to < least, std::sqrt(3 * j2(trial)), 4 * (4 + turns)};
+  return {strain, std::max(to, least), to < least, std::sqrt(3 * j2(small_deviator<Dim>(trial))),
+          4 * (4 + turns)};
 }
 
 template <int Dim>
@@ -200,7 +208,7 @@ CamClayStep cam_clay_step(const ModifiedCamClay& m, const CamClayTrial& trial,
 /// The trial's deviator, shrunk, at another mean stress (compression positive).
 template <int Dim>
 StressVector<Dim> at_pressure(const StressVector<Dim>& trial, double ratio, double pressure) {
-  return ratio * deviator(trial) - isotropic<Dim>(pressure);
+  return ratio * small_deviator<Dim>(trial) - isotropic<Dim>(pressure);
 }
 
 }  // namespace detail
@@ -261,7 +269,7 @@ TangentMatrix<Dim> trial_tangent(const ModifiedCamClay& material,
   TangentMatrix<Dim> t = ratio * deviatoric;
   t -= d.pressure_of_log * log_of_mean * one * mean.transpose();
   if (of.q > 0) {
-    const StressVector<Dim> s = deviator(trial);
+    const StressVector<Dim> s = detail::small_deviator<Dim>(trial);
     const StressVector<Dim> q_of_trial = 1.5 / of.q * with_engineering_shear(s);
     t += (d.q_of_q - ratio) / of.q * s * q_of_trial.transpose();
     t += d.q_of_log * log_of_mean / of.q * s * mean.transpose();
