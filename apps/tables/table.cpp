@@ -52,13 +52,15 @@ std::string FieldInfo::allowed_text() const {
     case ValueKind::polygons:
       text = "a list of lists of points [x, y] and arcs";
       break;
-    case ValueKind::linear:
+    case ValueKind::varying:
       text = "a number";
       break;
   }
   if (const std::string range = notes.range.text(); !range.empty()) text += " " + range;
   if (!notes.unit.empty()) text += fmt::format(" [{}]", notes.unit);
-  if (kind == ValueKind::linear) text += ", or { at = [x, y], value = v, gradient = [gx, gy] }";
+  if (kind == ValueKind::varying) {
+    text += ", or { at = [x, y], value = v, gradient = [gx, gy] }, a table, a raster or points";
+  }
   return text;
 }
 
@@ -128,18 +130,13 @@ std::string value_text(const Value& value) {
     std::string operator()(const std::vector<std::vector<double>>& v) const {
       return list_text(v, points_text);
     }
+    std::string operator()(const VaryingNumber& v) const { return varying_text(v); }
   };
   return std::visit(Show{}, value);
 }
 
 std::string value_text(const Value& value, ValueKind kind) {
   const auto* coordinates = std::get_if<std::vector<double>>(&value);
-  if (kind == ValueKind::linear && coordinates != nullptr) {
-    const auto number = [&](std::size_t i) { return number_text((*coordinates)[i]); };
-    if ((*coordinates)[3] == 0.0 && (*coordinates)[4] == 0.0) return number(0);
-    return fmt::format("{{ at = [{}, {}], value = {}, gradient = [{}, {}] }}", number(1), number(2),
-                       number(0), number(3), number(4));
-  }
   if (kind != ValueKind::points || coordinates == nullptr) return value_text(value);
   return points_text(*coordinates);
 }

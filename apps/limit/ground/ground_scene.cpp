@@ -233,7 +233,7 @@ void find_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnos
 // A linear cohesion is least in a corner of a region. From here on it is told from the middle of
 // the corners, so that its value there is typical of the material.
 void tell_cohesion(GroundScene& scene, std::size_t m, tables::Diagnosis& diagnosis) {
-  const tables::LinearField& told = scene.materials[m].cohesion;
+  const tables::VaryingNumber& told = scene.materials[m].cohesion;
   problem::Soil& soil = scene.materials[m].soil;
   soil.cohesion = told.value;
   soil.centre = {told.at[0], told.at[1]};

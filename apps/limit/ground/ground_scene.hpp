@@ -19,7 +19,7 @@ namespace limit::ground {
 struct GroundMaterial {
   std::string name;
   problem::Soil soil;                           // live_unit_weight unused
-  tables::LinearField cohesion;                 // as it is told
+  tables::VaryingNumber cohesion;                 // as it is told
   double dilation_angle = 0.0;                  // [rad] 0 .. friction angle
   std::optional<double> tension_cutoff;         // [Pa] of the largest principal stress
   std::optional<double> saturated_unit_weight;  // [N/m3] below the water table
