@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <utility>
 
+#include "limit/ground/ground_cut.hpp"
 #include "limit/ground/ground_footing.hpp"
 #include "limit/ground/ground_mesh.hpp"
 #include "limit/ground/ground_outline.hpp"
@@ -48,11 +52,15 @@ problem::Boundary boundary_of(const GroundScene& scene, const GroundSide& side) 
   return boundary;
 }
 
+void make_weight_live(problem::Soil& soil) {
+  soil.live_unit_weight = std::exchange(soil.unit_weight, 0.0);
+  soil.live_weight_gradient = std::exchange(soil.weight_gradient, mesh::Point::Zero());
+}
+
 // All given loads become live, as a strength that just carries them is sought.
 void make_live(problem::Problem& problem) {
   for (problem::Soil& soil : problem.soils) {
-    soil.live_unit_weight = soil.unit_weight;
-    soil.unit_weight = 0.0;
+    make_weight_live(soil);
     soil.live_seepage = soil.seepage;
     soil.seepage.setZero();
   }
@@ -74,12 +82,10 @@ problem::Problem loads_of(const GroundScene& scene, const std::optional<Base>& b
   for (const GroundMaterial& material : scene.materials) {
     problem::Soil soil = material.soil;
     if (reduce) soil = problem::davis_reduced(soil, material.dilation_angle);
-    if (scene.load.sought == Sought::gravity && material.grows) {
-      soil.live_unit_weight = soil.unit_weight;
-      soil.unit_weight = 0.0;
-    }
+    if (scene.load.sought == Sought::gravity && material.grows) make_weight_live(soil);
     if (scene.load.sought == Sought::earthquake && material.grows && scene.load.kh != 0.0) {
       soil.live_unit_weight = soil.unit_weight;
+      soil.live_weight_gradient = soil.weight_gradient;
     }
     problem.soils.push_back(soil);
   }
@@ -248,6 +254,13 @@ std::vector<std::string> assumptions_of(const GroundScene& scene, const problem:
         "where tension is cut off what opens flows by the normality of Rankine; where strength is "
         "divided, so is that tension");
   }
+  if (std::ranges::any_of(problem.soils,
+                          [](const problem::Soil& soil) { return soil.variation != nullptr; })) {
+    assumptions.emplace_back(
+        "a strength that changes in another way than linearly in cohesion alone is bounded in each "
+        "triangle, from below for the lower bound and from above for the upper one: both hold for "
+        "the strength as it is told");
+  }
   if (scene.load.sought == Sought::strength) {
     assumptions.emplace_back(
         "cohesion and tan(friction angle) of all materials are divided by the factor");
@@ -262,24 +275,37 @@ bool is_unit_traction(const GroundScene& scene) {
   });
 }
 
+std::string words_of(const tables::VaryingNumber& number, const std::string& unit,
+                     const std::string& length) {
+  if (!number.samples) {
+    std::string words = fmt::format("{:g} {}", number.value, unit);
+    if (!number.varies()) return words;
+    return words + fmt::format(" at ({:g}, {:g}), growing by ({:g}, {:g}) {}/{}", number.at[0],
+                               number.at[1], number.gradient[0], number.gradient[1], unit, length);
+  }
+  constexpr std::array<const char*, 3> kinds{"a table", "a raster", "points"};
+  const auto [least, most] = std::ranges::minmax(number.samples->values);
+  return fmt::format("{:g} .. {:g} {} by {} of {} values", least, most, unit,
+                     kinds[static_cast<std::size_t>(number.samples->kind)],
+                     number.samples->values.size());
+}
+
 void describe(const GroundScene& scene, problem::Case& result) {
+  std::set<std::string> said;
   for (const GroundMaterial& material : scene.materials) {
-    if (!material.soil.seepage.isZero(0.0)) continue;  // of another one, under water
-    std::string cohesion = fmt::format("c = {:g} {}", material.cohesion.value, scene.units.stress);
-    if (material.soil.varies()) {
-      cohesion +=
-          fmt::format(" at ({:g}, {:g}), growing by ({:g}, {:g}) {}/{}", material.cohesion.at[0],
-                      material.cohesion.at[1], material.cohesion.gradient[0],
-                      material.cohesion.gradient[1], scene.units.stress, scene.units.length);
-    }
+    // Of another one, under water or between lines of its table.
+    if (!said.insert(material.name).second) continue;
+    const std::string& stress = scene.units.stress;
+    const std::string weight = scene.units.unit_weight();
+    std::string cohesion = "c = " + words_of(material.cohesion, stress, scene.units.length);
     if (material.soil.cuts_tension()) {
       cohesion +=
           fmt::format(", tension cut off at {:g} {}", material.soil.tension, scene.units.stress);
     }
     result.data.emplace_back(
-        material.name,
-        fmt::format("{}, phi = {:g} deg, {:g} {}", cohesion, material.soil.friction_angle / degree,
-                    material.soil.unit_weight, scene.units.unit_weight()));
+        material.name, fmt::format("{}, phi = {}, {}", cohesion,
+                                   words_of(material.friction_angle, "deg", scene.units.length),
+                                   words_of(material.unit_weight, weight, scene.units.length)));
   }
   if (scene.water.is_there()) {
     result.data.emplace_back(
@@ -368,6 +394,31 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
   return result;
 }
 
+bool weighs_by_table(const GroundMaterial& material) {
+  return material.unit_weight.samples ||
+         (material.saturated_unit_weight && material.saturated_unit_weight->samples);
+}
+
+// What Davis reduces is one friction angle by one dilation angle.
+bool has_davis_twin(const GroundMaterial& material) {
+  return material.dilation_angle != material.soil.friction_angle &&
+         !material.friction_angle.varies();
+}
+
+void note_dilation(const GroundScene& scene, problem::Case& result) {
+  for (const GroundMaterial& material : scene.materials) {
+    if (!material.friction_angle.varies() ||
+        material.dilation_angle == material.friction_angle.value * degree) {
+      continue;
+    }
+    result.notes.push_back(
+        fmt::format("material \"{}\" dilates by its friction angle here, which changes from place "
+                    "to place: there is no Davis-reduced bracket of such a soil",
+                    material.name));
+    return;
+  }
+}
+
 }  // namespace
 
 std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagnosis& diagnosis) {
@@ -380,7 +431,9 @@ std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagn
   GroundOutline outline = ground_outline(told, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   GroundScene scene = told;
-  if (scene.water.is_there()) {
+  const bool has_tables = std::ranges::any_of(scene.materials, weighs_by_table);
+  if (has_tables) cut_along_tables(scene);
+  if (scene.water.is_there() || has_tables) {
     wet(scene, diagnosis);
     if (diagnosis.errors().empty()) outline = ground_outline(scene, diagnosis);
     if (!diagnosis.errors().empty()) return std::nullopt;
@@ -389,11 +442,8 @@ std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagn
   if (!diagnosis.errors().empty()) return std::nullopt;
   problem::Cases result{case_of(scene, outline, base, false, diagnosis), std::nullopt};
   if (!diagnosis.errors().empty()) return std::nullopt;
-  const bool is_associated = std::all_of(
-      scene.materials.begin(), scene.materials.end(), [](const GroundMaterial& material) {
-        return material.dilation_angle == material.soil.friction_angle;
-      });
-  if (is_associated) return result;
+  note_dilation(scene, result.associated);
+  if (std::ranges::none_of(scene.materials, has_davis_twin)) return result;
   result.davis = case_of(scene, outline, base, true, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   // Both in the same units, for one report.

@@ -18,12 +18,14 @@ namespace limit::ground {
 /// A soil by its name.
 struct GroundMaterial {
   std::string name;
-  problem::Soil soil;                           // live_unit_weight unused
-  tables::VaryingNumber cohesion;                 // as it is told
-  double dilation_angle = 0.0;                  // [rad] 0 .. friction angle
-  std::optional<double> tension_cutoff;         // [Pa] of the largest principal stress
-  std::optional<double> saturated_unit_weight;  // [N/m3] below the water table
-  bool grows = true;                            // its weight is multiplied where gravity is sought
+  tables::VaryingNumber cohesion;        // [Pa]
+  tables::VaryingNumber friction_angle;  // [deg]
+  tables::VaryingNumber unit_weight;     // [N/m3]
+  problem::Soil soil;                    // made of these (ground_soils.hpp)
+  double dilation_angle = 0.0;           // [rad] 0 .. friction angle
+  std::optional<double> tension_cutoff;  // [Pa] of the largest principal stress
+  std::optional<tables::VaryingNumber> saturated_unit_weight;  // [N/m3] below the water table
+  bool grows = true;  // its weight is multiplied where gravity is sought
 };
 
 /// A polygon of one soil.
@@ -107,10 +109,6 @@ struct GroundScene {
   std::vector<GroundSide> sides;
   GroundLoad load;
 };
-
-/// Gives the soils of a scene the cohesion and the tension cut-off of their materials. A linear
-/// cohesion that is not more than zero wherever its material is is an error.
-void tell_cohesions(GroundScene& scene, tables::Diagnosis& diagnosis);
 
 /// Reads such a scene from TOML text, settings (`--set`) applied. Only what can be judged key by
 /// key is judged here. Nothing, if the diagnosis or `unreadable` has an error.
