@@ -118,9 +118,9 @@ class BalanceEquations {
       perimeter += (node_at(mesh, nodes.nodes[i]) - node_at(mesh, nodes.nodes[(i + 1) % 3])).norm();
     }
     const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(nodes.region)];
-    const mesh::Point force = force(soil, soil.centre) * mesh::twice_area(mesh, nodes) / 2.0;
+    const mesh::Point weight = force(soil, soil.centre) * mesh::twice_area(mesh, nodes) / 2.0;
     for (const mesh::Point& direction : {mesh::Point(1, 0), mesh::Point(0, 1)}) {
-      equations_.begin(-direction.dot(force) / perimeter);
+      equations_.begin(-direction.dot(weight) / perimeter);
       for (std::size_t i = 0; i < 3; ++i) {
         const int a = nodes.nodes[i], b = nodes.nodes[(i + 1) % 3];
         const mesh::Point along = node_at(mesh, b) - node_at(mesh, a);
