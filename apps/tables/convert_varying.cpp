@@ -27,9 +27,7 @@ const std::vector<Form>& forms() {
        {"raster", "lower", "step", "factor"},
        "{ raster = a file } or { raster = [[values from left to right], ... from top to bottom], "
        "lower = [x, y] of the lowest, leftmost value, step = [dx, dy] }"},
-      {"points",
-       {"points", "factor"},
-       "{ points = [[x, y, value], ...] or a file }"}};
+      {"points", {"points", "factor"}, "{ points = [[x, y, value], ...] or a file }"}};
   return all;
 }
 
@@ -205,8 +203,8 @@ class Reader {
       const toml::array* values = list[row - 1].as_array();
       if (values == nullptr || values->empty()) return refuse(list[row - 1]);
       if (raster.columns > 0 && values->size() != raster.columns) {
-        return refuse(fmt::format("found {} values in row {}, and {} in others", values->size(), row,
-                                  raster.columns),
+        return refuse(fmt::format("found {} values in row {}, and {} in others", values->size(),
+                                  row, raster.columns),
                       "as many in every row");
       }
       raster.columns = values->size();

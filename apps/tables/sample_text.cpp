@@ -88,10 +88,10 @@ class GridReader {
     }
     set_place(raster);
     if (lines_.size() - at_ != rows) {
-      throw SampleError(lines_.back().number,
-                        fmt::format("found {} rows of values, and nrows is {}",
-                                    lines_.size() - at_, rows),
-                        "needed is one line of values for each row");
+      throw SampleError(
+          lines_.back().number,
+          fmt::format("found {} rows of values, and nrows is {}", lines_.size() - at_, rows),
+          "needed is one line of values for each row");
     }
     raster.values.resize(raster.columns * rows);
     for (std::size_t row = rows; row > 0; --row) read_row(raster, row - 1);
@@ -100,7 +100,8 @@ class GridReader {
 
  private:
   static constexpr const char* head_keys =
-      "an ESRI ASCII grid begins with ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter, "
+      "an ESRI ASCII grid begins with ncols, nrows, xllcorner or xllcenter, yllcorner or "
+      "yllcenter, "
       "cellsize (or dx and dy)";
 
   void read_head() {
@@ -158,10 +159,10 @@ class GridReader {
   void read_row(Samples& raster, std::size_t row) {
     const Line& line = lines_[at_++];
     if (line.words.size() != raster.columns) {
-      throw SampleError(line.number,
-                        fmt::format("found {} values, and ncols is {}", line.words.size(),
-                                    raster.columns),
-                        "needed is a value for each cell of the row");
+      throw SampleError(
+          line.number,
+          fmt::format("found {} values, and ncols is {}", line.words.size(), raster.columns),
+          "needed is a value for each cell of the row");
     }
     for (std::size_t column = 0; column < raster.columns; ++column) {
       const auto value = number_of(line.words[column]);
@@ -190,8 +191,9 @@ std::vector<std::array<double, Count>> read_columns(std::string_view text, const
   const auto lines = lines_of(text, true);
   std::vector<std::array<double, Count>> all;
   for (const Line& line : lines) {
-    const bool names = &line == &lines.front() &&
-                       std::ranges::none_of(line.words, [](const auto& w) { return number_of(w).has_value(); });
+    const bool names =
+        &line == &lines.front() &&
+        std::ranges::none_of(line.words, [](const auto& w) { return number_of(w).has_value(); });
     if (names && line.words.size() == Count) continue;
     if (line.words.size() != Count) {
       throw SampleError(line.number, fmt::format("found {} columns", line.words.size()),
@@ -202,10 +204,9 @@ std::vector<std::array<double, Count>> read_columns(std::string_view text, const
       const auto number = number_of(line.words[i]);
       const double factor = i + 1 == Count ? file.factor : 1.0;
       if (!number || (i + 1 == Count && !range.holds(*number * factor))) {
-        throw SampleError(line.number,
-                          fmt::format("found {} in column {}", quoted(line.words[i]), i + 1),
-                          i + 1 == Count ? "allowed is " + allowed_values(range)
-                                         : "allowed is a number");
+        throw SampleError(
+            line.number, fmt::format("found {} in column {}", quoted(line.words[i]), i + 1),
+            i + 1 == Count ? "allowed is " + allowed_values(range) : "allowed is a number");
       }
       numbers[i] = *number * factor;
     }

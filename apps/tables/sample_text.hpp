@@ -33,8 +33,8 @@ class SampleError : public std::runtime_error {
 [[nodiscard]] Samples read_samples(std::string_view text, const SampleFile& file,
                                    const Range& range);
 
-/// What is wrong with samples, beside their shape: a table whose coordinates do not rise, two points
-/// in one place, a value that is not allowed; "" if nothing is.
+/// What is wrong with samples, beside their shape: a table whose coordinates do not rise, two
+/// points in one place, a value that is not allowed; "" if nothing is.
 [[nodiscard]] std::string objection(const Samples& samples, const Range& range);
 
 }  // namespace tables

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "tables/toml_text.hpp"
 #include "tables/varying_number.hpp"
 
 namespace tables {
@@ -123,8 +124,6 @@ template <class Table>
   return found == tables.end() ? nullptr : &*found;
 }
 
-/// A number in its shortest form that reads back to the same double; always a TOML float.
-[[nodiscard]] std::string number_text(double value);
 /// A value as TOML text.
 [[nodiscard]] std::string value_text(const Value& value);
 /// The same of a value of a kind: coordinates of points are put in pairs.

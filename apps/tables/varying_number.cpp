@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "tables/table.hpp"
+#include "tables/toml_text.hpp"
 
 namespace tables {
 namespace {
@@ -111,8 +111,8 @@ std::string file_text(const SampleFile& file) {
                       : fmt::format("along = \"{}\", ", file.axis == 0 ? "x" : "y");
   }
   constexpr std::array<const char*, 3> names{"table", "raster", "points"};
-  text += fmt::format("{} = {}", names[static_cast<std::size_t>(file.kind)],
-                      value_text(Value(file.name)));
+  text +=
+      fmt::format("{} = {}", names[static_cast<std::size_t>(file.kind)], quoted_text(file.name));
   if (file.factor != 1.0) text += ", factor = " + number_text(file.factor);
   return "{ " + text + " }";
 }

@@ -18,12 +18,12 @@ struct Samples {
   /// points: that of the nearest one.
   enum class Kind { table, raster, points };
   Kind kind = Kind::table;
-  std::size_t axis = 1;                 // table: which coordinate, 0 or 1
-  std::vector<double> coordinates;      // table: rising, one a value; points: x0 y0 x1 y1 ..., x rising
-  std::array<double, 2> lower{};        // raster: middle of its lowest, leftmost cell
-  std::array<double, 2> step{1.0, 1.0}; // raster: from middle to middle, > 0
-  std::size_t columns = 0;              // raster
-  std::vector<double> values;           // raster: row by row from below, from left to right
+  std::size_t axis = 1;             // table: which coordinate, 0 or 1
+  std::vector<double> coordinates;  // table: rising, one a value; points: x0 y0 x1 y1 ..., x rising
+  std::array<double, 2> lower{};    // raster: middle of its lowest, leftmost cell
+  std::array<double, 2> step{1.0, 1.0};  // raster: from middle to middle, > 0
+  std::size_t columns = 0;               // raster
+  std::vector<double> values;            // raster: row by row from below, from left to right
 
   [[nodiscard]] std::size_t rows() const { return columns > 0 ? values.size() / columns : 0; }
   /// The coordinates of value i, of which a table has one.
@@ -44,10 +44,10 @@ struct SampleFile {
   bool operator==(const SampleFile&) const = default;
 };
 
-/// A number that changes from place to place: linearly, `value` at `at` and `gradient` times the way
-/// from there elsewhere, or as samples tell. In TOML a number,
-/// { at = [x, y], value = v, gradient = [gx, gy] }, { along = "y", table = [[y, v], ...] },
-/// { below = y, table = [[depth, v], ...] }, { raster = FILE } or { points = FILE }.
+/// A number that changes from place to place: linearly, `value` at `at` and `gradient` times the
+/// way from there elsewhere, or as samples tell. In TOML a number, { at = [x, y], value = v,
+/// gradient = [gx, gy] }, { along = "y", table = [[y, v], ...] }, { below = y, table = [[depth, v],
+/// ...] }, { raster = FILE } or { points = FILE }.
 struct VaryingNumber {
   double value = 0.0;  // of samples, their mean
   std::array<double, 2> at{};

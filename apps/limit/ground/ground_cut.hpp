@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "limit/ground/ground_scene.hpp"
+#include "limit/ground/ground_types.hpp"
 
 namespace limit::ground {
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "limit/ground/ground_scene.hpp"
+#include "limit/ground/ground_types.hpp"
+#include "tables/diagnosis.hpp"
 
 namespace limit::ground {
 
