@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
     Scene, WrongNumbers,
     ::testing::Values(
         Wrong{"cohesion", "{ along = \"y\", table = [[-1, 1e3], [-0.5, 2e3]] }",
-              "material.0.cohesion: found values from y = -1 to -0.5, and the material reaches (0, "
+              "material.0.cohesion: found values from y = -1 to -0.5, and the material reaches (2, "
               "0); allowed are values for all of where the material is"},
         Wrong{"cohesion", "{ along = \"z\", table = [[-1, 1e3], [0, 2e3]] }",
               "material.0.cohesion: found along = the text \"z\"; allowed is { along = \"x\" or "},

@@ -77,15 +77,22 @@ TEST(Points, HaveTheValueOfTheNearest) {
   }
 }
 
+SampleFile file_of(Samples::Kind kind) {
+  SampleFile file;
+  file.name = "f";
+  file.kind = kind;
+  return file;
+}
+
 TEST(AGrid, OfEsriIsReadFromTheTopAndFromItsCorner) {
   const Samples raster = read_samples(
       "NCOLS 3\nnrows 2\nxllcorner 10\nyllcorner -1\ncellsize 2\nNODATA_value -9999\n"
       "1 2 3\n4 5 6\n",
-      {"f.asc", Samples::Kind::raster}, {});
+      file_of(Samples::Kind::raster), {});
   EXPECT_THAT(raster.lower, ElementsAre(11.0, 0.0));
   EXPECT_THAT(raster.step, ElementsAre(2.0, 2.0));
   EXPECT_THAT(raster.values, ElementsAre(4, 5, 6, 1, 2, 3));
-  SampleFile file{"f.asc", Samples::Kind::raster};
+  SampleFile file = file_of(Samples::Kind::raster);
   file.factor = 1e3;
   const Samples other = read_samples(
       "ncols 1\nnrows 2\nxllcenter 10\nyllcenter -1\ndx 2\ndy 0.5\n1.5\n+2e1\n", file, {});
@@ -107,7 +114,7 @@ class BadFiles : public ::testing::TestWithParam<BadFile> {};
 TEST_P(BadFiles, AreToldByTheirLine) {
   const BadFile& bad = GetParam();
   try {
-    (void)read_samples(bad.text, {"f", bad.kind}, at_least(0.0));
+    (void)read_samples(bad.text, file_of(bad.kind), at_least(0.0));
     ADD_FAILURE() << "it was read";
   } catch (const SampleError& error) {
     EXPECT_EQ(error.line(), bad.line);

@@ -246,7 +246,7 @@ std::optional<problem::Cases> scene_case(const scene::Scene& scene, bool tension
   problem::Cases result{case_of(scene, footing), std::nullopt};
   if (scene::is_associated(scene)) return result;
   for (std::size_t m = 0; m < footing.soils.size(); ++m) {
-    const double dilation = scene.material[m].dilation_angle.value_or(0.0) * degree;
+    const double dilation = scene.material[m].dilation_angle.value_or(0.0).value * degree;
     footing.soils[m] = problem::davis_reduced(footing.soils[m], dilation);
   }
   result.davis = case_of(scene, footing);

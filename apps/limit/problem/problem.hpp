@@ -31,7 +31,7 @@ struct Soil {
   mesh::Point weight_gradient{0.0, 0.0}, live_weight_gradient{0.0, 0.0};
   /// A strength that changes in another way (local_soil.hpp), over a divisor; cohesion and friction
   /// angle above are then typical of it.
-  std::shared_ptr<const Variation> variation;
+  std::shared_ptr<const Variation> variation = nullptr;
   double variation_length = 1.0, variation_stress = 1.0;  // [m], [Pa] in the problem's units
   double divisor = 1.0;                                   // of that cohesion and tan(phi)
 
