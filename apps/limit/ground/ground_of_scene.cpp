@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "constitutive/parameters.hpp"
+#include "limit/ground/ground_soils.hpp"
 #include "scene/complete.hpp"
 #include "scene/derived.hpp"
 #include "scene/ground.hpp"

@@ -178,74 +178,49 @@ void expect_bracketed(const bracket::Solution& found, double exact, double gap) 
   EXPECT_LE(found.gap(), gap);
 }
 
-// Each fibre of a block on a smooth floor bears its own weight, gamma(x), and the pressure on it by
-// twice its cohesion; where that is just what it wants everywhere, (p + gamma(x) (h - y)) / 2, all
-// fibres yield at once, and the block spreads evenly. The cohesion is bilinear, as a raster is.
-constexpr const char* standing_block = R"([load]
-sought = "gravity"
-[[material]]
-name = "clay"
-cohesion = { raster = [[5, 5], [15, 21]], lower = [0, 0], step = [1, 2] }
-unit_weight = { at = [0, 0], value = 10, gradient = [6, 0] }
-[[region]]
-material = "clay"
-outline = [[0, 0], [1, 0], [1, 2], [0, 2]]
-[[side]]
-name = "top"
-kind = "loaded"
-pressure = 10
-along = [[0, 2], [1, 2]]
-[[side]]
-name = "sides"
-kind = "free"
-along = [[0, 0], [0, 2]]
-[[side]]
-name = "other side"
-kind = "free"
-along = [[1, 0], [1, 2]]
-[[side]]
-name = "floor"
-kind = "roller"
-along = [[0, 0], [1, 0]]
-)";
-
-TEST(AStandingBlock, OfWeightThatChangesAcrossFailsAsItsFibresDo) {
-  const auto cases = case_of(standing_block);
+// Of a block between smooth platens that has weight, the fibre at x bears at the height y the
+// pressure q of the platen and gamma(x) (h - y), by twice its cohesion. Where that is just what it
+// has everywhere, (q + gamma(x) (h - y)) / 2, all fibres yield at once, and the block spreads
+// evenly: q is exact. The cohesion is bilinear, as a raster is.
+TEST(ABlockBetweenPlatens, OfWeightThatChangesAcrossBearsWhatItsFibresDo) {
+  const auto cases = shipped(
+      "smooth_platens",
+      {"material.0.friction_angle=0",
+       "material.0.unit_weight={ at = [0, 0], value = 1e5, gradient = [2e6, 0] }",
+       "material.0.cohesion={ raster = [[15e3, 15e3], [20e3, 25e3]], lower = [0, 0], step = [0.05, "
+       "0.1] }"});
   ASSERT_TRUE(cases);
-  expect_bracketed(solved(*cases, 0.01), 1.0, 0.01);
+  expect_bracketed(solved(*cases, 0.01), 30e3, 0.01);
 }
 
-// The same by depth: the weight is 4 + 3 (2 - y) and the cohesion (p + 4 d + 3 d^2 / 2) / 2 at the
-// depth d, of which a table has chords, which are more: the exact multiplier is that of the mean.
-TEST(AStandingBlock, OfWeightThatGrowsWithDepthFailsAsItsFibresDo) {
+// The same by depth d: the weight is 100 + 2000 d kN/m3 and the cohesion 15 + 50 d + 500 d^2 kPa,
+// of which a table has chords, which are more: the even spreading is then an upper bound by their
+// mean, twice that less what the weight does, 25 / 3 kPa.
+TEST(ABlockBetweenPlatens, OfWeightThatGrowsWithDepthBearsWhatItsFibresDo) {
   std::string lines;
   constexpr int count = 20;
   double mean = 0.0;
   for (int i = 0; i <= count; ++i) {
-    const double d = 2.0 * i / count, c = 0.5 * (10.0 + 4.0 * d + 1.5 * d * d);
+    const double d = 0.1 * i / count, c = 15e3 + 50e3 * d + 500e3 * d * d;
     lines += fmt::format("{}[{}, {}]", i == 0 ? "" : ", ", d, c);
     mean += (i == 0 || i == count ? 0.5 : 1.0) * c / count;
   }
-  // The even spreading: lambda times the weight's fall, 4 x 2 + 3 x 4 / 2 - ... = the mean of
-  // 4 y + 3 (2 - y) y over the height, is the power of twice the cohesion less the pressure's.
-  const double fall = (4.0 * 2.0 + 3.0 * (4.0 - 8.0 / 3.0)) / 2.0;
-  const double exact = (2.0 * mean - 10.0) / fall;
-  EXPECT_NEAR(exact, 1.0, 2e-3);
-  const auto cases = case_of(
-      standing_block, {"material.0.cohesion={ below = 2.0, table = [" + lines + "] }",
-                       "material.0.unit_weight={ at = [0, 2], value = 4, gradient = [0, -3] }"});
+  const auto cases =
+      shipped("smooth_platens",
+              {"material.0.friction_angle=0",
+               "material.0.unit_weight={ at = [0, 0.1], value = 1e5, gradient = [0, -2e6] }",
+               "material.0.cohesion={ below = 0.1, table = [" + lines + "] }"});
   ASSERT_TRUE(cases);
   const auto found = solved(*cases, 0.01);
   ASSERT_TRUE(found.lower && found.upper);
-  // No mechanism is better than 1, which the true cohesion has exactly.
-  EXPECT_GE(*found.upper, 1.0 - 1e-9);
-  EXPECT_LE(*found.lower, exact);
+  EXPECT_GE(*found.upper, 30e3 * (1.0 - 1e-9));
+  EXPECT_LE(*found.lower, 2.0 * mean - 25e3 / 3.0);
   EXPECT_LE(found.gap(), 0.01);
 }
 
 // Between smooth platens each fibre bears 2 c tan(45 + phi / 2) by itself, and spreads by itself:
 // the mean over phi from one to other of the tangent is -2 ln(cos(u)) / (other - one) between both
-// u = 45 + phi / 2.
+// u = 45 + phi / 2. Bounds of a friction angle close in proportion to the triangles.
 TEST(ABlockBetweenPlatens, OfFrictionThatChangesAcrossBearsTheMeanOfItsFibres) {
   const double one = 15.0 * degree, other = 25.0 * degree;
   const auto primitive = [](double phi) {
@@ -259,7 +234,7 @@ TEST(ABlockBetweenPlatens, OfFrictionThatChangesAcrossBearsTheMeanOfItsFibres) {
         shipped("smooth_platens", {std::string("material.0.friction_angle=") + friction});
     ASSERT_TRUE(cases);
     EXPECT_FALSE(cases->davis);
-    expect_bracketed(solved(*cases, 0.03), exact, 0.03);
+    expect_bracketed(solved(*cases, 0.07), exact, 0.07);
   }
 }
 
@@ -295,7 +270,7 @@ TEST(ASlope, WhoseStrengthIsToldBySamplesThatAreAllAlikeHasTheFactorOfOneStrengt
   const auto factor = [](const std::vector<std::string>& settings) {
     const auto cases = shipped("slope_safety", settings);
     EXPECT_TRUE(cases);
-    return solved(*cases, 0.05);
+    return solved(*cases, 0.08);
   };
   const auto one = factor({});
   const auto same = factor(
@@ -304,7 +279,7 @@ TEST(ASlope, WhoseStrengthIsToldBySamplesThatAreAllAlikeHasTheFactorOfOneStrengt
   ASSERT_TRUE(one.lower && one.upper && same.lower && same.upper);
   EXPECT_LE(*same.lower, *one.upper);
   EXPECT_LE(*one.lower, *same.upper);
-  EXPECT_LE(same.gap(), 0.05);
+  EXPECT_LE(same.gap(), 0.08);
 }
 
 std::string complaint(const std::vector<std::string>& settings) {
