@@ -141,6 +141,8 @@ directions = ["x"]
 name = "right"
 side = "right"
 directions = ["x"]
+[programme]
+steps = 2
 [solver]
 tolerance = 1e-8
 )";
@@ -172,8 +174,7 @@ TEST(AColumn, WhoseWeightGrowsWithDepthIsPressedByItsQuadratic) {
 }
 
 TEST(AColumn, WhoseWeightGrowsWithDepthIsAtRestUnderItsGeostaticStress) {
-  const TestScene scene =
-      scene_of(column + "[initial_stress]\nkind = \"geostatic\"\n[programme]\nsteps = 1\n");
+  const TestScene scene = scene_of(column + "[initial_stress]\nkind = \"geostatic\"\n");
   const model::Model<2> model = stepping::model_at_rest<2>(scene);
   model::State<2> state = model::initial_state(model);
   for (Eigen::Index a = 0; a < model.size(); ++a) {

@@ -88,10 +88,11 @@ TEST(BoundsInATriangle, HoldForAllKindsAndAreTight) {
           above = std::max(above, here - linear);
         }
       }
-      EXPECT_LE(within.least, least);
-      EXPECT_GE(within.most, most);
-      EXPECT_LE(within.below, below);
-      EXPECT_GE(within.above, above);
+      constexpr double rounding = 1e-13;  // of the sampling
+      EXPECT_LE(within.least, least + rounding);
+      EXPECT_GE(within.most, most - rounding);
+      EXPECT_LE(within.below, below + rounding);
+      EXPECT_GE(within.above, above - rounding);
       if (is_points) continue;
       // A step of the sampling is 0.05 at most, a slope of the samples some ten.
       constexpr double missed = 0.25;
@@ -136,8 +137,12 @@ TEST(ASoilInATriangle, IsBoundedByTheOneThatStandsForIt) {
       };
       constexpr double rounding = 1e-9;
       // Beyond the apex there is none, whatever the formula says.
-      if (of(lower) > 0.0) EXPECT_LE(of(lower), strength + rounding);
-      if (strength > 0.0) EXPECT_GE(of(upper), strength - rounding);
+      if (of(lower) > 0.0) {
+        EXPECT_LE(of(lower), strength + rounding);
+      }
+      if (strength > 0.0) {
+        EXPECT_GE(of(upper), strength - rounding);
+      }
     }
   }
 }
