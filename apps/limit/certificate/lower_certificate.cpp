@@ -9,6 +9,7 @@
 
 #include "limit/algebra/equation_builder.hpp"
 #include "limit/algebra/least_change.hpp"
+#include "limit/certificate/stress_layout.hpp"
 #include "limit/problem/local_soil.hpp"
 
 namespace limit::certificate {
@@ -18,47 +19,6 @@ namespace {
 const mesh::Point& node_at(const mesh::Mesh& mesh, int node) {
   return mesh.nodes[static_cast<std::size_t>(node)];
 }
-
-Eigen::Index corner_index(const mesh::Mesh& mesh, int triangle, int node) {
-  const auto& nodes = mesh.triangles[static_cast<std::size_t>(triangle)].nodes;
-  return 9 * triangle + 3 * (std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
-}
-
-// Where the (xx, yy, xy) of Bezier points stand among all: the corners of all triangles, and then
-// the middles of those whose weight is linear and whose stress is quadratic.
-class Layout {
- public:
-  explicit Layout(const problem::Problem& problem) : mesh_(problem.mesh) {
-    size_ = static_cast<Eigen::Index>(9 * mesh_.triangles.size());
-    for (const mesh::Triangle& triangle : mesh_.triangles) {
-      const bool is_quadratic =
-          problem.soils[static_cast<std::size_t>(triangle.region)].has_uneven_weight();
-      middles_.push_back(is_quadratic ? size_ : -1);
-      if (is_quadratic) size_ += 9;
-    }
-  }
-  [[nodiscard]] Eigen::Index size() const { return size_; }
-  /// Of the middle of the side that follows the first corner; -1: the stress is linear.
-  [[nodiscard]] Eigen::Index middles(std::size_t triangle) const { return middles_[triangle]; }
-  [[nodiscard]] bool is_quadratic(int triangle) const {
-    return triangle >= 0 && middles_[static_cast<std::size_t>(triangle)] >= 0;
-  }
-  /// Of the middle of a side, in shares.
-  [[nodiscard]] std::vector<std::pair<Eigen::Index, double>> middle(int triangle, int first,
-                                                                    int second) const {
-    const Eigen::Index a = corner_index(mesh_, triangle, first),
-                       b = corner_index(mesh_, triangle, second);
-    if (!is_quadratic(triangle)) return {{a, 0.5}, {b, 0.5}};
-    const Eigen::Index i = (a - 9 * triangle) / 3, j = (b - 9 * triangle) / 3;
-    const Eigen::Index side = (i + 1) % 3 == j ? i : j;
-    return {{middles_[static_cast<std::size_t>(triangle)] + 3 * side, 1.0}};
-  }
-
- private:
-  const mesh::Mesh& mesh_;
-  std::vector<Eigen::Index> middles_;
-  Eigen::Index size_ = 0;
-};
 
 /// All the equations of equilibrium in the corners' (xx, yy, xy); the multiplier is given.
 class BalanceEquations {
@@ -226,7 +186,7 @@ class BalanceEquations {
   }
 
   const problem::Problem& problem_;
-  Layout layout_;
+  StressLayout layout_;
   double multiplier_;
   algebra::EquationBuilder equations_;
 };
@@ -257,7 +217,7 @@ void add_ceilings(Eigen::Index point, const problem::Soil& soil, const mesh::Poi
 std::vector<Ceiling> ceilings_of(const problem::Problem& problem) {
   std::vector<Ceiling> ceilings;
   const mesh::Mesh& mesh = problem.mesh;
-  const Layout layout(problem);
+  const StressLayout layout(problem);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     // No stronger than the triangle is anywhere.
     const problem::Soil soil = problem::soil_in(problem, mesh.triangles[t], problem::Bound::lower);
@@ -304,7 +264,7 @@ double excess(const Ceiling& ceiling, const Eigen::VectorXd& field) {
 }
 
 Eigen::VectorXd as_vector(const problem::Problem& problem, const problem::StressField& field) {
-  const Layout layout(problem);
+  const StressLayout layout(problem);
   Eigen::VectorXd x(layout.size());
   for (std::size_t t = 0; t < field.size(); ++t) {
     x.segment<9>(static_cast<Eigen::Index>(9 * t)) = field[t].leftCols<3>().reshaped();
@@ -322,7 +282,7 @@ Eigen::VectorXd as_vector(const problem::Problem& problem, const problem::Stress
 }
 
 problem::StressField as_field(const problem::Problem& problem, const Eigen::VectorXd& x) {
-  const Layout layout(problem);
+  const StressLayout layout(problem);
   problem::StressField field(problem.mesh.triangles.size());
   for (std::size_t t = 0; t < field.size(); ++t) {
     field[t].resize(3, layout.middles(t) < 0 ? 3 : 6);
