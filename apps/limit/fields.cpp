@@ -9,13 +9,15 @@
 
 #include "files/durable_file.hpp"
 #include "files/vtkhdf.hpp"
+#include "limit/problem/local_soil.hpp"
 
 namespace limit {
 
 namespace {
 
-const problem::Soil& soil_of(const problem::Case& problem, const mesh::Triangle& triangle) {
-  return problem.lower.soils[static_cast<std::size_t>(triangle.region)];
+problem::Soil soil_of(const problem::Case& problem, const mesh::Triangle& triangle,
+                      const mesh::Point& place) {
+  return problem::soil_at(problem.lower.soils[static_cast<std::size_t>(triangle.region)], place);
 }
 
 mesh::Point corner_of_triangle(const mesh::Mesh& mesh, const mesh::Triangle& triangle,
@@ -62,15 +64,15 @@ void write_fields(const std::filesystem::path& file, const problem::Case& proble
   const mesh::Mesh& mesh = bound.mesh;
   std::vector<double> points, stress, principal, direction, ratio;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const problem::Soil& soil = soil_of(problem, mesh.triangles[t]);
     for (std::size_t i = 0; i < 3; ++i) {
       const mesh::Point at = problem.units.length * corner_of_triangle(mesh, mesh.triangles[t], i);
       const Eigen::Vector3d s =
           problem.units.stress * bound.certificate.field[t].col(static_cast<Eigen::Index>(i));
       const double mean = (s[0] + s[1]) / 2, half = (s[0] - s[1]) / 2;
       const double radius = std::hypot(half, s[2]);
-      const double strength = soil.cohesion_at(at) * std::cos(soil.friction_angle) -
-                              mean * std::sin(soil.friction_angle);
+      const problem::Soil soil = soil_of(problem, mesh.triangles[t], at);
+      const double strength =
+          soil.cohesion * std::cos(soil.friction_angle) - mean * std::sin(soil.friction_angle);
       const double angle = std::atan2(s[2], half) / 2;
       put(points, {at.x(), at.y(), 0.0});
       // Across the plane the stress takes no part in plane-strain yield; the mean stands for it.

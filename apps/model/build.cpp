@@ -1,6 +1,7 @@
 #include "model/build.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -95,8 +96,8 @@ void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
       model.material[static_cast<std::size_t>(a)] =
           static_cast<MaterialIndex>(scene::material_at(scene, {place.data(), Dim}));
     }
-    model.mass[a] = scene.material[model.material[static_cast<std::size_t>(a)]].density *
-                    model.particles.volume[a];
+    const scene::Material& material = scene.material[model.material[static_cast<std::size_t>(a)]];
+    model.mass[a] = material.density.at_place({place.data(), Dim}) * model.particles.volume[a];
   }
 }
 
@@ -130,7 +131,7 @@ void assign_laws(const scene::Scene& scene, Model<Dim>& model) {
     if (!changes(material)) uniform[m] = add(material, scene::parameters_of(material));
   }
   model.law.resize(model.material.size());
-  std::map<std::tuple<MaterialIndex, double, double, double>, LawIndex> known;
+  std::map<std::tuple<MaterialIndex, std::array<double, 5>>, LawIndex> known;
   for (Eigen::Index a = 0; a < model.size(); ++a) {
     const MaterialIndex m = model.material[static_cast<std::size_t>(a)];
     model.law[static_cast<std::size_t>(a)] = uniform[m];
@@ -144,7 +145,9 @@ void assign_laws(const scene::Scene& scene, Model<Dim>& model) {
                                             geostatic_stress<Dim>(scene, place, m));
     }
     const auto [at, is_new] = known.try_emplace(
-        {m, parameters.cohesion, parameters.youngs_modulus, parameters.preconsolidation_pressure},
+        {m,
+         {parameters.cohesion, parameters.friction_angle, parameters.dilation_angle,
+          parameters.youngs_modulus, parameters.preconsolidation_pressure}},
         0);
     if (is_new) at->second = add(scene.material[m], parameters);
     model.law[static_cast<std::size_t>(a)] = at->second;

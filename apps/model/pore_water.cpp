@@ -27,7 +27,9 @@ void add_pore_water(const scene::Scene& scene, Model<Dim>& model) {
     const auto part =
         water.in_cell(lower.template head<2>(), upper.template head<2>(), place.template head<2>());
     const scene::Material& material = scene.material[model.material[static_cast<std::size_t>(a)]];
-    model.mass[a] += part.wet * (scene::saturated_density(material) - material.density) *
+    const std::span<const double> at(place.data(), Dim);
+    model.mass[a] += part.wet *
+                     (scene::saturated_density(material, at) - material.density.at_place(at)) *
                      model.particles.volume[a];
     model.pore_pressure[a] = water.pressure_at({place.data(), Dim});
     for (int i = 0; i < 2; ++i) {

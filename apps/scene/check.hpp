@@ -2,8 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <string>
+
 #include "scene/scene.hpp"
 #include "tables/diagnosis.hpp"
+
+namespace constitutive {
+struct MaterialParameters;
+}  // namespace constitutive
 
 namespace scene {
 
@@ -44,6 +50,19 @@ bool check_region(const Point& region_min, const Point& region_max, const std::s
 
 /// Reports values of a material that change from place to place and are less than allowed in some.
 void check_varying(const Scene& scene, std::size_t index, tables::Diagnosis& diagnosis);
+/// Parameters of a material with the least strength that it has anywhere, for rules that join them.
+/// What a linear value comes to, and how much it may dilate, is `check_varying`'s.
+[[nodiscard]] constitutive::MaterialParameters least_parameters(const Scene& scene,
+                                                                std::size_t index,
+                                                                const tables::Diagnosis& diagnosis);
+/// Where a material would dilate by more than its friction angle, `has 20, and dilates by 25`; ""
+/// if it does nowhere. Of two that are told by samples one must not exceed the other anywhere,
+/// unless they are the same.
+[[nodiscard]] std::string dilation_objection(const Scene& scene, std::size_t index,
+                                             const tables::Diagnosis& diagnosis);
+/// [deg] The largest friction angle of a material, 0 if it has none.
+[[nodiscard]] double most_friction(const Scene& scene, std::size_t index,
+                                   const tables::Diagnosis& diagnosis);
 
 /// Whether a place is whole and in the body; reports otherwise. An empty (absent) one passes.
 bool check_at(const Point& at, const std::string& key, const Scene& scene,

@@ -112,6 +112,10 @@ void check_spacing(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
 }
 
+std::optional<double> value_of(const std::optional<tables::VaryingNumber>& number) {
+  return number ? std::optional(number->value) : std::nullopt;
+}
+
 /// A parameter that a model needs, or that has no effect on it.
 void check_parameter(const constitutive::ParameterInfo& parameter,
                      const std::optional<double>& value, const Material& material,
@@ -150,16 +154,17 @@ void check_overconsolidation(const Scene& scene, const Material& material, const
 }
 
 /// What the model asks of its parameters, in libconstitutive's words.
-void check_parameters(const Scene& scene, const Material& material, const std::string& table,
+void check_parameters(const Scene& scene, std::size_t index, const std::string& table,
                       tables::Diagnosis& diagnosis) {
+  const Material& material = scene.material[index];
   const auto key = [&](std::string_view name) { return fmt::format("{}.{}", table, name); };
   const constitutive::ModelInfo& model = model_of(material);
   const auto check = [&](const char* name, const std::optional<double>& value) {
     check_parameter(constitutive::parameter_info(name), value, material, key(name), diagnosis);
   };
-  check("cohesion", material.cohesion ? std::optional(material.cohesion->value) : std::nullopt);
-  check("friction_angle", material.friction_angle);
-  check("dilation_angle", material.dilation_angle);
+  check("cohesion", value_of(material.cohesion));
+  check("friction_angle", value_of(material.friction_angle));
+  check("dilation_angle", value_of(material.dilation_angle));
   check("compression_index", material.compression_index);
   check("swelling_index", material.swelling_index);
   check("critical_stress_ratio", material.critical_stress_ratio);
@@ -175,9 +180,7 @@ void check_parameters(const Scene& scene, const Material& material, const std::s
   check_overconsolidation(scene, material, table, diagnosis);
   if (diagnosis.good({key("cohesion"), key("friction_angle"), key("dilation_angle"),
                       key("compression_index"), key("swelling_index")})) {
-    auto parameters = parameters_of(material);
-    // Where it is least is another rule's.
-    if (material.cohesion && material.cohesion->varies()) parameters.cohesion = 1.0;
+    const auto parameters = least_parameters(scene, index, diagnosis);
     for (auto& objection : constitutive::joint_objections(parameters, model)) {
       diagnosis.error(key(objection.parameter), objection.found, objection.allowed);
     }
@@ -216,7 +219,7 @@ void check_material(const Scene& scene, std::size_t index, tables::Diagnosis& di
     check_region(material.region_min, material.region_max, table, scene, diagnosis);
   }
 
-  if (diagnosis.good({key("model")})) check_parameters(scene, material, table, diagnosis);
+  if (diagnosis.good({key("model")})) check_parameters(scene, index, table, diagnosis);
   check_varying(scene, index, diagnosis);
 }
 

@@ -35,7 +35,8 @@ void check_gravity(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (!has_gravity(scene)) return;
   for (std::size_t i = 0; i < scene.material.size(); ++i) {
     const std::string density = fmt::format("material.{}.density", i);
-    if (scene.material[i].density > 0.0 || !diagnosis.good({density})) continue;
+    const tables::VaryingNumber& told = scene.material[i].density;
+    if (told.value > 0.0 || told.varies() || !diagnosis.good({density})) continue;
     diagnosis.error(density, "found 0 with gravity",
                     "a body that has weight needs its density: give it, or leave out [gravity]");
   }
@@ -112,9 +113,10 @@ void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
     }
     const double vertical = -geostatic_stress(scene, deepest);
     const double horizontal = resolve_k0(scene, material) * vertical;
-    const double phi = parameters_of(material).friction_angle * std::numbers::pi / 180.0;
+    const auto parameters = parameters_at(material, deepest);
+    const double phi = parameters.friction_angle * std::numbers::pi / 180.0;
     const double Kp = std::pow(std::tan(std::numbers::pi / 4.0 + phi / 2.0), 2);
-    const double cohesion = parameters_at(material, deepest).cohesion;
+    const double cohesion = parameters.cohesion;
     const double least = vertical / Kp - 2.0 * cohesion / std::sqrt(Kp);
     const double most = vertical * Kp + 2.0 * cohesion * std::sqrt(Kp);
     constexpr double round_off = 1e-6;
@@ -351,7 +353,7 @@ void check_tolerance(const Scene& scene, tables::Diagnosis& diagnosis) {
   for (std::size_t i = 0; i < scene.material.size(); ++i) {
     const std::string key = fmt::format("material.{}.friction_angle", i);
     if (!diagnosis.good({key, "solver.tolerance", fmt::format("material.{}.model", i)})) continue;
-    const double phi = parameters_of(scene.material[i]).friction_angle;
+    const double phi = most_friction(scene, i, diagnosis);
     const double half = phi / 2.0 * std::numbers::pi / 180.0;
     const double Kp = std::pow(std::tan(std::numbers::pi / 4.0 + half), 2);
     if (!yields(scene.material[i]) || phi < steepest || tolerance * Kp <= error_of_load) continue;

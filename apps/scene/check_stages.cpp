@@ -223,11 +223,11 @@ void check_flow(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis)
   if (scene.stage[s].materials.empty() || !diagnosis.errors().empty()) return;
   const Scene then = scene_of_stage(scene, s);
   for (const Material& material : then.material) {
-    const double phi = material.friction_angle.value_or(0.0);
-    if (material.dilation_angle.value_or(0.0) <= phi) continue;
+    const auto index = static_cast<std::size_t>(&material - then.material.data());
+    const auto objection = dilation_objection(then, index, diagnosis);
+    if (objection.empty()) continue;
     diagnosis.error(key_of(s, "friction_angle"),
-                    fmt::format("\"{}\" then has {}, and dilates by {}", material.name, phi,
-                                *material.dilation_angle),
+                    fmt::format("\"{}\" then {}", material.name, objection),
                     "a material dilates by its friction angle at most: give dilation_angle, too");
   }
 }

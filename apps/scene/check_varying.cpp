@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <vector>
 
+#include "constitutive/parameters.hpp"
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
 #include "scene/element_body.hpp"
@@ -78,34 +81,163 @@ bool have_boxes(const Scene& scene) {
          });
 }
 
+using Places = std::vector<std::array<double, 2>>;
+
+// Corners of where a material is; none where that is not known.
+Places places_of(const Scene& scene, std::size_t index, const tables::Diagnosis& diagnosis) {
+  Places places;
+  if (!box_is_good(scene, diagnosis) || !have_boxes(scene)) return places;
+  for (const PlanePoint& corner : corners_of(scene, index)) {
+    places.push_back({corner.x(), corner.y()});
+  }
+  return places;
+}
+
+// Whether samples speak of all of where a material is.
+bool covers(const tables::Samples& samples, const Places& places, const std::string& key,
+            tables::Diagnosis& diagnosis) {
+  const auto [low, high] = samples.coverage();
+  constexpr double round_off = 1e-9;
+  for (const auto& place : places) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double slack = round_off * (std::abs(place[i]) + std::abs(high[i] - low[i]));
+      if (std::isinf(low[i]) || (place[i] >= low[i] - slack && place[i] <= high[i] + slack)) {
+        continue;
+      }
+      diagnosis.error(
+          key,
+          fmt::format("found values from {} = {:.6g} to {:.6g}, and the material reaches "
+                      "({:.6g}, {:.6g})",
+                      name_of(static_cast<Axis>(i)), low[i], high[i], place[0], place[1]),
+          "allowed are values for all of where the material is");
+      return false;
+    }
+  }
+  return true;
+}
+
+// What a number that changes may be.
+struct Allowed {
+  const char* name;
+  double least, most;  // the least itself is excluded unless it may be reached
+  bool least_too;
+  const char* words;
+};
+
+void check_number(const tables::VaryingNumber& number, const Allowed& allowed,
+                  const std::string& table, const Places& places, tables::Diagnosis& diagnosis) {
+  const std::string key = fmt::format("{}.{}", table, allowed.name);
+  if (!number.varies() || !diagnosis.good({key})) return;
+  const auto is_good = [&](double here) {
+    return (here > allowed.least || (allowed.least_too && here == allowed.least)) &&
+           here < allowed.most;
+  };
+  if (!number.is_linear()) {
+    if (!covers(*number.samples, places, key, diagnosis)) return;
+    const auto& values = number.samples->values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (is_good(values[i])) continue;
+      diagnosis.error(key, fmt::format("{:g} among its values", values[i]), allowed.words);
+      return;
+    }
+    return;
+  }
+  // A linear value is least and most in corners.
+  for (const auto& place : places) {
+    const double here = number.at_place(place);
+    if (is_good(here)) continue;
+    diagnosis.error(key, fmt::format("{:g} at ({:g}, {:g})", here, place[0], place[1]),
+                    allowed.words);
+    return;
+  }
+}
+
 }  // namespace
+
+std::string dilation_objection(const Scene& scene, std::size_t index,
+                               const tables::Diagnosis& diagnosis) {
+  const Material& material = scene.material[index];
+  const tables::VaryingNumber none;
+  const auto friction = material.friction_angle.value_or(none);
+  const auto dilation = material.dilation_angle.value_or(none);
+  if (friction == dilation) return "";
+  const Places places = places_of(scene, index, diagnosis);
+  const auto words = [](double phi, double psi) {
+    return psi > phi ? fmt::format("has {:g}, and dilates by {:g}", phi, psi) : std::string();
+  };
+  if (!friction.is_linear() || !dilation.is_linear() || places.empty()) {
+    return words(friction.extremes(places).first, dilation.extremes(places).second);
+  }
+  for (const auto& place : places) {
+    auto found = words(friction.at_place(place), dilation.at_place(place));
+    if (!found.empty()) return found;
+  }
+  return "";
+}
+
+constitutive::MaterialParameters least_parameters(const Scene& scene, std::size_t index,
+                                                  const tables::Diagnosis& diagnosis) {
+  const Material& material = scene.material[index];
+  constitutive::MaterialParameters parameters = parameters_of(material);
+  const Places places = places_of(scene, index, diagnosis);
+  if (material.cohesion && material.cohesion->varies()) {
+    const auto [least, most] = material.cohesion->extremes(places);
+    // Clay may be without strength at a surface.
+    parameters.cohesion = least > 0.0 ? least : std::max(most, 1.0);
+  }
+  const auto changes = [](const auto& number) { return number && number->varies(); };
+  if (changes(material.friction_angle) || changes(material.dilation_angle)) {
+    if (material.friction_angle && parameters.friction_angle > 0.0) {
+      parameters.friction_angle = material.friction_angle->extremes(places).first;
+    }
+    parameters.dilation_angle = 0.0;
+  }
+  return parameters;
+}
+
+double most_friction(const Scene& scene, std::size_t index, const tables::Diagnosis& diagnosis) {
+  const double one = parameters_of(scene.material[index]).friction_angle;
+  const auto& told = scene.material[index].friction_angle;
+  if (one == 0.0 || !told || !told->varies()) return one;
+  return told->extremes(places_of(scene, index, diagnosis)).second;
+}
 
 void check_varying(const Scene& scene, std::size_t index, tables::Diagnosis& diagnosis) {
   const Material& material = scene.material[index];
-  if (!varies(material) || !box_is_good(scene, diagnosis) || !have_boxes(scene)) return;
-  const auto corners = corners_of(scene, index);
-  // A linear value is least in a corner.
-  const auto check = [&](const tables::LinearField& field, const char* name, bool may_vanish,
-                         const char* allowed) {
-    const std::string key = fmt::format("material.{}.{}", index, name);
-    if (!field.varies() || !diagnosis.good({key})) return;
-    for (const PlanePoint& corner : corners) {
-      const std::array<double, 2> place{corner.x(), corner.y()};
-      const double here = field.at_place(place);
-      if (here > 0.0 || (may_vanish && here == 0.0)) continue;
-      diagnosis.error(key, fmt::format("{:g} at ({:g}, {:g})", here, corner.x(), corner.y()),
-                      allowed);
-      return;
-    }
+  const Places places = places_of(scene, index, diagnosis);
+  constexpr double infinity = std::numeric_limits<double>::infinity(), right_angle = 90.0;
+  const std::string table = fmt::format("material.{}", index);
+  const auto check = [&](const std::optional<tables::VaryingNumber>& number,
+                         const Allowed& allowed) {
+    if (number) check_number(*number, allowed, table, places, diagnosis);
   };
-  check(material.youngs_modulus, "youngs_modulus", false,
-        "allowed is a modulus of more than zero wherever the material is");
-  if (material.cohesion) {
-    // Particles of cells are within their material.
-    const bool may_vanish = scene.geometry.layout == Layout::cell;
-    check(*material.cohesion, "cohesion", may_vanish,
-          may_vanish ? "allowed is a cohesion of zero or more wherever the material is"
-                     : "allowed is a cohesion of more than zero wherever the material is");
+  check(material.youngs_modulus,
+        {"youngs_modulus", 0.0, infinity, false,
+         "allowed is a modulus of more than zero wherever the material is"});
+  // Particles of cells are within their material.
+  const bool may_vanish = scene.geometry.layout == Layout::cell;
+  check(material.cohesion,
+        {"cohesion", 0.0, infinity, may_vanish,
+         may_vanish ? "allowed is a cohesion of zero or more wherever the material is"
+                    : "allowed is a cohesion of more than zero wherever the material is"});
+  constexpr const char* angle = "allowed is an angle from zero to below 90 wherever the material is";
+  check(material.friction_angle, {"friction_angle", 0.0, right_angle, true, angle});
+  check(material.dilation_angle, {"dilation_angle", 0.0, right_angle, true, angle});
+  constexpr const char* weight = "allowed is more than zero wherever the material is";
+  check(material.unit_weight, {"unit_weight", 0.0, infinity, false, weight});
+  check(material.saturated_unit_weight, {"saturated_unit_weight", 0.0, infinity, false, weight});
+  const bool is_weight = material.unit_weight && material.unit_weight->varies();
+  if (!is_weight) check(material.density, {"density", 0.0, infinity, false, weight});
+  const auto changes = [](const auto& number) { return number && number->varies(); };
+  const std::string friction = table + ".friction_angle", dilation = table + ".dilation_angle";
+  if ((changes(material.friction_angle) || changes(material.dilation_angle)) &&
+      diagnosis.good({friction, dilation, table + ".model"}) && model_of(material).frictional) {
+    const std::string found = dilation_objection(scene, index, diagnosis);
+    if (!found.empty()) {
+      diagnosis.error(dilation, found,
+                      "a material dilates by its friction angle at most: where both change by "
+                      "samples, by the least of it, or by the same samples");
+    }
   }
 }
 

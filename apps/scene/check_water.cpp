@@ -13,8 +13,8 @@ void check_saturated(const Scene& scene, std::size_t m, tables::Diagnosis& diagn
   const Material& material = scene.material[m];
   const std::string key = fmt::format("material.{}.saturated_unit_weight", m);
   if (!material.saturated_unit_weight || !diagnosis.good({key})) return;
-  const double weight = *material.saturated_unit_weight;
-  if (material.unit_weight.value_or(0.0) <= 0.0) {
+  const double weight = material.saturated_unit_weight->value;
+  if (material.unit_weight.value_or(0.0).value <= 0.0) {
     diagnosis.error(key, fmt::format("found {} without a unit_weight", weight),
                     "give the unit_weight above the water table, too");
   } else if (scene.water.table.empty()) {
@@ -27,8 +27,8 @@ void check_saturated(const Scene& scene, std::size_t m, tables::Diagnosis& diagn
 void check_floats(const Scene& scene, tables::Diagnosis& diagnosis) {
   for (std::size_t m = 0; m < scene.material.size() && !scene.water.table.empty(); ++m) {
     const Material& material = scene.material[m];
-    const double dry = material.unit_weight.value_or(0.0);
-    const double weight = material.saturated_unit_weight.value_or(dry);
+    const double dry = material.unit_weight.value_or(0.0).value;
+    const double weight = material.saturated_unit_weight.value_or(dry).value;
     if (weight <= 0.0 || weight >= scene.water.unit_weight) continue;
     diagnosis.warning(
         fmt::format("material.{}.{}", m,
@@ -69,6 +69,14 @@ void check_table(const Scene& scene, tables::Diagnosis& diagnosis) {
 
 void check_share(const Scene& scene, tables::Diagnosis& diagnosis) {
   const char* const key = "water.r_u";
+  const auto varying = std::ranges::find_if(
+      scene.material, [](const Material& material) { return material.density.varies(); });
+  if (varying != scene.material.end()) {
+    diagnosis.error(key, fmt::format("found {}, and the weight of {} changes from place to place",
+                                     *scene.water.r_u, varying->name),
+                    "give a water table, or one weight");
+    return;
+  }
   if (scene.region.empty()) {
     diagnosis.error(key, fmt::format("found {} in a box", *scene.water.r_u),
                     "it belongs to a body of [[region]]s; in a box give a table");

@@ -30,11 +30,26 @@ double size_of(const Point& vector) {
   return std::sqrt(square);
 }
 
+// Whether two numbers are told alike and are the same, but for rounding.
+bool agree(const tables::VaryingNumber& one, const tables::VaryingNumber& other) {
+  constexpr double round_off = 1e-9;
+  const auto near = [](double a, double b) { return std::abs(a - b) <= round_off * std::abs(a); };
+  if (one.is_linear() != other.is_linear() || !near(one.value, other.value)) return false;
+  if (one.is_linear()) {
+    return one.at == other.at && std::ranges::equal(one.gradient, other.gradient, near);
+  }
+  tables::Samples same = *one.samples;
+  if (!std::ranges::equal(same.values, other.samples->values, near)) return false;
+  same.values = other.samples->values;
+  return same == *other.samples;
+}
+
 // Unit weights are densities, and without [gravity] gravity is the earth's, aslant in an
 // earthquake.
 void complete_weights(Scene& scene, tables::Diagnosis& diagnosis) {
   const bool weighs = std::ranges::any_of(scene.material, [](const Material& material) {
-    return material.unit_weight.value_or(0.0) > 0.0;
+    return material.unit_weight && (material.unit_weight->value > 0.0 ||
+                                    material.unit_weight->varies());
   });
   if (!weighs || !diagnosis.good({"material", "gravity", "gravity.acceleration", "load.kh",
                                   "load.kv", "geometry.dimension"})) {
@@ -56,17 +71,18 @@ void complete_weights(Scene& scene, tables::Diagnosis& diagnosis) {
     if (!material.unit_weight || !diagnosis.good({key, fmt::format("material.{}.density", i)})) {
       continue;
     }
-    const double density = still > 0.0 ? *material.unit_weight / still : 0.0;
-    constexpr double round_off = 1e-9;
-    if (material.density > 0.0 && std::abs(density - material.density) > round_off * density) {
+    const auto density =
+        still > 0.0 ? material.unit_weight->scaled(1.0, still) : tables::VaryingNumber();
+    if (material.density == tables::VaryingNumber()) {
+      material.density = density;
+    } else if (!agree(density, material.density)) {
       diagnosis.error(
           key,
-          fmt::format("found {}, and a density of {}", *material.unit_weight, material.density),
+          fmt::format("found {:g}, and a density of {:g}", material.unit_weight->value,
+                      material.density.value),
           fmt::format("it would be {:.6g} with gravity's {:.6g} m/s2: give one of them",
-                      material.density * still, still));
-      continue;
+                      material.density.value * still, still));
     }
-    if (material.density == 0.0) material.density = density;
   }
 }
 

@@ -28,9 +28,9 @@ constitutive::MaterialParameters parameters_of(const Material& material) {
   p.youngs_modulus = material.youngs_modulus.value;
   p.poissons_ratio = material.poissons_ratio;
   p.cohesion = material.cohesion.value_or(p.cohesion).value;
-  p.friction_angle = material.friction_angle.value_or(p.friction_angle);
-  p.dilation_angle = material.dilation_angle.value_or(p.dilation_angle);
-  p.density = material.density;
+  p.friction_angle = material.friction_angle.value_or(p.friction_angle).value;
+  p.dilation_angle = material.dilation_angle.value_or(p.dilation_angle).value;
+  p.density = material.density.value;
   p.dilation_cutoff = material.dilation_cutoff.value_or(p.dilation_cutoff);
   const auto take = [&](const char* name, const std::optional<double>& value) {
     const constitutive::ParameterInfo& info = constitutive::parameter_info(name);
@@ -49,7 +49,9 @@ constitutive::MaterialParameters parameters_of(const Material& material) {
 }
 
 bool varies(const Material& material) {
-  return material.youngs_modulus.varies() || (material.cohesion && material.cohesion->varies());
+  const auto changes = [](const auto& number) { return number && number->varies(); };
+  return material.youngs_modulus.varies() || changes(material.cohesion) ||
+         changes(material.friction_angle) || changes(material.dilation_angle);
 }
 
 constitutive::MaterialParameters parameters_at(const Material& material,
@@ -57,6 +59,10 @@ constitutive::MaterialParameters parameters_at(const Material& material,
   constitutive::MaterialParameters p = parameters_of(material);
   p.youngs_modulus = material.youngs_modulus.at_place(place);
   if (material.cohesion) p.cohesion = material.cohesion->at_place(place);
+  const constitutive::ModelInfo& model = model_of(material);
+  if (model.yields && !model.frictional) return p;
+  if (material.friction_angle) p.friction_angle = material.friction_angle->at_place(place);
+  if (material.dilation_angle) p.dilation_angle = material.dilation_angle->at_place(place);
   return p;
 }
 
@@ -264,11 +270,12 @@ double geostatic_stress(const Scene& scene, std::span<const double> place) {
   for (double k = 0.5; k < slices; k += 1.0) {
     at[up] = surface - depth * (k / slices);
     const Material& material = scene.material[material_at(scene, at)];
-    vertical -= material.density * gravity * (depth / slices);
+    const double density = material.density.at_place(at);
+    vertical -= density * gravity * (depth / slices);
     if (table.empty() || slice == 0.0) continue;
     // It is level in ground whose stress is geostatic.
     const double below = (table.front().y() - at[up]) / std::abs(slice) + 0.5;
-    const double more = (saturated_density(material) - material.density) * gravity;
+    const double more = (saturated_density(material, at) - density) * gravity;
     vertical += std::clamp(below, 0.0, 1.0) * (scene.water.unit_weight - more) * slice;
   }
   return vertical;
@@ -300,7 +307,8 @@ double resolve_stiffness_factor(const Contact& contact, bool yields) {
 
 bool is_associated(const Scene& scene) {
   return std::all_of(scene.material.begin(), scene.material.end(), [](const Material& material) {
-    return material.dilation_angle.value_or(0.0) == material.friction_angle.value_or(0.0);
+    const tables::VaryingNumber none;
+    return material.dilation_angle.value_or(none) == material.friction_angle.value_or(none);
   });
 }
 

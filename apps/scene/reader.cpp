@@ -6,6 +6,7 @@
 #include "scene/check.hpp"
 #include "scene/complete.hpp"
 #include "scene/mesh_groups.hpp"
+#include "scene/sample_files.hpp"
 #include "scene/scene.hpp"
 #include "scene/tables.hpp"
 #include "tables/nearest_name.hpp"
@@ -21,6 +22,7 @@ std::optional<Scene> parse_scene(std::string_view text, std::span<const std::str
   if (unreadable) return std::nullopt;
   const int dimension = take_groups(scene.mesh, scene.region, scene.side, diagnosis);
   check_mesh(scene, dimension, diagnosis);
+  take_sample_files(scene_tables(), scene, diagnosis);
   complete(scene, diagnosis);
   // Of ground that is none nothing else can be judged.
   if (scene.region.empty() || diagnosis.errors().empty()) check_scene(scene, diagnosis);

@@ -139,14 +139,14 @@ struct Approximation {
 struct Material {
   std::string name;
   std::string model = "elastic";       // a family of models of libconstitutive
-  tables::LinearField youngs_modulus;  // [Pa]
+  tables::VaryingNumber youngs_modulus;  // [Pa]
   double poissons_ratio = 0.0;
-  std::optional<tables::LinearField> cohesion;    // [Pa] present for every yielding model
-  std::optional<double> friction_angle;           // [deg] present for the frictional models
-  std::optional<double> dilation_angle;           // [deg] present for the frictional models
-  double density = 0.0;                           // [kg/m3]
-  std::optional<double> unit_weight;              // [N/m3] which says the same
-  std::optional<double> saturated_unit_weight;    // [N/m3] below the water table
+  std::optional<tables::VaryingNumber> cohesion;    // [Pa] present for every yielding model
+  // [deg] present for the frictional models
+  std::optional<tables::VaryingNumber> friction_angle, dilation_angle;
+  tables::VaryingNumber density;                              // [kg/m3]
+  std::optional<tables::VaryingNumber> unit_weight;           // [N/m3] which says the same
+  std::optional<tables::VaryingNumber> saturated_unit_weight; // [N/m3] below the water table
   std::optional<double> dilation_cutoff;          // accumulated plastic volume strain
   std::optional<double> tension_cutoff;           // [Pa] largest principal stress
   std::optional<double> residual_strain;          // equivalent plastic strain

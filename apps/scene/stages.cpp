@@ -55,7 +55,7 @@ void take_values(const Stage& stage, Scene& scene) {
   for (std::size_t k = 0; k < stage.materials.size(); ++k) {
     const auto has_its_name = [&](const Material& m) { return m.name == stage.materials[k]; };
     const auto material = std::ranges::find_if(scene.material, has_its_name);
-    if (!stage.cohesion.empty()) material->cohesion = tables::LinearField(stage.cohesion[k]);
+    if (!stage.cohesion.empty()) material->cohesion = tables::VaryingNumber(stage.cohesion[k]);
     if (!stage.friction_angle.empty()) material->friction_angle = stage.friction_angle[k];
     if (!stage.dilation_angle.empty()) material->dilation_angle = stage.dilation_angle[k];
   }

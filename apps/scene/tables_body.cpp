@@ -288,9 +288,15 @@ SceneTable material() {
       "material", &Scene::material,
       "A material. The first fills the body; each later one has a box "
       "and wins inside it over the earlier ones. Where there are [[region]]s, they say "
-      "where it is. Of its values, cohesion and youngs_modulus may change linearly from "
-      "place "
-      "to place.");
+      "where it is. Stiffness, strength and weight may change from place to place: "
+      "linearly; by a table, "
+      "{ along = \"y\", table = [[y, value], ...] } or { below = level, table = [[depth, value], "
+      "...] }, linear between its lines; by a raster, bilinear between the middles of its cells, "
+      "{ raster = \"file.asc\" }, an ESRI ASCII grid; or by points, { points = \"file.csv\" }, "
+      "lines of x,y,value of which the nearest one counts. A table, too, may be a file, lines of "
+      "coordinate,value. Files are sought from the scene's folder, their values multiplied by "
+      "factor, if it is given; --print-effective shows what was read, which is another way of "
+      "giving it. Tables and rasters reach over all of the material.");
   table.required()
       .key("name", &Material::name,
            {.need = tables::Need::required,

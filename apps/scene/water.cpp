@@ -75,11 +75,11 @@ bool has_water(const Scene& scene) {
   return !scene.water.table.empty() || scene.water.r_u.value_or(0.0) > 0.0;
 }
 
-double saturated_density(const Material& material) {
-  if (!material.saturated_unit_weight || material.unit_weight.value_or(0.0) <= 0.0) {
-    return material.density;
-  }
-  return material.density * (*material.saturated_unit_weight / *material.unit_weight);
+double saturated_density(const Material& material, std::span<const double> place) {
+  const double density = material.density.at_place(place);
+  if (!material.saturated_unit_weight || !material.unit_weight) return density;
+  const double dry = material.unit_weight->at_place(place);
+  return dry > 0.0 ? density * (material.saturated_unit_weight->at_place(place) / dry) : density;
 }
 
 std::vector<shape::HeavyRing> heavy_regions(const Scene& scene) {
@@ -90,7 +90,7 @@ std::vector<shape::HeavyRing> heavy_regions(const Scene& scene) {
   std::vector<shape::HeavyRing> ground;
   for (std::size_t r = 0; r < scene.region.size(); ++r) {
     if (!scene.region[r].present) continue;
-    const double weight = scene.material[material_of(scene, r)].density * g;
+    const double weight = scene.material[material_of(scene, r)].density.value * g;
     const auto add = [&](const std::vector<PlanePoint>& places, double unit_weight) {
       shape::HeavyRing& part = ground.emplace_back();
       for (const PlanePoint& place : places) part.ring.emplace_back(place.x(), place.y());

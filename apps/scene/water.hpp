@@ -36,8 +36,8 @@ class PoreWater {
 /// Whether there is pore water in the ground.
 [[nodiscard]] bool has_water(const Scene& scene);
 
-/// [kg/m3] Density of a completed scene's material below the water table.
-[[nodiscard]] double saturated_density(const Material& material);
+/// [kg/m3] Density of a completed scene's material at a place below the water table.
+[[nodiscard]] double saturated_density(const Material& material, std::span<const double> place);
 
 /// The regions of a completed scene with their unit weights under gravity at rest, as r_u counts
 /// them.

@@ -147,44 +147,6 @@ struct Reader {
     return Value(std::move(all));
   }
 
-  /// A number, or a table of value, at and gradient; the range is the value's.
-  std::optional<Value> linear(const toml::node& node) const {
-    const toml::table* table = node.as_table();
-    if (table == nullptr) {
-      const auto value = number(node);
-      return value ? std::optional<Value>(std::vector<double>{*value, 0.0, 0.0, 0.0, 0.0})
-                   : std::nullopt;
-    }
-    for (const auto& entry : *table) {
-      const std::string_view name = entry.first.str();
-      if (name == "value" || name == "at" || name == "gradient") continue;
-      diagnosis.error(key, fmt::format("no such key in it: {}", name),
-                      "allowed is " + field.allowed_text());
-      return std::nullopt;
-    }
-    const toml::node* value = table->get("value");
-    const toml::node *at = table->get("at"), *gradient = table->get("gradient");
-    if (value == nullptr || at == nullptr || gradient == nullptr) {
-      diagnosis.error(key, "value, at and gradient are wanted together",
-                      "allowed is " + field.allowed_text());
-      return std::nullopt;
-    }
-    const auto start = number(*value);
-    if (!start) return std::nullopt;
-    std::vector<double> numbers{*start};
-    for (const toml::node* pair : {at, gradient}) {
-      const toml::array* list = pair->as_array();
-      if (list == nullptr || list->size() != 2) return refuse(*pair);
-      for (const toml::node& coordinate : *list) {
-        const auto one = coordinate.value<double>();
-        const bool is_number = coordinate.is_integer() || coordinate.is_floating_point();
-        if (!one || !is_number || !std::isfinite(*one)) return refuse(coordinate);
-        numbers.push_back(*one);
-      }
-    }
-    return Value(std::move(numbers));
-  }
-
   /// A list, or one item in its stead.
   template <class Item, class Read>
   std::optional<Value> list(const toml::node& node, Read read) const {
@@ -286,8 +248,8 @@ std::optional<Value> convert(const toml::node& node, const FieldInfo& field, con
       return reader.points(node);
     case ValueKind::polygons:
       return reader.polygons(node);
-    case ValueKind::linear:
-      return reader.linear(node);
+    case ValueKind::varying:
+      return convert_varying(node, field, key, diagnosis);
   }
   return std::nullopt;
 }

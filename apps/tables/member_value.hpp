@@ -82,8 +82,8 @@ constexpr ValueKind kind_of() {
     } else {
       return std::is_enum_v<Item> ? ValueKind::choices : ValueKind::texts;
     }
-  } else if constexpr (std::is_same_v<T, LinearField>) {
-    return ValueKind::linear;
+  } else if constexpr (std::is_same_v<T, VaryingNumber>) {
+    return ValueKind::varying;
   } else if constexpr (std::is_same_v<T, bool>) {
     return ValueKind::boolean;
   } else if constexpr (std::is_integral_v<T>) {
@@ -115,9 +115,6 @@ std::optional<Value> to_value(const T& member) {
     return Value(std::string(detail::text_of(member)));
   } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
     return Value(static_cast<std::int64_t>(member));
-  } else if constexpr (std::is_same_v<T, LinearField>) {
-    return Value(std::vector<double>{member.value, member.at[0], member.at[1], member.gradient[0],
-                                     member.gradient[1]});
   } else if constexpr (!detail::is_list<T>) {
     return Value(member);
   } else {
@@ -147,9 +144,6 @@ void from_value(T& member, const Value& value) {
     member = detail::enum_of<T>(std::get<std::string>(value));
   } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
     member = static_cast<T>(std::get<std::int64_t>(value));
-  } else if constexpr (std::is_same_v<T, LinearField>) {
-    const auto& v = std::get<std::vector<double>>(value);
-    member = {v[0], {v[1], v[2]}, {v[3], v[4]}};
   } else if constexpr (kind_of<T>() == ValueKind::points) {
     detail::set_points(member, std::get<std::vector<double>>(value));
   } else if constexpr (kind_of<T>() == ValueKind::polygons) {

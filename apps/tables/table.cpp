@@ -52,13 +52,15 @@ std::string FieldInfo::allowed_text() const {
     case ValueKind::polygons:
       text = "a list of lists of points [x, y] and arcs";
       break;
-    case ValueKind::linear:
+    case ValueKind::varying:
       text = "a number";
       break;
   }
   if (const std::string range = notes.range.text(); !range.empty()) text += " " + range;
   if (!notes.unit.empty()) text += fmt::format(" [{}]", notes.unit);
-  if (kind == ValueKind::linear) text += ", or { at = [x, y], value = v, gradient = [gx, gy] }";
+  if (kind == ValueKind::varying) {
+    text += ", or { at = [x, y], value = v, gradient = [gx, gy] }, a table, a raster or points";
+  }
   return text;
 }
 
@@ -74,30 +76,7 @@ std::string TableHead::path(std::size_t index, std::string_view key) const {
   return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
 }
 
-std::string number_text(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".en") == std::string::npos) text += ".0";
-  return text;
-}
-
 namespace {
-
-/// A TOML basic string; control characters escaped, UTF-8 as it is.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (code < 0x20 || code == 0x7f) {
-      out += fmt::format("\\u{:04X}", static_cast<unsigned>(code));
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
 
 template <class Item, class Show>
 std::string list_text(const std::vector<Item>& items, Show show) {
@@ -122,24 +101,21 @@ std::string value_text(const Value& value) {
     std::string operator()(bool v) const { return v ? "true" : "false"; }
     std::string operator()(std::int64_t v) const { return fmt::format("{}", v); }
     std::string operator()(double v) const { return number_text(v); }
-    std::string operator()(const std::string& v) const { return quoted(v); }
+    std::string operator()(const std::string& v) const { return quoted_text(v); }
     std::string operator()(const std::vector<double>& v) const { return list_text(v, number_text); }
-    std::string operator()(const std::vector<std::string>& v) const { return list_text(v, quoted); }
+    std::string operator()(const std::vector<std::string>& v) const {
+      return list_text(v, quoted_text);
+    }
     std::string operator()(const std::vector<std::vector<double>>& v) const {
       return list_text(v, points_text);
     }
+    std::string operator()(const VaryingNumber& v) const { return varying_text(v); }
   };
   return std::visit(Show{}, value);
 }
 
 std::string value_text(const Value& value, ValueKind kind) {
   const auto* coordinates = std::get_if<std::vector<double>>(&value);
-  if (kind == ValueKind::linear && coordinates != nullptr) {
-    const auto number = [&](std::size_t i) { return number_text((*coordinates)[i]); };
-    if ((*coordinates)[3] == 0.0 && (*coordinates)[4] == 0.0) return number(0);
-    return fmt::format("{{ at = [{}, {}], value = {}, gradient = [{}, {}] }}", number(1), number(2),
-                       number(0), number(3), number(4));
-  }
   if (kind != ValueKind::points || coordinates == nullptr) return value_text(value);
   return points_text(*coordinates);
 }

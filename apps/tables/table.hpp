@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -10,33 +9,16 @@
 #include <variant>
 #include <vector>
 
+#include "tables/toml_text.hpp"
+#include "tables/varying_number.hpp"
+
 namespace tables {
 
-/// A number that changes linearly from place to place: `value` at `at`, and `gradient` times the
-/// way from there elsewhere. In TOML a number, or { at = [x, y], value = v, gradient = [gx, gy] }.
-struct LinearField {
-  double value = 0.0;
-  std::array<double, 2> at{};
-  std::array<double, 2> gradient{};
-
-  // NOLINTNEXTLINE(google-explicit-constructor): a number is such a field
-  LinearField(double everywhere = 0.0) : value(everywhere) {}
-  LinearField(double v, const std::array<double, 2>& place, const std::array<double, 2>& growth)
-      : value(v), at(place), gradient(growth) {}
-
-  [[nodiscard]] bool varies() const { return gradient != std::array<double, 2>{}; }
-  /// At a place, of which the first two coordinates count.
-  [[nodiscard]] double at_place(std::span<const double> place) const {
-    return value + gradient[0] * (place[0] - at[0]) + gradient[1] * (place[1] - at[1]);
-  }
-  bool operator==(const LinearField&) const = default;
-};
-
 /// A value as it stands in TOML: numbers are double, choices their names, points x0 y0 x1 y1 ...,
-/// with arcs as chords (arc.hpp), polygons lists of points, a linear field its value, place and
-/// gradient.
-using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>,
-                           std::vector<std::string>, std::vector<std::vector<double>>>;
+/// with arcs as chords (arc.hpp), polygons lists of points.
+using Value =
+    std::variant<bool, std::int64_t, double, std::string, std::vector<double>,
+                 std::vector<std::string>, std::vector<std::vector<double>>, VaryingNumber>;
 
 enum class ValueKind {
   boolean,
@@ -49,7 +31,7 @@ enum class ValueKind {
   choices,
   points,
   polygons,
-  linear
+  varying
 };
 
 /// Allowed interval of a number; an open end excludes its bound.
@@ -142,8 +124,6 @@ template <class Table>
   return found == tables.end() ? nullptr : &*found;
 }
 
-/// A number in its shortest form that reads back to the same double; always a TOML float.
-[[nodiscard]] std::string number_text(double value);
 /// A value as TOML text.
 [[nodiscard]] std::string value_text(const Value& value);
 /// The same of a value of a kind: coordinates of points are put in pairs.

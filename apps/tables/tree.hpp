@@ -17,6 +17,10 @@ namespace tables {
 [[nodiscard]] std::optional<Value> convert(const toml::node& node, const FieldInfo& field,
                                            const std::string& key, Diagnosis& diagnosis);
 
+/// Likewise a number that may change from place to place.
+[[nodiscard]] std::optional<Value> convert_varying(const toml::node& node, const FieldInfo& field,
+                                                   const std::string& key, Diagnosis& diagnosis);
+
 /// A short description of a value for messages: `the text "abc"`, `-0.01`, `a table`.
 [[nodiscard]] std::string describe(const toml::node& node);
 

@@ -264,7 +264,7 @@ TEST(Numbers, ThatAreNoneOrNearlyNothingDoNoHarm) {
     for (const auto& field : table.fields) {
       const bool is_number = field.kind == tables::ValueKind::number ||
                              field.kind == tables::ValueKind::numbers ||
-                             field.kind == tables::ValueKind::linear;
+                             field.kind == tables::ValueKind::varying;
       if (!is_number) continue;
       const std::string key = table.path(0, field.key);
       for (const char* value : {"nan", "inf", "-inf", "1e400"}) {

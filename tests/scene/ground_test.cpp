@@ -262,11 +262,11 @@ TEST(GroundScene, TakesWeightsAndEarthquakes) {
   const auto still = parse_scene(heavy, "s.toml");
   ASSERT_TRUE(still.scene);
   EXPECT_THAT(still.scene->gravity.acceleration, ElementsAre(0.0, -9.81));
-  EXPECT_DOUBLE_EQ(still.scene->material[0].density, 18e3 / 9.81);
+  EXPECT_DOUBLE_EQ(still.scene->material[0].density.value, 18e3 / 9.81);
   const auto shaken = parse_scene(heavy + "[load]\nkh = -0.2\nkv = 0.1\n", "s.toml");
   ASSERT_TRUE(shaken.scene);
   const Point& acceleration = shaken.scene->gravity.acceleration;
-  const double density = shaken.scene->material[1].density;
+  const double density = shaken.scene->material[1].density.value;
   EXPECT_NEAR(density * acceleration[0], -0.2 * 25e3, 1e-9);
   EXPECT_NEAR(density * acceleration[1], -0.9 * 25e3, 1e-9);
   EXPECT_THAT(

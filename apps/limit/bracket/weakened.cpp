@@ -8,6 +8,7 @@ problem::Soil weakened(const problem::Soil& soil, double factor) {
   problem::Soil weak = soil;
   weak.cohesion /= factor;
   weak.cohesion_gradient /= factor;
+  weak.divisor *= factor;
   weak.tension /= factor;
   weak.friction_angle = std::atan(std::tan(soil.friction_angle) / factor);
   return weak;

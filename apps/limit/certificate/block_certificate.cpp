@@ -81,6 +81,7 @@ class Examination {
       if (!soil.seepage.isZero(0.0) || !soil.live_seepage.isZero(0.0)) {
         objection_ = "ground without pore water only";
       }
+      if (soil.has_uneven_weight()) objection_ = "soil of one weight only";
     }
     if (objection_.empty()) check_curve();
     if (objection_.empty()) check_sight();

@@ -6,6 +6,7 @@
 
 #include "limit/algebra/equation_builder.hpp"
 #include "limit/algebra/least_change.hpp"
+#include "limit/problem/local_soil.hpp"
 
 namespace limit::certificate {
 
@@ -52,7 +53,11 @@ class Flow {
  public:
   explicit Flow(const problem::Problem& problem)
       : problem_(problem), footing_(static_cast<Eigen::Index>(12 * problem.mesh.triangles.size())) {
-    for (std::size_t t = 0; t < problem.mesh.triangles.size(); ++t) corners(t);
+    for (std::size_t t = 0; t < problem.mesh.triangles.size(); ++t) {
+      soils_.push_back(problem::soil_in(problem, problem.mesh.triangles[t], problem::Bound::upper));
+      corners(t);
+      weigh(t);
+    }
     for (const mesh::Edge& edge : mesh::edges_of(problem.mesh)) {
       jumps(edge);
       if (edge.boundary >= 0) tractions(edge);
@@ -69,22 +74,10 @@ class Flow {
   [[nodiscard]] const Terms& live_power() const { return live_; }
 
  private:
-  const problem::Soil& soil_of(std::size_t triangle) const {
-    return problem_.soils[static_cast<std::size_t>(problem_.mesh.triangles[triangle].region)];
-  }
+  // No weaker than the triangle is anywhere.
+  const problem::Soil& soil_of(std::size_t triangle) const { return soils_[triangle]; }
   static Eigen::Index velocity(std::size_t triangle, std::size_t place) {
     return static_cast<Eigen::Index>(12 * triangle + 2 * place);
-  }
-
-  // A jump may be in either soil that meets there.
-  const problem::Soil& soil_across(const mesh::Edge& edge) const {
-    const auto& triangles = problem_.mesh.triangles;
-    const int left = triangles[static_cast<std::size_t>(edge.left)].region;
-    const int right =
-        edge.right >= 0 ? triangles[static_cast<std::size_t>(edge.right)].region : left;
-    const mesh::Point middle =
-        (node_at(problem_.mesh, edge.first) + node_at(problem_.mesh, edge.second)) / 2.0;
-    return problem_.soils[static_cast<std::size_t>(problem::softer(problem_, left, right, middle))];
   }
 
   FlowPoint point(std::size_t triangle, const problem::Soil& soil, double cohesion, double ratio,
@@ -151,14 +144,37 @@ class Flow {
         corner.shear[1].emplace_back(y, gradient.x());
       }
       points_.push_back(corner);
-      for (const Eigen::Index xy : {0, 1}) {
-        const Eigen::Index at = velocity(t, 3 + i) + xy;
-        const problem::Soil& soil = soil_of(t);
-        const double dead = problem_.pull[xy] * soil.unit_weight + soil.seepage[xy];
-        const double live = problem_.live_pull[xy] * soil.live_unit_weight + soil.live_seepage[xy];
-        dead_.emplace_back(at, dead * area / 3.0);
-        live_.emplace_back(at, live * area / 3.0);
-      }
+    }
+  }
+
+  // The rule for cubics with a twentieth in the corners, two fifteenths in the middles of sides and
+  // nine twentieths in the centre, where a quadratic is four ninths of the middles' sum less one
+  // ninth of the corners'.
+  void weigh(std::size_t t) {
+    const mesh::Mesh& mesh = problem_.mesh;
+    const auto& nodes = mesh.triangles[t].nodes;
+    const double area = mesh::twice_area(mesh, mesh.triangles[t]) / 2.0;
+    const mesh::Point centre =
+        (node_at(mesh, nodes[0]) + node_at(mesh, nodes[1]) + node_at(mesh, nodes[2])) / 3.0;
+    const auto add = [&](std::size_t place, const mesh::Point& at, double share, double of_centre) {
+      const problem::Soil& soil = soil_of(t);
+      const auto weigh_by = [&](double here, double there, const mesh::Point& pull,
+                                const mesh::Point& water, Terms& power) {
+        for (const Eigen::Index xy : {0, 1}) {
+          const double force =
+              pull[xy] * (share * here + of_centre * there) + water[xy] * (share + of_centre);
+          if (force != 0.0) power.emplace_back(velocity(t, place) + xy, force * area);
+        }
+      };
+      weigh_by(soil.unit_weight_at(at), soil.unit_weight_at(centre), problem_.pull, soil.seepage,
+               dead_);
+      weigh_by(soil.live_unit_weight_at(at), soil.live_unit_weight_at(centre), problem_.live_pull,
+               soil.live_seepage, live_);
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+      const mesh::Point &first = node_at(mesh, nodes[i]), &next = node_at(mesh, nodes[(i + 1) % 3]);
+      add(3 + i, (first + next) / 2.0, 2.0 / 15.0, 0.2);
+      if (soil_of(t).has_uneven_weight()) add(i, first, 0.05, -0.05);
     }
   }
 
@@ -203,7 +219,7 @@ class Flow {
     }
     const mesh::Mesh& mesh = problem_.mesh;
     const auto t = static_cast<std::size_t>(edge.left);
-    const problem::Soil& soil = soil_across(edge);
+    const problem::Soil soil = problem::soil_across(problem_, edge);
     const mesh::Point &a = node_at(mesh, edge.first), &b = node_at(mesh, edge.second);
     const mesh::Point tangent = (b - a).normalized(), normal(tangent.y(), -tangent.x());
     // The quadratic is (1-s)^2 c0 + 2 s (1-s) c1 + s^2 c2.
@@ -280,6 +296,7 @@ class Flow {
 
   const problem::Problem& problem_;
   Eigen::Index footing_;
+  std::vector<problem::Soil> soils_;  // of triangles
   std::vector<FlowPoint> points_;
   Terms dead_, live_;
 };

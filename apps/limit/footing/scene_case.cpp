@@ -96,11 +96,16 @@ class Reader {
             "the bounds are those of a soil whose strength stays");
     require(!material.overconsolidation_ratio, table + "model",
             "the bounds are those of a soil whose strength stays");
-    require(!material.cohesion || !material.cohesion->varies(), table + "cohesion",
-            "it changes from place to place; in ground of [[region]]s it may");
+    const auto require_one = [&](const tables::VaryingNumber& number, const char* key) {
+      require(!number.varies(), table + key,
+              "it changes from place to place; in ground of [[region]]s it may");
+    };
+    require_one(material.cohesion.value_or(0.0), "cohesion");
+    require_one(material.friction_angle.value_or(0.0), "friction_angle");
+    require_one(material.density, material.unit_weight ? "unit_weight" : "density");
     found_.soils.push_back({material.cohesion.value_or(0.0).value,
-                            material.friction_angle.value_or(0.0) * degree,
-                            material.density * gravity});
+                            material.friction_angle.value_or(0.0).value * degree,
+                            material.density.value * gravity});
     if (!diagnosis_.errors().empty()) return;
     problem::Strip strip = found_.strip;
     strip.soil = found_.soils.back();
@@ -241,7 +246,7 @@ std::optional<problem::Cases> scene_case(const scene::Scene& scene, bool tension
   problem::Cases result{case_of(scene, footing), std::nullopt};
   if (scene::is_associated(scene)) return result;
   for (std::size_t m = 0; m < footing.soils.size(); ++m) {
-    const double dilation = scene.material[m].dilation_angle.value_or(0.0) * degree;
+    const double dilation = scene.material[m].dilation_angle.value_or(0.0).value * degree;
     footing.soils[m] = problem::davis_reduced(footing.soils[m], dilation);
   }
   result.davis = case_of(scene, footing);

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "limit/ground/ground_cut.hpp"
 #include "limit/ground/ground_footing.hpp"
 #include "limit/ground/ground_mesh.hpp"
 #include "limit/ground/ground_outline.hpp"
 #include "limit/ground/ground_skins.hpp"
 #include "limit/ground/ground_water.hpp"
+#include "limit/ground/ground_words.hpp"
 
 namespace limit::ground {
 
@@ -48,11 +51,15 @@ problem::Boundary boundary_of(const GroundScene& scene, const GroundSide& side) 
   return boundary;
 }
 
+void make_weight_live(problem::Soil& soil) {
+  soil.live_unit_weight = std::exchange(soil.unit_weight, 0.0);
+  soil.live_weight_gradient = std::exchange(soil.weight_gradient, mesh::Point::Zero());
+}
+
 // All given loads become live, as a strength that just carries them is sought.
 void make_live(problem::Problem& problem) {
   for (problem::Soil& soil : problem.soils) {
-    soil.live_unit_weight = soil.unit_weight;
-    soil.unit_weight = 0.0;
+    make_weight_live(soil);
     soil.live_seepage = soil.seepage;
     soil.seepage.setZero();
   }
@@ -74,12 +81,10 @@ problem::Problem loads_of(const GroundScene& scene, const std::optional<Base>& b
   for (const GroundMaterial& material : scene.materials) {
     problem::Soil soil = material.soil;
     if (reduce) soil = problem::davis_reduced(soil, material.dilation_angle);
-    if (scene.load.sought == Sought::gravity && material.grows) {
-      soil.live_unit_weight = soil.unit_weight;
-      soil.unit_weight = 0.0;
-    }
+    if (scene.load.sought == Sought::gravity && material.grows) make_weight_live(soil);
     if (scene.load.sought == Sought::earthquake && material.grows && scene.load.kh != 0.0) {
       soil.live_unit_weight = soil.unit_weight;
+      soil.live_weight_gradient = soil.weight_gradient;
     }
     problem.soils.push_back(soil);
   }
@@ -218,115 +223,6 @@ void add_long_meshes(const GroundScene& scene, const GroundOutline& outline, dou
   }
 }
 
-std::vector<std::string> assumptions_of(const GroundScene& scene, const problem::Problem& problem,
-                                        const std::optional<Base>& base) {
-  std::vector<std::string> assumptions{
-      "plane strain, rigid-plastic soil, associated flow, no change of geometry",
-      "the polygons of the scene, rigid beyond fixed sides and rollers; the lower bound holds for "
-      "wider ground only if these are far enough away not to matter"};
-  if (base) {
-    const GroundSide& side = scene.sides[base->side];
-    assumptions.push_back(problem::base_assumption(side.base == BaseKind::rough, side.tension));
-    assumptions.emplace_back(problem.footing.may_move[2]
-                                 ? "the footing is free to move along x and y and to rotate"
-                                 : "the footing is guided along its normal");
-  }
-  if (scene.load.kh != 0.0 || scene.load.kv != 0.0) {
-    assumptions.emplace_back("an earthquake is a steady weight aslant (pseudo-static)");
-  }
-  if (scene.water.is_there()) {
-    assumptions.emplace_back(
-        std::string(scene.water.r_u ? "the pressure of pore water is r_u times the weight of the "
-                                      "ground straight above; "
-                                    : "pore water is at rest or seeps as its table tells, "
-                                      "hydrostatic below it; ") +
-        "loads and pressures are in addition to the water's, stresses effective");
-  }
-  if (std::any_of(problem.soils.begin(), problem.soils.end(),
-                  [](const problem::Soil& soil) { return soil.cuts_tension(); })) {
-    assumptions.emplace_back(
-        "where tension is cut off what opens flows by the normality of Rankine; where strength is "
-        "divided, so is that tension");
-  }
-  if (scene.load.sought == Sought::strength) {
-    assumptions.emplace_back(
-        "cohesion and tan(friction angle) of all materials are divided by the factor");
-  }
-  return assumptions;
-}
-
-// Whether the multiplier is the live pressure itself.
-bool is_unit_traction(const GroundScene& scene) {
-  return std::all_of(scene.sides.begin(), scene.sides.end(), [](const GroundSide& side) {
-    return (side.live_pressure == 0.0 || side.live_pressure == 1.0) && side.live_shear == 0.0;
-  });
-}
-
-void describe(const GroundScene& scene, problem::Case& result) {
-  for (const GroundMaterial& material : scene.materials) {
-    if (!material.soil.seepage.isZero(0.0)) continue;  // of another one, under water
-    std::string cohesion = fmt::format("c = {:g} {}", material.cohesion.value, scene.units.stress);
-    if (material.soil.varies()) {
-      cohesion +=
-          fmt::format(" at ({:g}, {:g}), growing by ({:g}, {:g}) {}/{}", material.cohesion.at[0],
-                      material.cohesion.at[1], material.cohesion.gradient[0],
-                      material.cohesion.gradient[1], scene.units.stress, scene.units.length);
-    }
-    if (material.soil.cuts_tension()) {
-      cohesion +=
-          fmt::format(", tension cut off at {:g} {}", material.soil.tension, scene.units.stress);
-    }
-    result.data.emplace_back(
-        material.name,
-        fmt::format("{}, phi = {:g} deg, {:g} {}", cohesion, material.soil.friction_angle / degree,
-                    material.soil.unit_weight, scene.units.unit_weight()));
-  }
-  if (scene.water.is_there()) {
-    result.data.emplace_back(
-        "water", scene.water.r_u
-                     ? fmt::format("r_u = {:g}", *scene.water.r_u)
-                     : fmt::format("{:g} {}, {} points of its table", scene.water.unit_weight,
-                                   scene.units.unit_weight(), scene.water.table.size()));
-  }
-  if (scene.load.kh != 0.0 || scene.load.kv != 0.0) {
-    result.data.emplace_back("earthquake",
-                             fmt::format("kh = {:g}, kv = {:g}", scene.load.kh, scene.load.kv));
-  }
-  switch (scene.load.sought) {
-    case Sought::footing:
-      result.quantity = "mean pressure at collapse, normal to the base";
-      if (scene.load.inclination != 0.0) {
-        result.data.emplace_back("inclination",
-                                 fmt::format("{:g} deg", scene.load.inclination / degree));
-      }
-      if (scene.load.eccentricity != 0.0) {
-        result.data.emplace_back(
-            "eccentricity", fmt::format("{:g} {}", scene.load.eccentricity, scene.units.length));
-      }
-      return;
-    case Sought::traction:
-      if (is_unit_traction(scene)) {
-        result.quantity = "live pressure at collapse";
-        return;
-      }
-      result.quantity = "multiplier of the live tractions at collapse";
-      break;
-    case Sought::gravity:
-      result.quantity = "multiplier of the unit weights at collapse";
-      break;
-    case Sought::earthquake:
-      result.quantity = std::abs(scene.load.kh) == 1.0
-                            ? "horizontal weight over weight (kh) at collapse"
-                            : "multiplier of kh at collapse";
-      break;
-    case Sought::strength:
-      result.quantity = "factor of safety of the strength";
-      result.seeks_strength = true;
-      break;
-  }
-  result.unit = "";
-}
-
 problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
                       const std::optional<Base>& base, bool reduce, tables::Diagnosis& diagnosis) {
   problem::Case result;
@@ -368,6 +264,17 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
   return result;
 }
 
+bool weighs_by_table(const GroundMaterial& material) {
+  return material.unit_weight.samples ||
+         (material.saturated_unit_weight && material.saturated_unit_weight->samples);
+}
+
+// What Davis reduces is one friction angle by one dilation angle.
+bool has_davis_twin(const GroundMaterial& material) {
+  return material.dilation_angle != material.soil.friction_angle &&
+         !material.friction_angle.varies();
+}
+
 }  // namespace
 
 std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagnosis& diagnosis) {
@@ -380,7 +287,9 @@ std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagn
   GroundOutline outline = ground_outline(told, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   GroundScene scene = told;
-  if (scene.water.is_there()) {
+  const bool has_tables = std::ranges::any_of(scene.materials, weighs_by_table);
+  if (has_tables) cut_along_tables(scene);
+  if (scene.water.is_there() || has_tables) {
     wet(scene, diagnosis);
     if (diagnosis.errors().empty()) outline = ground_outline(scene, diagnosis);
     if (!diagnosis.errors().empty()) return std::nullopt;
@@ -389,11 +298,8 @@ std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagn
   if (!diagnosis.errors().empty()) return std::nullopt;
   problem::Cases result{case_of(scene, outline, base, false, diagnosis), std::nullopt};
   if (!diagnosis.errors().empty()) return std::nullopt;
-  const bool is_associated = std::all_of(
-      scene.materials.begin(), scene.materials.end(), [](const GroundMaterial& material) {
-        return material.dilation_angle == material.soil.friction_angle;
-      });
-  if (is_associated) return result;
+  note_dilation(scene, result.associated);
+  if (std::ranges::none_of(scene.materials, has_davis_twin)) return result;
   result.davis = case_of(scene, outline, base, true, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   // Both in the same units, for one report.

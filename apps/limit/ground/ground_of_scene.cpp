@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "constitutive/parameters.hpp"
+#include "limit/ground/ground_soils.hpp"
 #include "scene/complete.hpp"
 #include "scene/derived.hpp"
 #include "scene/ground.hpp"
@@ -58,7 +59,7 @@ class Reader {
     }
     for (const scene::OutlineSide& side : scene_.side) take_side(side);
     take_water();
-    if (diagnosis_.errors().empty()) tell_cohesions(found_, diagnosis_);
+    if (diagnosis_.errors().empty()) tell_soils(found_, diagnosis_);
     check_supports();
     return std::move(found_);
   }
@@ -129,12 +130,21 @@ class Reader {
     const auto parameters = scene::yields(material) ? scene::parameters_of(material)
                                                     : constitutive::MaterialParameters{};
     soil.cohesion = material.cohesion.value_or(parameters.cohesion);
-    soil.soil.friction_angle = parameters.friction_angle * degree;
+    // A cylinder has no friction angle, whatever the scene says.
+    if (scene::model_of(material).frictional) {
+      soil.friction_angle = material.friction_angle.value_or(parameters.friction_angle);
+    }
     soil.dilation_angle = parameters.dilation_angle * degree;
+    const bool is_associated = material.dilation_angle == material.friction_angle;
+    if (is_associated) soil.dilation_angle = soil.friction_angle.value * degree;
+    refuse(material.dilation_angle && material.dilation_angle->varies() && !is_associated,
+           table + "dilation_angle", "it changes from place to place",
+           "allowed is one angle, or that of friction_angle");
     soil.tension_cutoff = material.tension_cutoff;
-    soil.soil.unit_weight = material.density * weight_;
-    if (material.saturated_unit_weight) {
-      soil.saturated_unit_weight = scene::saturated_density(material) * weight_;
+    soil.unit_weight = material.density.scaled(weight_);
+    if (material.saturated_unit_weight && material.unit_weight.value_or(0.0).value > 0.0) {
+      soil.saturated_unit_weight = material.saturated_unit_weight->scaled(
+          material.density.value * weight_, material.unit_weight->value);
     }
     found_.materials.push_back(soil);
   }

@@ -7,8 +7,10 @@
 #include <limits>
 #include <numbers>
 
+#include "limit/ground/ground_soils.hpp"
 #include "scene/mesh_groups.hpp"
 #include "scene/names.hpp"
+#include "scene/sample_files.hpp"
 #include "tables/builder.hpp"
 #include "tables/nearest_name.hpp"
 #include "tables/reader.hpp"
@@ -109,16 +111,15 @@ GroundTable material() {
       .key("cohesion", &GroundMaterial::cohesion,
            {.unit = "Pa",
             .range = at_least(0.0),
-            .doc = "with a gradient [Pa/m] it changes linearly and is more than zero wherever the "
-                   "material is"})
-      .key("friction_angle", [](auto& m) -> auto& { return m.soil.friction_angle; },
-           {.unit = "deg", .range = angles})
-      .in(degree)
+            .doc = "where it changes, more than zero wherever the material is; tables, rasters and "
+                   "points are told as in scene.md"})
+      .key("friction_angle", &GroundMaterial::friction_angle,
+           {.unit = "deg", .range = angles, .doc = "likewise"})
       .key("dilation_angle", &GroundMaterial::dilation_angle,
            {.need = Need::optional,
             .unit = "deg",
             .range = angles,
-            .doc = "for the Davis-reduced bracket",
+            .doc = "for the Davis-reduced bracket; one number",
             .absent = "the friction angle"})
       .in(degree)
       .key("tension_cutoff", &GroundMaterial::tension_cutoff,
@@ -128,8 +129,8 @@ GroundTable material() {
             .doc = "more than zero, largest principal stress (Rankine); beyond the apex it changes "
                    "nothing",
             .absent = "none"})
-      .key("unit_weight", [](auto& m) -> auto& { return m.soil.unit_weight; },
-           {.unit = "N/m3", .range = at_least(0.0)})
+      .key("unit_weight", &GroundMaterial::unit_weight,
+           {.unit = "N/m3", .range = at_least(0.0), .doc = "also linear, or by a table"})
       .key("saturated_unit_weight", &GroundMaterial::saturated_unit_weight,
            {.need = Need::optional,
             .unit = "N/m3",
@@ -200,15 +201,16 @@ void check_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagno
     diagnosis.error(path + "name", "found \"" + material.name + "\" again",
                     "each material has a name of its own");
   }
-  const double friction = material.soil.friction_angle;
+  const double friction = material.friction_angle.value * degree;
   if (!diagnosis.given(path + "dilation_angle")) material.dilation_angle = friction;
-  if (material.dilation_angle > friction &&
+  if (material.dilation_angle > friction && !material.friction_angle.varies() &&
       diagnosis.good({path + "dilation_angle", path + "friction_angle"})) {
     diagnosis.error(path + "dilation_angle",
                     fmt::format("found {:g}", material.dilation_angle / degree),
                     fmt::format("allowed is 0 .. friction_angle ({:g})", friction / degree));
   }
   if (material.cohesion.value == 0.0 && !material.cohesion.varies() && friction == 0.0 &&
+      !material.friction_angle.varies() &&
       diagnosis.good({path + "cohesion", path + "friction_angle"})) {
     diagnosis.error(path + "cohesion", "neither cohesion nor friction", "one must be positive");
   }
@@ -230,72 +232,6 @@ void find_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnos
     diagnosis.error(path, "found \"" + region.material_name + "\"",
                     "materials are " + tables::joined(names),
                     tables::nearest_name(region.material_name, names));
-  }
-}
-
-// A linear cohesion is least in a corner of a region. From here on it is told from the middle of
-// the corners, so that its value there is typical of the material.
-void tell_cohesion(GroundScene& scene, std::size_t m, tables::Diagnosis& diagnosis) {
-  const tables::LinearField& told = scene.materials[m].cohesion;
-  problem::Soil& soil = scene.materials[m].soil;
-  soil.cohesion = told.value;
-  soil.centre = {told.at[0], told.at[1]};
-  soil.cohesion_gradient = {told.gradient[0], told.gradient[1]};
-  if (!soil.varies()) return;
-  mesh::Point sum(0.0, 0.0);
-  double corners = 0.0;
-  for (const GroundRegion& region : scene.regions) {
-    if (region.material != m) continue;
-    for (const mesh::Point& place : region.outline) {
-      sum += place;
-      corners += 1.0;
-      const double here = soil.cohesion_at(place);
-      if (here > 0.0) continue;
-      diagnosis.error(fmt::format("material.{}.cohesion", m),
-                      fmt::format("{:g} at ({:g}, {:g}), in region {}", here, place.x(), place.y(),
-                                  region.name),
-                      "allowed is a cohesion of more than zero wherever the material is");
-      return;
-    }
-  }
-  if (corners == 0.0) return;
-  const mesh::Point middle = sum / corners;
-  soil.cohesion = soil.cohesion_at(middle);
-  soil.centre = middle;
-}
-
-// The least tension at which a cut-off changes nothing is that of the apex, infinite in clay. Where
-// the cohesion changes, it must be below the apex everywhere.
-void tell_tension(GroundScene& scene, std::size_t m, tables::Diagnosis& diagnosis) {
-  const GroundMaterial& material = scene.materials[m];
-  problem::Soil& soil = scene.materials[m].soil;
-  if (!material.tension_cutoff) return;
-  if (*material.tension_cutoff == 0.0) {
-    diagnosis.error(fmt::format("material.{}.tension_cutoff", m), "found 0",
-                    "at a free face no stress is strictly below none, and no stress field can be "
-                    "certified: allowed is a trace, as a thousandth of the cohesion");
-    return;
-  }
-  const double tangent = std::tan(soil.friction_angle);
-  double least = std::numeric_limits<double>::infinity(), most = 0.0;
-  for (const GroundRegion& region : scene.regions) {
-    if (region.material != m) continue;
-    for (const mesh::Point& place : region.outline) {
-      const double apex = tangent > 0.0 ? soil.cohesion_at(place) / tangent
-                                        : std::numeric_limits<double>::infinity();
-      least = std::min(least, apex);
-      most = std::max(most, apex);
-    }
-  }
-  if (*material.tension_cutoff < least) {
-    soil.tension = *material.tension_cutoff;
-  } else if (*material.tension_cutoff < most) {
-    diagnosis.error(
-        fmt::format("material.{}.tension_cutoff", m),
-        fmt::format("found {:g}, and the cohesion bears {:g} Pa of tension in one place "
-                    "and {:g} in another",
-                    *material.tension_cutoff, least, most),
-        "allowed is a cut-off below what the cohesion bears everywhere, or none");
   }
 }
 
@@ -329,12 +265,6 @@ void check_side(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnosis)
 
 }  // namespace
 
-void tell_cohesions(GroundScene& scene, tables::Diagnosis& diagnosis) {
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) tell_cohesion(scene, m, diagnosis);
-  if (!diagnosis.errors().empty()) return;
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) tell_tension(scene, m, diagnosis);
-}
-
 std::optional<GroundScene> read_ground_scene(std::string_view text,
                                              std::span<const std::string> settings,
                                              tables::Diagnosis& diagnosis,
@@ -346,9 +276,10 @@ std::optional<GroundScene> read_ground_scene(std::string_view text,
     diagnosis.error("mesh.file", "found a solid mesh", "fpm-limit's ground is plane");
     return std::nullopt;
   }
+  scene::take_sample_files(ground_tables(), scene, diagnosis);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) check_material(scene, i, diagnosis);
   for (std::size_t i = 0; i < scene.regions.size(); ++i) find_material(scene, i, diagnosis);
-  if (diagnosis.errors().empty()) tell_cohesions(scene, diagnosis);
+  if (diagnosis.errors().empty()) tell_soils(scene, diagnosis);
   for (std::size_t i = 0; i < scene.sides.size(); ++i) check_side(scene, i, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   return scene;

@@ -48,7 +48,7 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
     if (std::find(said.begin(), said.end(), note) == said.end()) said.push_back(note);
     // The weight, aslant in an earthquake, along the skin and across it.
     const mesh::Point way = (outline.at(segment.second) - outline.at(segment.first)).normalized();
-    const mesh::Point force = soils.live_force(soil);
+    const mesh::Point force = soils.live_force(soil, soil.centre);
     const double along = std::abs(way.dot(force));
     const double presses_on = way.x() * force.y() - way.y() * force.x();
     // What water lifts off the face has no strength at all.

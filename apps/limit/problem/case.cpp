@@ -55,6 +55,7 @@ Soil davis_reduced(const Soil& soil, double dilation_angle) {
   Soil reduced = soil;
   reduced.cohesion *= factor;
   reduced.cohesion_gradient *= factor;
+  reduced.divisor /= factor;
   reduced.friction_angle = std::atan(factor * std::tan(phi));
   return reduced;
 }

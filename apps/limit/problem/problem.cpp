@@ -1,16 +1,6 @@
 #include "limit/problem/problem.hpp"
 
-#include <cmath>
-
 namespace limit::problem {
-
-int softer(const Problem& problem, int one, int other, const mesh::Point& place) {
-  const auto strength = [&](int region) {
-    const Soil& soil = problem.soils[static_cast<std::size_t>(region)];
-    return soil.cohesion_at(place) * std::cos(soil.friction_angle) + std::sin(soil.friction_angle);
-  };
-  return strength(other) < strength(one) ? other : one;
-}
 
 Problem in_units(const Problem& problem, const Units& units) {
   Problem scaled = problem;
@@ -24,6 +14,10 @@ Problem in_units(const Problem& problem, const Units& units) {
     soil.centre /= units.length;
     soil.unit_weight /= units.stress / units.length;
     soil.live_unit_weight *= live * units.length;
+    soil.weight_gradient /= units.stress / (units.length * units.length);
+    soil.live_weight_gradient *= live * units.length * units.length;
+    soil.variation_length *= units.length;
+    soil.variation_stress *= units.stress;
     soil.seepage /= units.stress / units.length;
     soil.live_seepage *= live * units.length;
   }

@@ -3,17 +3,19 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "limit/mesh/mesh.hpp"
+#include "limit/problem/variation.hpp"
 
 namespace limit::problem {
 
 /// A rigid-perfectly-plastic Mohr-Coulomb soil (Tresca if the friction angle is 0), associated.
 struct Soil {
-  double cohesion = 0.0;          // [Pa] where it changes from place to place, that at `centre`
+  double cohesion = 0.0;          // [Pa] where it changes linearly, that at `centre`
   double friction_angle = 0.0;    // [rad] 0 <= phi < pi/2
   double unit_weight = 0.0;       // [N/m3] acts along Problem::pull
   double live_unit_weight = 0.0;  // [N/m3] per unit of the multiplier, along Problem::live_pull
@@ -25,8 +27,28 @@ struct Soil {
   /// [Pa] a tension cut-off (Rankine): no principal stress is more. Infinite: none.
   double tension = std::numeric_limits<double>::infinity();
 
+  /// [N/m3 per m] Of the unit weights, which are those at `centre`.
+  mesh::Point weight_gradient{0.0, 0.0}, live_weight_gradient{0.0, 0.0};
+  /// A strength that changes in another way (local_soil.hpp), over a divisor; cohesion and friction
+  /// angle above are then typical of it.
+  std::shared_ptr<const Variation> variation = nullptr;
+  double variation_length = 1.0, variation_stress = 1.0;  // [m], [Pa] in the problem's units
+  double divisor = 1.0;                                   // of that cohesion and tan(phi)
+
   [[nodiscard]] bool cuts_tension() const { return std::isfinite(tension); }
-  [[nodiscard]] bool varies() const { return !cohesion_gradient.isZero(0.0); }
+  /// Whether its strength or its weight changes from place to place.
+  [[nodiscard]] bool varies() const {
+    return variation != nullptr || !cohesion_gradient.isZero(0.0) || has_uneven_weight();
+  }
+  [[nodiscard]] bool has_uneven_weight() const {
+    return !weight_gradient.isZero(0.0) || !live_weight_gradient.isZero(0.0);
+  }
+  [[nodiscard]] double unit_weight_at(const mesh::Point& place) const {
+    return unit_weight + weight_gradient.dot(place - centre);
+  }
+  [[nodiscard]] double live_unit_weight_at(const mesh::Point& place) const {
+    return live_unit_weight + live_weight_gradient.dot(place - centre);
+  }
   [[nodiscard]] double cohesion_at(const mesh::Point& place) const {
     return cohesion + cohesion_gradient.dot(place - centre);
   }
@@ -81,12 +103,12 @@ struct Problem {
   /// strength than it takes, nothing limits it. Absent: wherever it ends.
   std::optional<double> most_multiplier;
 
-  /// Body force on a soil, [N/m3]; live, per unit of the multiplier.
-  [[nodiscard]] mesh::Point force(const Soil& soil) const {
-    return soil.unit_weight * pull + soil.seepage;
+  /// Body force on a soil at a place, [N/m3]; live, per unit of the multiplier.
+  [[nodiscard]] mesh::Point force(const Soil& soil, const mesh::Point& place) const {
+    return soil.unit_weight_at(place) * pull + soil.seepage;
   }
-  [[nodiscard]] mesh::Point live_force(const Soil& soil) const {
-    return soil.live_unit_weight * live_pull + soil.live_seepage;
+  [[nodiscard]] mesh::Point live_force(const Soil& soil, const mesh::Point& place) const {
+    return soil.live_unit_weight_at(place) * live_pull + soil.live_seepage;
   }
 };
 
@@ -99,12 +121,6 @@ struct Units {
   /// Of the multiplier.
   [[nodiscard]] double multiplier() const { return stress * multiplier_per_stress; }
 };
-
-/// The soil in which the velocity jumps where two meet: a bound either way, and the better one in
-/// the softer of them, under a mean pressure of one. Of one soil, that one.
-/// @param one, other  regions of the two sides
-/// @param place  where they meet
-[[nodiscard]] int softer(const Problem& problem, int one, int other, const mesh::Point& place);
 
 /// The same problem in other units; its multiplier is the old one over `units.multiplier()`.
 [[nodiscard]] Problem in_units(const Problem& problem, const Units& units);

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "limit/problem/local_soil.hpp"
+
 namespace limit::problem {
 
 namespace {
@@ -84,8 +86,8 @@ bool is_rough(const Problem& problem, int side) {
 bool is_narrow(const Problem& problem, const Corner& corner) {
   double friction = 0.0;
   for (const int triangle : corner.triangles) {
-    const int region = problem.mesh.triangles[static_cast<std::size_t>(triangle)].region;
-    friction = std::max(friction, problem.soils[static_cast<std::size_t>(region)].friction_angle);
+    const mesh::Triangle& at = problem.mesh.triangles[static_cast<std::size_t>(triangle)];
+    friction = std::max(friction, soil_in(problem, at, Bound::upper).friction_angle);
   }
   double least = 0.0;
   for (const int side : {corner.from, corner.to}) {

@@ -1,8 +1,11 @@
 #include "limit/programme/lower_bound.hpp"
 
+#include <array>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "limit/problem/local_soil.hpp"
 #include "limit/programme/yield_cones.hpp"
 
 namespace limit::programme {
@@ -49,11 +52,7 @@ class Builder {
  public:
   explicit Builder(const problem::Problem& problem)
       : problem_(problem), edges_(mesh::edges_of(problem.mesh)), overburden_(problem) {
-    for (const mesh::Triangle& triangle : problem.mesh.triangles) {
-      for (const int node : triangle.nodes) {
-        add_cone(triangle.region, problem.mesh.nodes[static_cast<std::size_t>(node)]);
-      }
-    }
+    add_cones();
     for (std::size_t corner = 0; corner < cuts_.size(); ++corner) add_cut(corner);
     for (const mesh::Edge& edge : edges_) add_contacts(edge);
     if (problem.most_multiplier) {
@@ -93,10 +92,48 @@ class Builder {
   }
   Eigen::Index multiplier() const { return 3 * static_cast<Eigen::Index>(cones_.size()); }
 
-  void add_cone(int region, const mesh::Point& place) {
-    // Linear, as the stress is, so that the corners decide.
-    const problem::Soil& varying = problem_.soils[static_cast<std::size_t>(region)];
-    const problem::Soil soil = varying.with_cohesion(varying.cohesion_at(place));
+  // A cohesion is linear, as the stress is, so that the corners decide; under a weight that is
+  // linear the stress is quadratic, and its Bezier points do: of a linear cohesion they are its
+  // values at the middles of sides.
+  void add_cones() {
+    const auto& triangles = problem_.mesh.triangles;
+    std::vector<problem::Soil> soils;
+    for (const mesh::Triangle& triangle : triangles) {
+      soils.push_back(problem::soil_in(problem_, triangle, problem::Bound::lower));
+      for (int i = 0; i < 3; ++i) add_cone(soils.back(), node_of(triangle, i));
+    }
+    middles_.assign(triangles.size(), -1);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      if (!soils[t].has_uneven_weight()) continue;
+      middles_[t] = multiplier();
+      for (int i = 0; i < 3; ++i) {
+        add_cone(soils[t], (node_of(triangles[t], i) + node_of(triangles[t], i + 1)) / 2.0);
+      }
+    }
+  }
+
+  const mesh::Point& node_of(const mesh::Triangle& triangle, int i) const {
+    return problem_.mesh
+        .nodes[static_cast<std::size_t>(triangle.nodes[static_cast<std::size_t>(i % 3)])];
+  }
+
+  // The Bezier point of the middle of a side, from inside a triangle: a variable of its own or the
+  // mean of the ends'.
+  std::vector<std::pair<Eigen::Index, double>> middle_of(int triangle,
+                                                         const mesh::Edge& edge) const {
+    const Eigen::Index first = corner_at(triangle, edge.first),
+                       second = corner_at(triangle, edge.second);
+    const Eigen::Index own = middles_[static_cast<std::size_t>(triangle)];
+    if (own < 0) return {{first, 0.5}, {second, 0.5}};
+    const auto i = (first - corner(triangle, 0)) / 3, j = (second - corner(triangle, 0)) / 3;
+    return {{own + 3 * ((i + 1) % 3 == j ? i : j), 1.0}};
+  }
+  bool is_quadratic(int triangle) const {
+    return triangle >= 0 && middles_[static_cast<std::size_t>(triangle)] >= 0;
+  }
+
+  void add_cone(const problem::Soil& local, const mesh::Point& place) {
+    const problem::Soil soil = local.with_cohesion(local.cohesion_at(place));
     const double load = overburden_.at(soil, place);
     cones_.push_back(yield_cone(soil, load, reserve));
     starts_.push_back(inner_point(cones_.back(), load));
@@ -127,8 +164,10 @@ class Builder {
     if (edge.boundary < 0) return;
     if (!problem_.boundaries[static_cast<std::size_t>(edge.boundary)].may_open) return;
     const mesh::Point normal = SideFrame(problem_.mesh, edge).normal;
-    for (const int node : {edge.first, edge.second}) {
-      const Eigen::Index stress = corner_at(edge.left, node);
+    std::vector<Eigen::Index> stresses{corner_at(edge.left, edge.first),
+                                       corner_at(edge.left, edge.second)};
+    if (is_quadratic(edge.left)) stresses.push_back(middle_of(edge.left, edge).front().first);
+    for (const Eigen::Index stress : stresses) {
       contacts_.push_back({stress, multiplier(), normal});
       cones_.push_back(contact_cone(cones_[static_cast<std::size_t>(stress / 3)].scale, reserve));
       starts_.push_back(inner_point(cones_.back(), 0.0));
@@ -164,29 +203,42 @@ class Builder {
   }
 
   // div sigma + gamma pull = 0, gamma dead and live, with the constant gradients of the corners'
-  // shape functions.
+  // shape functions; of a quadratic stress, whose divergence is linear, in every corner.
   void equilibrium_of_triangles() {
     const mesh::Mesh& mesh = problem_.mesh;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const mesh::Triangle& triangle = mesh.triangles[t];
       const double area2 = mesh::twice_area(mesh, triangle);
       const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(triangle.region)];
-      for (int row = 0; row < 2; ++row) {
-        begin_equation(-problem_.force(soil)[row]);
-        add(multiplier(), problem_.live_force(soil)[row]);
-        for (int i = 0; i < 3; ++i) {
-          const auto at = [&](int k) -> const mesh::Point& {
-            return mesh.nodes[static_cast<std::size_t>(
-                triangle.nodes[static_cast<std::size_t>((i + k) % 3)])];
-          };
-          const mesh::Point gradient =
-              mesh::Point(at(1).y() - at(2).y(), at(2).x() - at(1).x()) / area2;
-          add(corner(static_cast<int>(t), i),
-              row == 0 ? Form(gradient.x() * stress_xx() + gradient.y() * stress_xy())
-                       : Form(gradient.x() * stress_xy() + gradient.y() * stress_yy()));
+      std::array<mesh::Point, 3> gradients;
+      for (int i = 0; i < 3; ++i) {
+        const mesh::Point &next = node_of(triangle, i + 1), &last = node_of(triangle, i + 2);
+        gradients[static_cast<std::size_t>(i)] =
+            mesh::Point(next.y() - last.y(), last.x() - next.x()) / area2;
+      }
+      const Eigen::Index first = corner(static_cast<int>(t), 0);
+      const bool is_linear = middles_[t] < 0;
+      for (std::size_t at = 0; at < (is_linear ? 1U : 3U); ++at) {
+        const mesh::Point& place = node_of(triangle, static_cast<int>(at));
+        for (int row = 0; row < 2; ++row) {
+          begin_equation(-problem_.force(soil, place)[row]);
+          add(multiplier(), problem_.live_force(soil, place)[row]);
+          for (std::size_t i = 0; i < 3; ++i) {
+            // Of the Bezier points only the corner and the middles next to it have slopes there.
+            const Eigen::Index stress =
+                is_linear || i == at
+                    ? first + 3 * static_cast<Eigen::Index>(i)
+                    : middles_[t] + 3 * static_cast<Eigen::Index>((at + 1) % 3 == i ? at : i);
+            add(stress, divergence(gradients[i], row), is_linear ? 1.0 : 2.0);
+          }
         }
       }
     }
+  }
+
+  static Form divergence(const mesh::Point& gradient, int row) {
+    return row == 0 ? Form(gradient.x() * stress_xx() + gradient.y() * stress_xy())
+                    : Form(gradient.x() * stress_xy() + gradient.y() * stress_yy());
   }
 
   void equilibrium_of_sides() {
@@ -216,6 +268,36 @@ class Builder {
           add(left, traction(side.normal, side.tangent));
         }
       }
+      if (is_quadratic(edge.left) || is_quadratic(edge.right)) equilibrium_of_middle(edge, side);
+    }
+  }
+
+  // Tractions that are quadratic along a side are the same if their Bezier points are.
+  void equilibrium_of_middle(const mesh::Edge& edge, const SideFrame& side) {
+    const auto add_all = [&](int triangle, const mesh::Point& direction, double sign) {
+      for (const auto& [stress, share] : middle_of(triangle, edge)) {
+        add(stress, traction(side.normal, direction), sign * share);
+      }
+    };
+    if (edge.right >= 0) {
+      for (const mesh::Point& direction : {side.normal, side.tangent}) {
+        begin_equation(0.0);
+        add_all(edge.left, direction, 1.0);
+        add_all(edge.right, direction, -1.0);
+      }
+      return;
+    }
+    const problem::Boundary& boundary =
+        problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
+    if (boundary.normal == problem::Known::traction) {
+      begin_equation(boundary.normal_stress);
+      add(multiplier(), -boundary.live_normal_stress);
+      add_all(edge.left, side.normal, 1.0);
+    }
+    if (boundary.tangential == problem::Known::traction) {
+      begin_equation(boundary.shear_stress);
+      add(multiplier(), -boundary.live_shear_stress);
+      add_all(edge.left, side.tangent, 1.0);
     }
   }
 
@@ -231,7 +313,8 @@ class Builder {
     }
   }
 
-  // The traction's power on a rigid motion, over one side; both are linear along it.
+  // The traction's power on a rigid motion, over one side; both are linear along it, or the
+  // traction is quadratic.
   void add_resultant(const mesh::Edge& edge, int motion) {
     const problem::Boundary& boundary =
         problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
@@ -246,6 +329,15 @@ class Builder {
                            : mesh::Point(-arm.y(), arm.x());
     };
     const mesh::Point first = velocity(side.first), second = velocity(side.second);
+    if (is_quadratic(edge.left)) {
+      add(corner_at(edge.left, edge.first),
+          traction(side.normal, side.length / 12 * (3 * first + second)));
+      add(middle_of(edge.left, edge).front().first,
+          traction(side.normal, side.length / 6 * (first + second)));
+      add(corner_at(edge.left, edge.second),
+          traction(side.normal, side.length / 12 * (first + 3 * second)));
+      return;
+    }
     add(corner_at(edge.left, edge.first),
         traction(side.normal, side.length / 6 * (2 * first + second)));
     add(corner_at(edge.left, edge.second),
@@ -257,6 +349,7 @@ class Builder {
   Overburden overburden_;
   std::vector<YieldCone> cones_;
   std::vector<Eigen::Vector3d> starts_;
+  std::vector<Eigen::Index> middles_;  // first variable of a triangle's three; -1: none
   // The stress of a corner, and the variable that is its normal component.
   struct Contact {
     Eigen::Index stress, variable;
@@ -278,9 +371,15 @@ ConeProgram lower_bound_program(const problem::Problem& problem) {
 problem::StressField stress_field(const problem::Problem& problem,
                                   const Eigen::VectorXd& variables) {
   problem::StressField field(problem.mesh.triangles.size());
+  auto middles = static_cast<Eigen::Index>(9 * field.size());
   for (std::size_t t = 0; t < field.size(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d x = variables.segment<3>(9 * static_cast<Eigen::Index>(t) + 3 * i);
+    const int region = problem.mesh.triangles[t].region;
+    const bool is_quadratic = problem.soils[static_cast<std::size_t>(region)].has_uneven_weight();
+    field[t].resize(3, is_quadratic ? 6 : 3);
+    for (Eigen::Index i = 0; i < field[t].cols(); ++i) {
+      const Eigen::Index at = i < 3 ? 9 * static_cast<Eigen::Index>(t) + 3 * i : middles;
+      if (i >= 3) middles += 3;
+      const Eigen::Vector3d x = variables.segment<3>(at);
       field[t].col(i) << x[0] + x[1], x[0] - x[1], x[2];
     }
   }

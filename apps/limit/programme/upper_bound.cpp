@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "limit/problem/local_soil.hpp"
 #include "limit/programme/velocity_shapes.hpp"
+#include "limit/programme/weight_power.hpp"
 #include "limit/programme/yield_cones.hpp"
 
 namespace limit::programme {
@@ -54,15 +56,12 @@ struct Loads {
   Eigen::VectorXd dead, live;
 
  private:
-  // The integral of a quadratic is that of its middles alone, a third of the area each.
   void add_weight(const problem::Problem& problem, std::size_t t) {
-    const mesh::Triangle& triangle = problem.mesh.triangles[t];
-    const problem::Soil& soil = problem.soils[static_cast<std::size_t>(triangle.region)];
-    const double third = mesh::twice_area(problem.mesh, triangle) / 6.0;
-    for (std::size_t middle = 3; middle < 6; ++middle) {
-      const auto row = static_cast<Eigen::Index>(2 * (6 * t + middle));
-      dead.segment<2>(row) += third * problem.force(soil);
-      live.segment<2>(row) += third * problem.live_force(soil);
+    const WeightForces forces = weight_forces(problem, t);
+    for (std::size_t place = 0; place < 6; ++place) {
+      const auto row = static_cast<Eigen::Index>(2 * (6 * t + place));
+      dead.segment<2>(row) += forces.dead[place];
+      live.segment<2>(row) += forces.live[place];
     }
   }
 
@@ -135,9 +134,8 @@ class Builder {
 
  private:
   // First variable of a new cone.
-  int add_cone(int region, const mesh::Point& place, double cohesion) {
-    const problem::Soil soil =
-        problem_.soils[static_cast<std::size_t>(region)].with_cohesion(cohesion);
+  int add_cone(const problem::Soil& local, const mesh::Point& place, double cohesion) {
+    const problem::Soil soil = local.with_cohesion(cohesion);
     const double load = overburden_.at(soil, place);
     cones_.push_back(yield_cone(soil, load, 0.0));
     starts_.push_back(inner_point(cones_.back(), load));
@@ -165,14 +163,14 @@ class Builder {
     const mesh::Triangle& triangle = mesh.triangles[t];
     const VelocityTriangle shapes = velocity_triangle(mesh, triangle);
     const double weight = shapes.area / 3.0;
-    const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(triangle.region)];
+    const problem::Soil soil = problem::soil_in(problem_, triangle, problem::Bound::upper);
     double sum = 0.0;
     for (const int node : triangle.nodes) sum += soil.cohesion_at(node_at(mesh, node));
     for (std::size_t corner = 0; corner < 3; ++corner) {
       // The integral of a linear cohesion times a linear rate.
       const mesh::Point& place = node_at(mesh, triangle.nodes[corner]);
       const double cohesion = (sum + soil.cohesion_at(place)) / 4.0;
-      const int column = add_cone(triangle.region, place, cohesion);
+      const int column = add_cone(soil, place, cohesion);
       for (std::size_t i = 0; i < 6; ++i) {
         const auto row = static_cast<int>(2 * (6 * t + i));
         const mesh::Point slope = weight * shapes.slopes[corner][i];
@@ -205,14 +203,8 @@ class Builder {
       may_open = boundary.may_open;
     }
     const mesh::Mesh& mesh = problem_.mesh;
-    const auto region_of = [&](int triangle) {
-      return mesh.triangles[static_cast<std::size_t>(triangle)].region;
-    };
     const mesh::Point along = node_at(mesh, edge.second) - node_at(mesh, edge.first);
-    const int region = problem::softer(problem_, region_of(edge.left),
-                                       region_of(edge.right >= 0 ? edge.right : edge.left),
-                                       node_at(mesh, edge.first) + along / 2);
-    const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(region)];
+    const problem::Soil soil = problem::soil_across(problem_, edge);
     const double cosine = std::cos(soil.friction_angle);
     const double length = along.norm();
     const mesh::Point tangent = along / length, normal(tangent.y(), -tangent.x());
@@ -227,7 +219,7 @@ class Builder {
       const double share = 0.25 + 0.25 * static_cast<double>(c);
       const double cohesion =
           (1.0 - share) * soil.cohesion_at(at[0]) + share * soil.cohesion_at(at[2]);
-      const int column = add_cone(region, at[c], cohesion);
+      const int column = add_cone(soil, at[c], cohesion);
       const bool cut = soil.cuts_tension();
       if (may_open) add_contact(column, cut);
       for (std::size_t i = 0; i < 3; ++i) {

@@ -1,0 +1,151 @@
+#include "limit/ground/ground_cut.hpp"
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
+#include <utility>
+
+#include "limit/ground/ground_soils.hpp"
+
+namespace limit::ground {
+
+namespace {
+
+using Place = boost::geometry::model::d2::point_xy<double>;
+using Polygon = boost::geometry::model::polygon<Place, false, false>;
+
+using Ring = Polygon::ring_type;
+
+Ring ring_of(const std::vector<mesh::Point>& outline) {
+  Ring ring;
+  for (const mesh::Point& point : outline) ring.emplace_back(point.x(), point.y());
+  return ring;
+}
+
+Polygon polygon_of(const std::vector<mesh::Point>& outline,
+                   const std::vector<std::vector<mesh::Point>>& holes = {}) {
+  Polygon polygon;
+  polygon.outer() = ring_of(outline);
+  for (const std::vector<mesh::Point>& hole : holes) polygon.inners().push_back(ring_of(hole));
+  boost::geometry::correct(polygon);
+  return polygon;
+}
+
+// Where the table meets an outline, both give the place, but for rounding.
+std::vector<mesh::Point> outline_of(const Ring& ring, double one_place) {
+  std::vector<mesh::Point> outline;
+  for (const Place& place : ring) {
+    const mesh::Point point(place.x(), place.y());
+    if (outline.empty() || (point - outline.back()).norm() > one_place) outline.push_back(point);
+  }
+  while (outline.size() > 1 && (outline.front() - outline.back()).norm() <= one_place) {
+    outline.pop_back();
+  }
+  return outline;
+}
+
+// No sliver, as is left where a region's outline and the table are one line.
+bool is_something(const Polygon& part, const Extent& ground) {
+  constexpr double nothing = 1e-9;
+  return boost::geometry::area(part) > nothing * (ground.high - ground.low).squaredNorm();
+}
+
+// The coordinate along one axis of all lines of the tables of a material's weights.
+std::vector<double> lines_of(const GroundMaterial& material, std::size_t axis) {
+  std::vector<double> lines;
+  const auto add = [&](const tables::VaryingNumber& weight) {
+    if (!weight.samples || weight.samples->axis != axis) return;
+    const auto& told = weight.samples->coordinates;
+    lines.insert(lines.end(), told.begin(), told.end());
+  };
+  add(material.unit_weight);
+  if (material.saturated_unit_weight) add(*material.saturated_unit_weight);
+  std::ranges::sort(lines);
+  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+  return lines;
+}
+
+// The line through a table's values at both ends of a strip, in which it has no others.
+tables::VaryingNumber between(const tables::VaryingNumber& table, std::size_t axis, double low,
+                              double high) {
+  if (!table.samples || table.samples->axis != axis) return table;
+  std::array<double, 2> first{}, second{}, gradient{};
+  first[axis] = low;
+  second[axis] = high;
+  const double value = table.at_place(first);
+  gradient[axis] = (table.at_place(second) - value) / (high - low);
+  return {value, first, gradient};
+}
+
+void cut_along(GroundScene& scene, std::size_t axis) {
+  const Extent ground = extent_of(scene);
+  const mesh::Point margin = ground.high - ground.low;
+  std::vector<GroundRegion> regions;
+  for (GroundRegion& whole : scene.regions) {
+    const std::vector<double> lines = lines_of(scene.materials[whole.material], axis);
+    if (lines.empty()) regions.push_back(whole);
+    for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+      mesh::Point low = ground.low - margin, high = ground.high + margin;
+      low[static_cast<Eigen::Index>(axis)] = lines[i];
+      high[static_cast<Eigen::Index>(axis)] = lines[i + 1];
+      const std::vector<mesh::Point> strip{low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+      for (GroundPart& part : parts_within(whole, strip, ground)) {
+        GroundMaterial material = scene.materials[whole.material];
+        material.unit_weight = between(material.unit_weight, axis, lines[i], lines[i + 1]);
+        if (material.saturated_unit_weight) {
+          *material.saturated_unit_weight =
+              between(*material.saturated_unit_weight, axis, lines[i], lines[i + 1]);
+        }
+        recentre(part.centre, material.soil);
+        if (!material.unit_weight.samples) take_weight(material.unit_weight, material.soil);
+        scene.materials.push_back(std::move(material));
+        part.region.material = scene.materials.size() - 1;
+        regions.push_back(std::move(part.region));
+      }
+    }
+  }
+  scene.regions = std::move(regions);
+}
+
+}  // namespace
+
+Extent extent_of(const GroundScene& scene) {
+  Extent extent{scene.regions.front().outline.front(), scene.regions.front().outline.front()};
+  for (const GroundRegion& region : scene.regions) {
+    for (const mesh::Point& place : region.outline) {
+      extent.low = extent.low.cwiseMin(place);
+      extent.high = extent.high.cwiseMax(place);
+    }
+  }
+  return extent;
+}
+
+std::vector<GroundPart> parts_within(const GroundRegion& region,
+                                     const std::vector<mesh::Point>& polygon,
+                                     const Extent& ground) {
+  std::vector<Polygon> pieces;
+  boost::geometry::intersection(polygon_of(region.outline, region.holes), polygon_of(polygon),
+                                pieces);
+  std::vector<GroundPart> parts;
+  for (const Polygon& piece : pieces) {
+    if (!is_something(piece, ground)) continue;
+    Place centre(0.0, 0.0);
+    boost::geometry::centroid(piece, centre);
+    GroundPart& part = parts.emplace_back(GroundPart{region, {centre.x(), centre.y()}});
+    constexpr double rounding = 1e-9;
+    const double one_place = rounding * (ground.high - ground.low).norm();
+    part.region.outline = outline_of(piece.outer(), one_place);
+    part.region.holes.clear();
+    for (const Ring& hole : piece.inners()) {
+      part.region.holes.push_back(outline_of(hole, one_place));
+    }
+  }
+  return parts;
+}
+
+void cut_along_tables(GroundScene& scene) {
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) cut_along(scene, axis);
+}
+
+}  // namespace limit::ground
