@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/choices.hpp"
+#include "scene/curved_strength.hpp"
 #include "scene/mesh_file.hpp"
 #include "tables/table.hpp"
 
@@ -155,6 +156,7 @@ struct Material {
   std::optional<double> swelling_index;           // as is this,
   std::optional<double> critical_stress_ratio;    // this
   std::optional<double> overconsolidation_ratio;  // and this
+  CurvedStrength curve;                           // of models with a curved envelope
   std::string match = "plane_strain";             // of a family of several
   Point region_min;                               // [m] empty: everywhere
   Point region_max;                               // [m]

@@ -9,6 +9,7 @@ problem::Soil weakened(const problem::Soil& soil, double factor) {
   weak.cohesion /= factor;
   weak.cohesion_gradient /= factor;
   weak.tension /= factor;
+  weak.envelope.factor *= factor;
   weak.friction_angle = std::atan(std::tan(soil.friction_angle) / factor);
   return weak;
 }

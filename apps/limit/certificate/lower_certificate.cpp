@@ -182,9 +182,33 @@ double excess(const Ceiling& ceiling, const Eigen::VectorXd& field) {
   const double radius = std::hypot((stress[0] - stress[1]) / 2.0, stress[2]);
   const problem::Soil& soil = *ceiling.soil;
   if (ceiling.is_cut) return mean + radius - soil.tension;
+  if (soil.is_curved()) {
+    const double beyond = mean - soil.envelope.apex();
+    return radius - soil.envelope.radius_about(-mean) + std::max(0.0, beyond);
+  }
   const double strength =
       ceiling.cohesion * std::cos(soil.friction_angle) - mean * std::sin(soil.friction_angle);
   return radius - strength;
+}
+
+// How far a stress that is outside has to be drawn towards one that is strictly within.
+double share_of_rest(const Ceiling& ceiling, const Eigen::VectorXd& field,
+                     const Eigen::VectorXd& rest) {
+  const double here = excess(ceiling, field), resting = excess(ceiling, rest);
+  // Convex: at the share t of rest the excess is at most (1 - t) here + t resting.
+  if (ceiling.soil == nullptr || !ceiling.soil->is_curved()) return here / (here - resting);
+  // The excess of a curved envelope is not, but what is within it is convex.
+  double outside = 0.0, inside = 1.0;
+  constexpr double close = 1e-12;
+  while (inside - outside > close) {
+    const double middle = (inside + outside) / 2.0;
+    const Eigen::VectorXd corner = (1.0 - middle) * field.segment<3>(ceiling.corner) +
+                                   middle * rest.segment<3>(ceiling.corner);
+    Ceiling alone = ceiling;
+    alone.corner = 0;
+    (excess(alone, corner) > 0.0 ? outside : inside) = middle;
+  }
+  return inside;
 }
 
 Eigen::VectorXd as_vector(const problem::StressField& field) {
@@ -273,10 +297,8 @@ LowerCertificate certify_lower(const problem::Problem& problem,
     const double here = excess(ceiling, x);
     certificate.yield_excess = std::max(certificate.yield_excess, here);
     if (here <= 0.0) continue;
-    // Convex: at the share t of rest the excess is at most (1 - t) here + t resting.
-    const double resting = rest ? excess(ceiling, rest->stress) : 0.0;
-    inside = inside && resting < 0.0;
-    drawn = std::max(drawn, here / (here - resting));
+    inside = inside && rest && excess(ceiling, rest->stress) < 0.0;
+    if (inside) drawn = std::max(drawn, share_of_rest(ceiling, x, rest->stress));
   }
   if (drawn > 0.0 && inside) {
     constexpr double more = 1.0 + 1e-6;  // so that rounding does not undo it

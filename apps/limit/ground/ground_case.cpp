@@ -248,9 +248,18 @@ std::vector<std::string> assumptions_of(const GroundScene& scene, const problem:
         "where tension is cut off what opens flows by the normality of Rankine; where strength is "
         "divided, so is that tension");
   }
+  const bool is_curved = std::any_of(problem.soils.begin(), problem.soils.end(),
+                                     [](const problem::Soil& soil) { return soil.is_curved(); });
+  if (is_curved) {
+    assumptions.emplace_back(
+        "strength of a curved envelope flows by its normal, whatever its dilation; the bounds are "
+        "certified against the envelope itself, of whose tangents the programmes know");
+  }
   if (scene.load.sought == Sought::strength) {
     assumptions.emplace_back(
-        "cohesion and tan(friction angle) of all materials are divided by the factor");
+        is_curved ? "cohesion and tan(friction angle) of all materials, and the shear strength of "
+                    "curved envelopes under every normal stress, are divided by the factor"
+                  : "cohesion and tan(friction angle) of all materials are divided by the factor");
   }
   return assumptions;
 }
@@ -262,9 +271,27 @@ bool is_unit_traction(const GroundScene& scene) {
   });
 }
 
+std::string curve_text(const GroundMaterial& material, const problem::UnitNames& units) {
+  const problem::Envelope& envelope = material.soil.envelope;
+  if (envelope.kind == problem::Envelope::Kind::hoek_brown) {
+    return fmt::format("Hoek-Brown, sigma_ci = {:g} {}, m_b = {:.4g}, s = {:.4g}, a = {:.4g}",
+                       envelope.stress, units.stress, envelope.coefficient, envelope.cohesive,
+                       envelope.exponent);
+  }
+  return fmt::format("tau = {:g} x {:g} {} ((sigma_n + {:g} {}) / {:g} {})^{:g}",
+                     envelope.coefficient, envelope.stress, units.stress, envelope.apex(),
+                     units.stress, envelope.stress, units.stress, envelope.exponent);
+}
+
 void describe(const GroundScene& scene, problem::Case& result) {
   for (const GroundMaterial& material : scene.materials) {
     if (!material.soil.seepage.isZero(0.0)) continue;  // of another one, under water
+    if (material.soil.is_curved()) {
+      result.data.emplace_back(material.name,
+                               fmt::format("{}, {:g} {}", curve_text(material, scene.units),
+                                           material.soil.unit_weight, scene.units.unit_weight()));
+      continue;
+    }
     std::string cohesion = fmt::format("c = {:g} {}", material.cohesion.value, scene.units.stress);
     if (material.soil.varies()) {
       cohesion +=

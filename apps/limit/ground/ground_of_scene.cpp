@@ -115,6 +115,9 @@ class Reader {
            "fpm-limit brackets collapse");
     refuse(material.match != "plane_strain", table + "match", "found " + material.match,
            "only strengths matched in plane strain are those of Mohr-Coulomb");
+    refuse(material.curve.power_tension == 0.0, table + "power_tension", "found 0",
+           "at a free face no stress is strictly within such an envelope, and no stress field can "
+           "be certified: allowed is a trace, as a thousandth of the reference_stress");
     refuse(
         material.tension_cutoff && material.model != "mohr_coulomb", table + "tension_cutoff",
         fmt::format("found {:g}, of a {}", material.tension_cutoff.value_or(0.0), material.model),
@@ -132,11 +135,36 @@ class Reader {
     soil.soil.friction_angle = parameters.friction_angle * degree;
     soil.dilation_angle = parameters.dilation_angle * degree;
     soil.tension_cutoff = material.tension_cutoff;
+    soil.curve = curve_of(material);
     soil.soil.unit_weight = material.density * weight_;
     if (material.saturated_unit_weight) {
       soil.saturated_unit_weight = scene::saturated_density(material) * weight_;
     }
     found_.materials.push_back(soil);
+  }
+
+  static GroundCurve curve_of(const scene::Material& material) {
+    const scene::CurvedStrength& told = material.curve;
+    GroundCurve curve;
+    switch (scene::model_of(material).curve) {
+      case constitutive::Curve::none:
+        return curve;
+      case constitutive::Curve::hoek_brown:
+        curve.model = StrengthModel::hoek_brown;
+        break;
+      case constitutive::Curve::power_law:
+        curve.model = StrengthModel::power_law;
+        break;
+    }
+    curve.intact_strength = told.intact_strength;
+    curve.m_i = told.m_i;
+    curve.gsi = told.gsi;
+    curve.disturbance = told.disturbance;
+    curve.power_coefficient = told.power_coefficient;
+    curve.power_exponent = told.power_exponent;
+    curve.power_tension = told.power_tension;
+    curve.reference_stress = told.reference_stress;
+    return curve;
   }
 
   void take_side(const scene::OutlineSide& side) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "limit/ground/ground_curves.hpp"
 #include "scene/mesh_groups.hpp"
 #include "tables/builder.hpp"
 #include "tables/nearest_name.hpp"
@@ -100,8 +101,8 @@ GroundTable water() {
 }
 
 GroundTable material() {
-  return Builder<GroundMaterial>("material", &GroundScene::materials, "a soil")
-      .required()
+  Builder<GroundMaterial> table("material", &GroundScene::materials, "a soil");
+  table.required()
       .key("name", &GroundMaterial::name, {.need = Need::required})
       .key("cohesion", &GroundMaterial::cohesion,
            {.unit = "Pa",
@@ -135,8 +136,9 @@ GroundTable material() {
             .absent = "the unit_weight"})
       .key("grows", &GroundMaterial::grows,
            {.doc = "its weight is multiplied where gravity is sought, and shaken where an "
-                   "earthquake is"})
-      .build();
+                   "earthquake is"});
+  add_curve_keys(table);
+  return table.build();
 }
 
 GroundTable region() {
@@ -197,6 +199,8 @@ void check_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagno
     diagnosis.error(path + "name", "found \"" + material.name + "\" again",
                     "each material has a name of its own");
   }
+  check_curve(scene, i, diagnosis);
+  if (material.curve.model != StrengthModel::mohr_coulomb) return;
   const double friction = material.soil.friction_angle;
   if (!diagnosis.given(path + "dilation_angle")) material.dilation_angle = friction;
   if (material.dilation_angle > friction &&
@@ -327,7 +331,10 @@ void check_side(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnosis)
 }  // namespace
 
 void tell_cohesions(GroundScene& scene, tables::Diagnosis& diagnosis) {
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) tell_cohesion(scene, m, diagnosis);
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    tell_cohesion(scene, m, diagnosis);
+    tell_curve(scene, m);
+  }
   if (!diagnosis.errors().empty()) return;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) tell_tension(scene, m, diagnosis);
 }

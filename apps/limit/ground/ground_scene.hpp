@@ -15,9 +15,20 @@
 
 namespace limit::ground {
 
+/// What the strength of a material is over the normal stress; of a curved envelope its numbers.
+enum class StrengthModel { mohr_coulomb, hoek_brown, power_law };
+struct GroundCurve {
+  StrengthModel model = StrengthModel::mohr_coulomb;
+  std::optional<double> intact_strength;  // [Pa] of Hoek and Brown, sigma_ci
+  std::optional<double> m_i, gsi, disturbance;
+  std::optional<double> power_coefficient, power_exponent;
+  std::optional<double> power_tension, reference_stress;  // [Pa]
+};
+
 /// A soil by its name.
 struct GroundMaterial {
   std::string name;
+  GroundCurve curve;
   problem::Soil soil;                           // live_unit_weight unused
   tables::LinearField cohesion;                 // as it is told
   double dilation_angle = 0.0;                  // [rad] 0 .. friction angle
@@ -59,12 +70,17 @@ enum class Sought { footing, traction, gravity, strength, earthquake };
 
 // The names of each enumeration's values as written, in the order of the enumerators.
 namespace names {
+inline constexpr std::array<std::string_view, 3> strength{"mohr_coulomb", "hoek_brown",
+                                                          "power_law"};
 inline constexpr std::array<std::string_view, 6> side{"free",   "loaded",  "fixed",
                                                       "roller", "footing", "symmetry"};
 inline constexpr std::array<std::string_view, 2> base{"rough", "smooth"};
 inline constexpr std::array<std::string_view, 5> sought{"footing", "traction", "gravity",
                                                         "strength", "earthquake"};
 }  // namespace names
+constexpr std::span<const std::string_view> names_of(StrengthModel) {
+  return names::strength;
+}
 constexpr std::span<const std::string_view> names_of(SideKind) {
   return names::side;
 }
@@ -108,8 +124,8 @@ struct GroundScene {
   GroundLoad load;
 };
 
-/// Gives the soils of a scene the cohesion and the tension cut-off of their materials. A linear
-/// cohesion that is not more than zero wherever its material is is an error.
+/// Gives the soils of a scene the cohesion, the envelope and the tension cut-off of their
+/// materials. A linear cohesion that is not more than zero wherever its material is is an error.
 void tell_cohesions(GroundScene& scene, tables::Diagnosis& diagnosis);
 
 /// Reads such a scene from TOML text, settings (`--set`) applied. Only what can be judged key by

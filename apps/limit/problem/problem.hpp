@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limit/mesh/mesh.hpp"
+#include "limit/problem/envelope.hpp"
 
 namespace limit::problem {
 
@@ -24,8 +25,12 @@ struct Soil {
   mesh::Point seepage{0.0, 0.0}, live_seepage{0.0, 0.0};
   /// [Pa] a tension cut-off (Rankine): no principal stress is more. Infinite: none.
   double tension = std::numeric_limits<double>::infinity();
+  /// Where it is there, the strength; cohesion and friction angle are then those of a tangent that
+  /// is typical of the ground, for scales and guesses alone.
+  Envelope envelope;
 
   [[nodiscard]] bool cuts_tension() const { return std::isfinite(tension); }
+  [[nodiscard]] bool is_curved() const { return envelope.is_there(); }
   [[nodiscard]] bool varies() const { return !cohesion_gradient.isZero(0.0); }
   [[nodiscard]] double cohesion_at(const mesh::Point& place) const {
     return cohesion + cohesion_gradient.dot(place - centre);

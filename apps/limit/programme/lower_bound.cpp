@@ -47,12 +47,18 @@ struct SideFrame {
 
 class Builder {
  public:
-  explicit Builder(const problem::Problem& problem)
-      : problem_(problem), edges_(mesh::edges_of(problem.mesh)), overburden_(problem) {
+  Builder(const problem::Problem& problem, const Tangents& tangents)
+      : problem_(problem),
+        tangents_(tangents),
+        edges_(mesh::edges_of(problem.mesh)),
+        overburden_(problem) {
+    const auto node_at = [&](int node) {
+      return problem.mesh.nodes[static_cast<std::size_t>(node)];
+    };
     for (const mesh::Triangle& triangle : problem.mesh.triangles) {
-      for (const int node : triangle.nodes) {
-        add_cone(triangle.region, problem.mesh.nodes[static_cast<std::size_t>(node)]);
-      }
+      const auto& [a, b, c] = triangle.nodes;
+      const mesh::Point middle = (node_at(a) + node_at(b) + node_at(c)) / 3.0;
+      for (const int node : triangle.nodes) add_cone(triangle.region, node_at(node), middle);
     }
     for (std::size_t corner = 0; corner < cuts_.size(); ++corner) add_cut(corner);
     for (const mesh::Edge& edge : edges_) add_contacts(edge);
@@ -77,6 +83,7 @@ class Builder {
     program.right_side = Eigen::Map<const Eigen::VectorXd>(
         right_side_.data(), static_cast<Eigen::Index>(right_side_.size()));
     program.objective = Eigen::VectorXd::Unit(variables, multiplier());
+    program.touches = touches_;
     program.start = Eigen::VectorXd::Zero(variables);
     for (std::size_t k = 0; k < cones_.size(); ++k) {
       program.start.segment<3>(3 * static_cast<Eigen::Index>(k)) = starts_[k];
@@ -93,11 +100,17 @@ class Builder {
   }
   Eigen::Index multiplier() const { return 3 * static_cast<Eigen::Index>(cones_.size()); }
 
-  void add_cone(int region, const mesh::Point& place) {
+  void add_cone(int region, const mesh::Point& place, const mesh::Point& middle) {
     // Linear, as the stress is, so that the corners decide.
     const problem::Soil& varying = problem_.soils[static_cast<std::size_t>(region)];
-    const problem::Soil soil = varying.with_cohesion(varying.cohesion_at(place));
-    const double load = overburden_.at(soil, place);
+    problem::Soil soil = varying.with_cohesion(varying.cohesion_at(place));
+    double load = overburden_.at(soil, place);
+    if (soil.is_curved()) {
+      const mesh::Point within = towards(place, middle);
+      load = tangents_.pressure_near(region, false, within).value_or(load);
+      touches_.push_back({multiplier(), region, false, within, load});
+      soil = touched(soil, false, load);
+    }
     cones_.push_back(yield_cone(soil, load, reserve));
     starts_.push_back(inner_point(cones_.back(), load));
     cuts_.push_back(soil.cuts_tension() ? std::optional(tension_cone(soil, load, reserve))
@@ -253,6 +266,8 @@ class Builder {
   }
 
   const problem::Problem& problem_;
+  const Tangents& tangents_;
+  std::vector<Touch> touches_;
   std::vector<mesh::Edge> edges_;
   Overburden overburden_;
   std::vector<YieldCone> cones_;
@@ -271,8 +286,8 @@ class Builder {
 
 }  // namespace
 
-ConeProgram lower_bound_program(const problem::Problem& problem) {
-  return Builder(problem).program();
+ConeProgram lower_bound_program(const problem::Problem& problem, const Tangents& tangents) {
+  return Builder(problem, tangents).program();
 }
 
 problem::StressField stress_field(const problem::Problem& problem,
