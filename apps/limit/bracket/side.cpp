@@ -119,6 +119,7 @@ Attempt Side::ask(solver::ConeForm form, bool is_first, Bracket& bracket,
     // Tangents of a curved envelope are put where the stresses are, until that changes little.
     if (program.touches.empty() || !is_solved(attempt)) return attempt;
     tangents_.take(program.touches, solution.variables);
+    if (!attempt.certified && is_lower_) tangents_.draw_in();
     constexpr double of_gap = 0.1;
     const bool is_close = attempt.certified && std::abs(*attempt.certified - attempt.proposed) <=
                                                    of_gap * options.gap * attempt.proposed;

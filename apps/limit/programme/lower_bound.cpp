@@ -1,5 +1,6 @@
 #include "limit/programme/lower_bound.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -104,14 +105,15 @@ class Builder {
     // Linear, as the stress is, so that the corners decide.
     const problem::Soil& varying = problem_.soils[static_cast<std::size_t>(region)];
     problem::Soil soil = varying.with_cohesion(varying.cohesion_at(place));
-    double load = overburden_.at(soil, place);
+    double load = overburden_.at(soil, place), unused = reserve;
     if (soil.is_curved()) {
+      unused = std::max(reserve, tangents_.reserve());
       const mesh::Point within = towards(place, middle);
       load = tangents_.pressure_near(region, false, within).value_or(load);
       touches_.push_back({multiplier(), region, false, within, load});
       soil = touched(soil, false, load);
     }
-    cones_.push_back(yield_cone(soil, load, reserve));
+    cones_.push_back(yield_cone(soil, load, unused));
     starts_.push_back(inner_point(cones_.back(), load));
     cuts_.push_back(soil.cuts_tension() ? std::optional(tension_cone(soil, load, reserve))
                                         : std::nullopt);

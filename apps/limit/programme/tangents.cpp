@@ -44,6 +44,11 @@ void Tangents::take(const std::vector<Touch>& touches, const Eigen::VectorXd& va
   }
 }
 
+void Tangents::draw_in() {
+  constexpr double first = 1e-4, more = 5.0, most = 0.02;
+  reserve_ = std::clamp(more * reserve_, first, most);
+}
+
 problem::Soil touched(const problem::Soil& soil, bool is_jump, double pressure) {
   if (!soil.is_curved()) return soil;
   const problem::Envelope::Place place =

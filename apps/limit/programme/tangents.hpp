@@ -31,12 +31,19 @@ class Tangents {
   /// Learns the stresses of a program's solution.
   void take(const std::vector<Touch>& touches, const Eigen::VectorXd& variables);
 
+  /// The share of its strength that each tangent of a stress field leaves unused: beside the place
+  /// where it touches, a tangent is outside of its envelope.
+  [[nodiscard]] double reserve() const { return reserve_; }
+  /// To more of it, where stresses were found outside and nothing is there to draw them back.
+  void draw_in();
+
  private:
   struct Known {
     mesh::Point place;
     double pressure;
   };
   std::map<std::pair<int, bool>, std::vector<Known>> known_;  // each by x
+  double reserve_ = 0.0;
 };
 
 /// The soil whose cohesion and friction are those of the tangent; the soil itself without a curve.
