@@ -8,6 +8,7 @@
 #include "scene/scene.hpp"
 #include "scene/tables.hpp"
 #include "scene/tables_contact.hpp"
+#include "scene/tables_curve.hpp"
 #include "tables/builder.hpp"
 
 namespace scene {
@@ -41,43 +42,6 @@ constexpr std::string_view without_critical_states = "only without modified_cam_
 
 tables::FieldNotes notes_of_critical_states(std::string_view name) {
   return notes_of(name, tables::Need::optional, without_critical_states);
-}
-
-void add_curved_strength(tables::TableBuilder<Scene, Material>& table) {
-  const auto notes = [](std::string_view name) {
-    const auto use = constitutive::parameter_info(name).use;
-    return notes_of(name, tables::Need::optional,
-                    use == constitutive::Use::hoek_brown  ? "only without hoek_brown"
-                    : use == constitutive::Use::power_law ? "only without power_law"
-                                                          : "only without hoek_brown or power_law");
-  };
-  tables::FieldNotes disturbance = notes("disturbance");
-  disturbance.absent = "0";
-  table
-      .key(
-          "intact_strength", [](auto& m) -> auto& { return m.curve.intact_strength; },
-          notes("intact_strength"))
-      .key(
-          "m_i", [](auto& m) -> auto& { return m.curve.m_i; }, notes("m_i"))
-      .key(
-          "gsi", [](auto& m) -> auto& { return m.curve.gsi; }, notes("gsi"))
-      .key(
-          "disturbance", [](auto& m) -> auto& { return m.curve.disturbance; }, disturbance)
-      .key(
-          "power_coefficient", [](auto& m) -> auto& { return m.curve.power_coefficient; },
-          notes("power_coefficient"))
-      .key(
-          "power_exponent", [](auto& m) -> auto& { return m.curve.power_exponent; },
-          notes("power_exponent"))
-      .key(
-          "power_tension", [](auto& m) -> auto& { return m.curve.power_tension; },
-          notes("power_tension"))
-      .key(
-          "reference_stress", [](auto& m) -> auto& { return m.curve.reference_stress; },
-          notes("reference_stress"))
-      .key(
-          "dilation_ratio", [](auto& m) -> auto& { return m.curve.dilation_ratio; },
-          notes("dilation_ratio"));
 }
 
 /// Each name once, in the order of the models.
