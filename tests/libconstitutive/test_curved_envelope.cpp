@@ -64,7 +64,7 @@ TEST(CurvedEnvelopes, HaveTheStrengthsOfTheirFormulas) {
     }
   }
   const CurvedEnvelope soil = envelope("power_law", 0.3);
-  const auto r = return_principal(soil, Eigen::Vector3d(0, -scale, -5 * scale));
+  const auto r = return_principal(soil, Eigen::Vector3d(0, -2 * scale, -5 * scale));
   ASSERT_EQ(r.regime, MohrCoulombRegime::plane);
   const double centre = -(r.stress[0] + r.stress[2]) / 2, radius = (r.stress[0] - r.stress[2]) / 2;
   double most = -scale;
@@ -126,7 +126,9 @@ TEST(CurvedReturn, ObeysKoitersRuleAndKeepsTheOrderInEveryRegime) {
           if (r.regime == MohrCoulombRegime::apex) {
             // Every strain of the apex's cone opens all three; without dilation none is of it.
             EXPECT_GT(strain.sum(), 0);
-            if (ratio == 1) EXPECT_GE(strain.minCoeff(), -1e-6 * size) << trial.transpose();
+            if (ratio == 1) {
+              EXPECT_GE(strain.minCoeff(), -1e-6 * size) << trial.transpose();
+            }
             continue;
           }
           const auto root = detail::curved_root(
@@ -145,9 +147,15 @@ TEST(CurvedReturn, ObeysKoitersRuleAndKeepsTheOrderInEveryRegime) {
           EXPECT_NEAR(more, -k * less, 1e-6 * k * size) << static_cast<int>(r.regime);
           EXPECT_GE(strain[0], -1e-9 * size);
           EXPECT_LE(strain[2], 1e-9 * size);
-          if (r.regime == MohrCoulombRegime::plane) EXPECT_NEAR(strain[1], 0, 1e-8 * size);
-          if (r.regime == MohrCoulombRegime::compression_edge) EXPECT_GE(strain[1], -1e-9 * size);
-          if (r.regime == MohrCoulombRegime::extension_edge) EXPECT_LE(strain[1], 1e-9 * size);
+          if (r.regime == MohrCoulombRegime::plane) {
+            EXPECT_NEAR(strain[1], 0, 1e-8 * size);
+          }
+          if (r.regime == MohrCoulombRegime::compression_edge) {
+            EXPECT_GE(strain[1], -1e-9 * size);
+          }
+          if (r.regime == MohrCoulombRegime::extension_edge) {
+            EXPECT_LE(strain[1], 1e-9 * size);
+          }
         }
         for (std::size_t k = 0; k < 5; ++k) EXPECT_GT(met[k], 15) << model << ratio << " " << k;
       }
@@ -204,7 +212,8 @@ void compare_tangents() {
         EXPECT_LE((t - fine).norm(), 0.5 * error + 1e-8)
             << model << ratio << " " << static_cast<int>(regime) << " " << trial.transpose();
       }
-      for (std::size_t k = 0; k < 5; ++k) EXPECT_GT(met[k], 10) << model << ratio << " " << k;
+      // But for the elastic one, whose tangent is the identity.
+      for (std::size_t k = 1; k < 5; ++k) EXPECT_GT(met[k], 10) << model << ratio << " " << k;
     }
   }
 }

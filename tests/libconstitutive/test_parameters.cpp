@@ -143,8 +143,12 @@ TEST_P(RefusedCurves, AreNamedInOneMessage) {
     MaterialParameters p = points::soil(model);
     GetParam().spoil(p);
     const bool has = parameter_info(GetParam().field).is_used_by(*find_model(model));
-    if (has) EXPECT_THAT(validate(p), ElementsAre(StartsWith(GetParam().field))) << model;
-    if (!has) EXPECT_THAT(validate(p), IsEmpty()) << model;
+    if (has) {
+      EXPECT_THAT(validate(p), ElementsAre(StartsWith(GetParam().field))) << model;
+    }
+    if (!has) {
+      EXPECT_THAT(validate(p), IsEmpty()) << model;
+    }
   }
 }
 

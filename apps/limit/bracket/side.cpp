@@ -88,6 +88,7 @@ Attempt Side::ask(solver::ConeForm form, bool is_first, Bracket& bracket,
                   const BracketOptions& options, const std::function<void(const Attempt&)>& watch) {
   constexpr int most_rounds = 6;
   const double began = means_.seconds();
+  double last = std::numeric_limits<double>::infinity();
   for (int round = 1;; ++round) {
     const programme::ConeProgram program =
         is_lower_ ? programme::lower_bound_program(problem_, tangents_)
@@ -120,9 +121,13 @@ Attempt Side::ask(solver::ConeForm form, bool is_first, Bracket& bracket,
     if (program.touches.empty() || !is_solved(attempt)) return attempt;
     tangents_.take(program.touches, solution.variables);
     if (!attempt.certified && is_lower_) tangents_.draw_in();
+    // A stress field shows by what its certificate takes away how far off they are; velocities flow
+    // by the tangents' normals, and do not.
     constexpr double of_gap = 0.1;
-    const bool is_close = attempt.certified && std::abs(*attempt.certified - attempt.proposed) <=
+    const double other = is_lower_ ? attempt.certified.value_or(0.0) : last;
+    const bool is_close = attempt.certified && std::abs(other - attempt.proposed) <=
                                                    of_gap * options.gap * attempt.proposed;
+    last = attempt.proposed;
     const bool is_spent = means_.seconds() - began >= options.max_seconds;
     if (is_close || is_spent || has_no_end(attempt) || round == most_rounds) return attempt;
   }

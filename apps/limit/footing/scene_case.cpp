@@ -100,9 +100,11 @@ class Reader {
             "the bounds are those of a soil whose strength stays");
     require(!material.cohesion || !material.cohesion->varies(), table + "cohesion",
             "it changes from place to place; in ground of [[region]]s it may");
-    found_.soils.push_back({material.cohesion.value_or(0.0).value,
-                            material.friction_angle.value_or(0.0) * degree,
-                            material.density * gravity});
+    problem::Soil soil;
+    soil.cohesion = material.cohesion.value_or(0.0).value;
+    soil.friction_angle = material.friction_angle.value_or(0.0) * degree;
+    soil.unit_weight = material.density * gravity;
+    found_.soils.push_back(soil);
     if (!diagnosis_.errors().empty()) return;
     problem::Strip strip = found_.strip;
     strip.soil = found_.soils.back();

@@ -27,7 +27,7 @@ struct Soil {
   double tension = std::numeric_limits<double>::infinity();
   /// Where it is there, the strength; cohesion and friction angle are then those of a tangent that
   /// is typical of the ground, for scales and guesses alone.
-  Envelope envelope;
+  Envelope envelope{};
 
   [[nodiscard]] bool cuts_tension() const { return std::isfinite(tension); }
   [[nodiscard]] bool is_curved() const { return envelope.is_there(); }

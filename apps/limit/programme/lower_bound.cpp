@@ -111,7 +111,9 @@ class Builder {
       const mesh::Point within = towards(place, middle);
       load = tangents_.pressure_near(region, false, within).value_or(load);
       touches_.push_back({multiplier(), region, false, within, load});
-      soil = touched(soil, false, load);
+      const Tangent tangent = touched(soil, false, load);
+      soil = tangent.soil;
+      load = tangent.pressure;
     }
     cones_.push_back(yield_cone(soil, load, unused));
     starts_.push_back(inner_point(cones_.back(), load));

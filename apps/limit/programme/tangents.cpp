@@ -49,12 +49,11 @@ void Tangents::draw_in() {
   reserve_ = std::clamp(more * reserve_, first, most);
 }
 
-problem::Soil touched(const problem::Soil& soil, bool is_jump, double pressure) {
-  if (!soil.is_curved()) return soil;
+Tangent touched(const problem::Soil& soil, bool is_jump, double pressure) {
   const problem::Envelope::Place place =
       is_jump ? soil.envelope.under(pressure) : soil.envelope.touched_by_circle(pressure);
-  problem::Soil tangent = soil.with_cohesion(place.cohesion());
-  tangent.friction_angle = place.friction_angle();
+  Tangent tangent{soil.with_cohesion(place.cohesion()), is_jump ? place.normal : place.centre()};
+  tangent.soil.friction_angle = place.friction_angle();
   return tangent;
 }
 

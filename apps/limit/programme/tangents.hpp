@@ -45,8 +45,14 @@ class Tangents {
   double reserve_ = 0.0;
 };
 
-/// The soil whose cohesion and friction are those of the tangent; the soil itself without a curve.
-[[nodiscard]] problem::Soil touched(const problem::Soil& soil, bool is_jump, double pressure);
+/// A tangent as a soil of its cohesion and friction, and the pressure under which it touches.
+struct Tangent {
+  problem::Soil soil;
+  double pressure = 0.0;
+};
+
+/// The tangent of a soil's curved envelope under a pressure, or, where there is none, the nearest.
+[[nodiscard]] Tangent touched(const problem::Soil& soil, bool is_jump, double pressure);
 
 /// A tenth of the way from one place to another.
 [[nodiscard]] mesh::Point towards(const mesh::Point& from, const mesh::Point& to);

@@ -151,7 +151,9 @@ class Builder {
       const mesh::Point within = towards(place, middle);
       load = tangents_.pressure_near(region, is_jump, within).value_or(load);
       touches_.push_back({column, region, is_jump, within, load});
-      soil = touched(soil, is_jump, load);
+      const Tangent tangent = touched(soil, is_jump, load);
+      soil = tangent.soil;
+      load = tangent.pressure;
     }
     cones_.push_back(yield_cone(soil, load, 0.0));
     starts_.push_back(inner_point(cones_.back(), load));
