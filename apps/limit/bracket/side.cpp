@@ -118,8 +118,19 @@ Attempt Side::ask(solver::ConeForm form, bool is_first, Bracket& bracket,
     bracket.attempts.push_back(attempt);
     if (watch) watch(attempt);
     // Tangents of a curved envelope are put where the stresses are, until that changes little.
+    const auto towards_found = [&](const programme::ConeProgram& of, Eigen::VectorXd found) {
+      // The stresses that go with velocities are not unique, and tangents would follow them to and
+      // fro: they go half of the way, unless they were guessed.
+      const programme::Touch& any = of.touches.front();
+      const bool is_guess = !tangents_.pressure_near(any.region, any.is_jump, any.place);
+      if (is_lower_ || is_guess) return found;
+      for (const programme::Touch& touch : of.touches) {
+        found[touch.variable] = (found[touch.variable] - touch.pressure) / 2.0;
+      }
+      return found;
+    };
     if (program.touches.empty() || !is_solved(attempt)) return attempt;
-    tangents_.take(program.touches, solution.variables);
+    tangents_.take(program.touches, towards_found(program, solution.variables));
     if (!attempt.certified && is_lower_) tangents_.draw_in();
     // A stress field shows by what its certificate takes away how far off they are; velocities flow
     // by the tangents' normals, and do not.
