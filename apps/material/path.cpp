@@ -31,6 +31,10 @@ tables::FieldNotes notes_of(std::string_view name, tables::Need need) {
     absent = info.use == constitutive::Use::critical_state ? "only without modified_cam_clay"
              : never                                       ? "never; or the model has none"
                                                            : "0; or the model has none";
+    if (info.use == constitutive::Use::hoek_brown) absent = "only without hoek_brown";
+    if (info.use == constitutive::Use::power_law) absent = "only without power_law";
+    if (name == "strength_factor") absent = "1; or the model has none";
+    if (name == "disturbance") absent = "0; or the model has none";
     if (name == "residual_cohesion" || name == "residual_friction_angle") absent = "it stays";
   }
   return {.need = need,
@@ -88,6 +92,18 @@ tables::Table<Path> soil() {
            notes_of("critical_stress_ratio", Need::optional))
       .key("preconsolidation_pressure", &Soil::preconsolidation_pressure,
            notes_of("preconsolidation_pressure", Need::optional))
+      .key("intact_strength", &Soil::intact_strength, notes_of("intact_strength", Need::optional))
+      .key("m_i", &Soil::m_i, notes_of("m_i", Need::optional))
+      .key("gsi", &Soil::gsi, notes_of("gsi", Need::optional))
+      .key("disturbance", &Soil::disturbance, notes_of("disturbance", Need::optional))
+      .key("power_coefficient", &Soil::power_coefficient,
+           notes_of("power_coefficient", Need::optional))
+      .key("power_exponent", &Soil::power_exponent, notes_of("power_exponent", Need::optional))
+      .key("power_tension", &Soil::power_tension, notes_of("power_tension", Need::optional))
+      .key("reference_stress", &Soil::reference_stress,
+           notes_of("reference_stress", Need::optional))
+      .key("dilation_ratio", &Soil::dilation_ratio, notes_of("dilation_ratio", Need::optional))
+      .key("strength_factor", &Soil::strength_factor, notes_of("strength_factor", Need::optional))
       .build();
 }
 
@@ -136,7 +152,10 @@ void check_soil(const Path& path, tables::Diagnosis& diagnosis) {
     const std::string key = fmt::format("material.{}", name);
     const constitutive::ParameterInfo& info = constitutive::parameter_info(name);
     const bool used = info.is_used_by(model);
-    if (used && !value && info.use == constitutive::Use::critical_state) {
+    const bool needed = info.use == constitutive::Use::critical_state ||
+                        info.use == constitutive::Use::hoek_brown ||
+                        info.use == constitutive::Use::power_law;
+    if (used && !value && needed && name != "disturbance") {
       diagnosis.error(key, "is missing", fmt::format("the model {} needs it", soil.model));
     }
     if (value && !used) {

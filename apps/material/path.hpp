@@ -49,6 +49,9 @@ struct Soil {
   std::optional<double> residual_strain, residual_cohesion, residual_friction_angle;
   std::optional<double> compression_index, swelling_index, critical_stress_ratio,
       preconsolidation_pressure;
+  std::optional<double> intact_strength, m_i, gsi, disturbance;
+  std::optional<double> power_coefficient, power_exponent, power_tension, reference_stress;
+  std::optional<double> dilation_ratio, strength_factor;
 
   /// Calls visit(name, value) for every parameter that not every model has.
   template <class Visitor>
@@ -65,6 +68,16 @@ struct Soil {
     visit("swelling_index", swelling_index);
     visit("critical_stress_ratio", critical_stress_ratio);
     visit("preconsolidation_pressure", preconsolidation_pressure);
+    visit("intact_strength", intact_strength);
+    visit("m_i", m_i);
+    visit("gsi", gsi);
+    visit("disturbance", disturbance);
+    visit("power_coefficient", power_coefficient);
+    visit("power_exponent", power_exponent);
+    visit("power_tension", power_tension);
+    visit("reference_stress", reference_stress);
+    visit("dilation_ratio", dilation_ratio);
+    visit("strength_factor", strength_factor);
   }
 };
 

@@ -56,9 +56,9 @@ constitutive::InterfaceLaw law_of_tied(const scene::Scene& scene, const Pair& ma
     if (!scene::yields(material)) continue;
     law.shear_stiffness = soils_shear_stiffness;
     const auto p = scene::parameters_at(material, place);
-    // A face does not harden or soften with the ground on either side.
+    // A face does not harden or soften with the ground on either side, nor is its strength curved.
     const bool changes =
-        std::isfinite(p.residual_strain) || scene::model_of(material).critical_state;
+        std::isfinite(p.residual_strain) || !scene::model_of(material).is_cohesive();
     if (p.friction_angle > 0.0 || changes || !slips) continue;
     law.adhesion = law.tied ? p.cohesion : std::min(law.adhesion, p.cohesion);
     law.tied = false;

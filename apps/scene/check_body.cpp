@@ -177,9 +177,14 @@ void check_parameters(const Scene& scene, std::size_t index, const std::string& 
   note("residual_strain", material.residual_strain);
   note("residual_cohesion", material.residual_cohesion);
   note("residual_friction_angle", material.residual_friction_angle);
+  material.curve.for_each([&](const char* name, const std::optional<double>& value, bool needed) {
+    if (needed) check(name, value);
+    note(name, needed ? std::nullopt : value);
+  });
   check_overconsolidation(scene, material, table, diagnosis);
   if (diagnosis.good({key("cohesion"), key("friction_angle"), key("dilation_angle"),
-                      key("compression_index"), key("swelling_index")})) {
+                      key("compression_index"), key("swelling_index"), key("intact_strength"),
+                      key("power_coefficient")})) {
     const auto parameters = least_parameters(scene, index, diagnosis);
     for (auto& objection : constitutive::joint_objections(parameters, model)) {
       diagnosis.error(key(objection.parameter), objection.found, objection.allowed);
@@ -329,6 +334,12 @@ void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis) {
       if (!material.tension_cutoff || !yields(material)) continue;
       refuse(fmt::format("found mixed with the tension_cutoff of {}", material.name),
              "sub-points with one pressure have no tension cut-off: use \"incremental\"");
+      break;
+    }
+    for (const Material& material : scene.material) {
+      if (model_of(material).curve == constitutive::Curve::none) continue;
+      refuse(fmt::format("found mixed with the model {}", material.model),
+             "sub-points with one pressure have no curved envelope: use \"incremental\"");
       break;
     }
     for (const Material& material : scene.material) {

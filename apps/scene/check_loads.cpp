@@ -95,7 +95,7 @@ void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
     const Material& material = scene.material[i];
     const std::string table = fmt::format("material.{}", i);
     // What a clay in critical states bears follows from this stress.
-    if (!yields(material) || model_of(material).critical_state ||
+    if (!model_of(material).is_cohesive() ||
         !diagnosis.good({table + ".cohesion", table + ".friction_angle", table + ".poissons_ratio",
                          table + ".region_min", table + ".region_max", table + ".density"})) {
       continue;

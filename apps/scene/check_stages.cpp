@@ -17,8 +17,13 @@
 namespace scene {
 namespace {
 
-// Whether a material's strength is made of what stages change and a reduction divides.
+// Whether a material's strength is made of what stages change.
 bool has_cohesion(const Material& material) {
+  return model_of(material).is_cohesive();
+}
+
+// Whether it has a strength that a reduction divides.
+bool may_be_weaker(const Material& material) {
   return yields(material) && !model_of(material).critical_state;
 }
 
@@ -293,10 +298,11 @@ void check_reduction(const Scene& scene, tables::Diagnosis& diagnosis) {
     return;
   }
   const bool any = std::ranges::any_of(scene.material, [&](const Material& material) {
-    return has_cohesion(material) && is_weakened(scene, material.name);
+    return may_be_weaker(material) && is_weakened(scene, material.name);
   });
   for (const Material& material : scene.material) {
-    if (!yields(material) || has_cohesion(material) || !is_weakened(scene, material.name)) continue;
+    if (!yields(material) || may_be_weaker(material) || !is_weakened(scene, material.name))
+      continue;
     diagnosis.error("drive.weakened", fmt::format("would weaken \"{}\"", material.name),
                     fmt::format("what is divided is cohesion and tan(phi), and material model {} "
                                 "has neither: name the others",

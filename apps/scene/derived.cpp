@@ -43,6 +43,8 @@ constitutive::MaterialParameters parameters_of(const Material& material) {
   take("compression_index", material.compression_index);
   take("swelling_index", material.swelling_index);
   take("critical_stress_ratio", material.critical_stress_ratio);
+  material.curve.for_each(
+      [&](const char* name, const std::optional<double>& value, bool) { take(name, value); });
   // The scene has been warned of what has no effect. An elastic material is archived with it.
   if (model.yields && !model.frictional) p.friction_angle = p.dilation_angle = 0.0;
   return p;
@@ -307,6 +309,9 @@ double resolve_stiffness_factor(const Contact& contact, bool yields) {
 
 bool is_associated(const Scene& scene) {
   return std::all_of(scene.material.begin(), scene.material.end(), [](const Material& material) {
+    if (model_of(material).curve != constitutive::Curve::none) {
+      return material.curve.dilation_ratio == 1.0;
+    }
     const tables::VaryingNumber none;
     return material.dilation_angle.value_or(none) == material.friction_angle.value_or(none);
   });

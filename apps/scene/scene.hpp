@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/choices.hpp"
+#include "scene/curved_strength.hpp"
 #include "scene/mesh_file.hpp"
 #include "tables/table.hpp"
 
@@ -138,24 +139,25 @@ struct Approximation {
 /// the body, later ones win inside their region.
 struct Material {
   std::string name;
-  std::string model = "elastic";       // a family of models of libconstitutive
+  std::string model = "elastic";         // a family of models of libconstitutive
   tables::VaryingNumber youngs_modulus;  // [Pa]
   double poissons_ratio = 0.0;
-  std::optional<tables::VaryingNumber> cohesion;    // [Pa] present for every yielding model
+  std::optional<tables::VaryingNumber> cohesion;  // [Pa] present for every yielding model
   // [deg] present for the frictional models
   std::optional<tables::VaryingNumber> friction_angle, dilation_angle;
-  tables::VaryingNumber density;                              // [kg/m3]
-  std::optional<tables::VaryingNumber> unit_weight;           // [N/m3] which says the same
-  std::optional<tables::VaryingNumber> saturated_unit_weight; // [N/m3] below the water table
-  std::optional<double> dilation_cutoff;          // accumulated plastic volume strain
-  std::optional<double> tension_cutoff;           // [Pa] largest principal stress
-  std::optional<double> residual_strain;          // equivalent plastic strain
-  std::optional<double> residual_cohesion;        // [Pa]
-  std::optional<double> residual_friction_angle;  // [deg]
+  tables::VaryingNumber density;                               // [kg/m3]
+  std::optional<tables::VaryingNumber> unit_weight;            // [N/m3] which says the same
+  std::optional<tables::VaryingNumber> saturated_unit_weight;  // [N/m3] below the water table
+  std::optional<double> dilation_cutoff;                       // accumulated plastic volume strain
+  std::optional<double> tension_cutoff;                        // [Pa] largest principal stress
+  std::optional<double> residual_strain;                       // equivalent plastic strain
+  std::optional<double> residual_cohesion;                     // [Pa]
+  std::optional<double> residual_friction_angle;               // [deg]
   std::optional<double> compression_index;        // present for models of critical states
   std::optional<double> swelling_index;           // as is this,
   std::optional<double> critical_stress_ratio;    // this
   std::optional<double> overconsolidation_ratio;  // and this
+  CurvedStrength curve;                           // of models with a curved envelope
   std::string match = "plane_strain";             // of a family of several
   Point region_min;                               // [m] empty: everywhere
   Point region_max;                               // [m]

@@ -8,6 +8,7 @@
 #include "scene/scene.hpp"
 #include "scene/tables.hpp"
 #include "scene/tables_contact.hpp"
+#include "scene/tables_curve.hpp"
 #include "tables/builder.hpp"
 
 namespace scene {
@@ -332,6 +333,7 @@ SceneTable material() {
       .key("tension_cutoff", &Material::tension_cutoff,
            notes_of("tension_cutoff", tables::Need::optional, "none"));
   add_changing_strength(table);
+  add_curved_strength(table);
   table
       .key("match", &Material::match,
            {.doc = "Which Mohr-Coulomb states the Drucker-Prager cone meets; plane_strain holds in "

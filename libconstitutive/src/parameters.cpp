@@ -14,7 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using P = MaterialParameters;
 // The range of Poisson's ratio is that of positive bulk and shear moduli.
-constexpr std::array<ParameterInfo, 15> infos{
+constexpr std::array<ParameterInfo, 25> infos{
     {{"youngs_modulus", "Pa", "Young's modulus E.", 0, infinity, true, false, Use::all,
       &P::youngs_modulus},
      {"poissons_ratio", "", "Poisson's ratio nu.", -1, 0.5, true, true, Use::all,
@@ -54,7 +54,29 @@ constexpr std::array<ParameterInfo, 15> infos{
       true, true, Use::critical_state, &P::critical_stress_ratio},
      {"preconsolidation_pressure", "Pa",
       "Mean stress at which isotropic compression first yields, compression positive.", 0, infinity,
-      true, false, Use::critical_state, &P::preconsolidation_pressure}}};
+      true, false, Use::critical_state, &P::preconsolidation_pressure},
+     {"intact_strength", "Pa", "Unconfined strength sigma_ci of the intact rock.", 0, infinity,
+      true, false, Use::hoek_brown, &P::intact_strength},
+     {"m_i", "", "Hoek and Brown's m of the intact rock.", 0, infinity, true, false,
+      Use::hoek_brown, &P::m_i},
+     {"gsi", "", "Geological strength index: 100 is intact rock.", 0, 100, false, false,
+      Use::hoek_brown, &P::gsi},
+     {"disturbance", "", "Disturbance D by blasting and relief.", 0, 1, false, false,
+      Use::hoek_brown, &P::disturbance},
+     {"power_coefficient", "", "A of tau = A p_r ((sigma_n + T) / p_r)^b.", 0, infinity, true,
+      false, Use::power_law, &P::power_coefficient},
+     {"power_exponent", "", "b of the power law.", 0.5, 1, false, true, Use::power_law,
+      &P::power_exponent},
+     {"power_tension", "Pa", "T of the power law, the largest tension.", 0, infinity, false, false,
+      Use::power_law, &P::power_tension},
+     {"reference_stress", "Pa", "p_r of the power law.", 0, infinity, true, false, Use::power_law,
+      &P::reference_stress},
+     {"dilation_ratio", "",
+      "Of a curved envelope: its flow's K - 1 over its strength's, K = d(sigma_1) / d(sigma_3); 1 "
+      "is associated flow, 0 no change of volume.",
+      0, 1, false, false, Use::curved, &P::dilation_ratio},
+     {"strength_factor", "", "Of a curved envelope: what its shear strengths are divided by.", 0,
+      infinity, true, false, Use::curved, &P::strength_factor}}};
 
 std::string text_of(double value) {
   std::ostringstream text;
@@ -163,6 +185,7 @@ std::vector<Objection> joint_objections(const MaterialParameters& p, const Model
     }
     return all;
   }
+  if (model.curve != Curve::none) return all;
   const double friction = model.frictional ? p.friction_angle : 0.0;
   if (model.yields && p.cohesion == 0 && friction == 0) {
     all.push_back(

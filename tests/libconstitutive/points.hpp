@@ -27,10 +27,32 @@ inline constitutive::MaterialParameters clay() {
   return p;
 }
 
+/// A fair rock mass, and a soil of a curved envelope; both with strengths of some 100 kPa.
+inline constitutive::MaterialParameters curved(const std::string& model) {
+  constitutive::MaterialParameters p;
+  p.model = model;
+  p.youngs_modulus = 500e6;
+  p.poissons_ratio = 0.25;
+  if (model == "hoek_brown") {
+    p.intact_strength = 20e6;
+    p.m_i = 10;
+    p.gsi = 45;
+    p.disturbance = 0.2;
+  } else {
+    p.power_coefficient = 0.8;
+    p.power_exponent = 0.7;
+    p.power_tension = 100e3;
+    p.reference_stress = 500e3;
+  }
+  p.dilation_ratio = 0.5;
+  return p;
+}
+
 inline constitutive::MaterialParameters soil(const std::string& model, double phi = 20,
                                              double psi = 10) {
   constitutive::MaterialParameters p;
   if (model == "modified_cam_clay") return clay();
+  if (model == "hoek_brown" || model == "power_law") return curved(model);
   p.model = model;
   p.youngs_modulus = 5e6;
   p.poissons_ratio = 0.4;

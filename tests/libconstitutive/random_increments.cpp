@@ -91,6 +91,22 @@ MaterialParameters drawn(const ModelInfo& model, Strength strength, std::mt19937
     p.preconsolidation_pressure = std::pow(10, 3 + 4 * share(engine));
     return p;
   }
+  if (model.curve == Curve::hoek_brown) {
+    p.intact_strength = std::pow(10, 5 + 4 * share(engine));
+    p.m_i = 4 + 30 * share(engine);
+    p.gsi = 100 * share(engine);
+    p.disturbance = share(engine);
+    p.dilation_ratio = share(engine);
+    return p;
+  }
+  if (model.curve == Curve::power_law) {
+    p.reference_stress = std::pow(10, 3 + 4 * share(engine));
+    p.power_coefficient = 0.2 + 2 * share(engine);
+    p.power_exponent = 0.5 + 0.45 * share(engine);
+    p.power_tension = share(engine) * p.reference_stress;
+    p.dilation_ratio = share(engine);
+    return p;
+  }
   if (model.yields) p.cohesion = std::pow(10, 1 + 5 * share(engine));
   if (model.frictional) {
     p.friction_angle = steepest * share(engine);

@@ -136,6 +136,37 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"preconsolidation_pressure",
                 [](MaterialParameters& p) { p.preconsolidation_pressure = 0; }}));
 
+class RefusedCurves : public testing::TestWithParam<Refusal> {};
+
+TEST_P(RefusedCurves, AreNamedInOneMessage) {
+  for (const char* model : {"hoek_brown", "power_law"}) {
+    MaterialParameters p = points::soil(model);
+    GetParam().spoil(p);
+    const bool has = parameter_info(GetParam().field).is_used_by(*find_model(model));
+    if (has) {
+      EXPECT_THAT(validate(p), ElementsAre(StartsWith(GetParam().field))) << model;
+    }
+    if (!has) {
+      EXPECT_THAT(validate(p), IsEmpty()) << model;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, RefusedCurves,
+    testing::Values(
+        Refusal{"intact_strength", [](MaterialParameters& p) { p.intact_strength = 0; }},
+        Refusal{"m_i", [](MaterialParameters& p) { p.m_i = 0; }},
+        Refusal{"gsi", [](MaterialParameters& p) { p.gsi = -1; }},
+        Refusal{"gsi", [](MaterialParameters& p) { p.gsi = 101; }},
+        Refusal{"disturbance", [](MaterialParameters& p) { p.disturbance = 1.01; }},
+        Refusal{"power_coefficient", [](MaterialParameters& p) { p.power_coefficient = 0; }},
+        Refusal{"power_exponent", [](MaterialParameters& p) { p.power_exponent = 0.49; }},
+        Refusal{"power_exponent", [](MaterialParameters& p) { p.power_exponent = 1; }},
+        Refusal{"power_tension", [](MaterialParameters& p) { p.power_tension = -1; }},
+        Refusal{"reference_stress", [](MaterialParameters& p) { p.reference_stress = 0; }},
+        Refusal{"dilation_ratio", [](MaterialParameters& p) { p.dilation_ratio = 1.01; }}));
+
 TEST(MaterialParameters, ReportAllProblemsAtOnce) {
   MaterialParameters p;
   p.model = "clay";
@@ -186,8 +217,8 @@ TEST(MaterialParameters, ListEveryFieldOnce) {
     names.insert(name);
     ++fields;
   });
-  EXPECT_EQ(fields, 16);
-  EXPECT_EQ(names.size(), 16u);
+  EXPECT_EQ(fields, 26);
+  EXPECT_EQ(names.size(), 26u);
 }
 
 TEST(Version, IsThatOfTheCMakePackage) {

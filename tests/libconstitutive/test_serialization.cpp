@@ -100,6 +100,8 @@ TYPED_TEST(Archives, ReturnMaterialParametersBitForBit) {
   p.residual_strain = 0.1;
   p.residual_cohesion = 1.0 / 3;
   p.preconsolidation_pressure = 1e5;
+  p.gsi = 100.0 / 3;
+  p.strength_factor = 1.1;
   EXPECT_EQ(round_trip<TypeParam>(p), p);
 }
 

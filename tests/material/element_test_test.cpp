@@ -182,6 +182,40 @@ TEST(SofteningVonMises, FollowsItsStrengthInSimpleShear) {
   EXPECT_GT(softening, 20);
 }
 
+// sigma_1 = sigma_3 + sigma_ci (m_b sigma_3 / sigma_ci + s)^a from either side: of compression
+// sigma_3 is the cell pressure, of extension sigma_1. Dilation of the edge sigma_2 = sigma_3
+// (tension positive: the two larger): with K = 1 + a m_b u^(a - 1) and K_psi - 1 a share of K - 1,
+// volume over axial strain is K_psi - 1.
+TEST(HoekBrown, HasItsStrengthAndDilationInTriaxialTests) {
+  constexpr double cell = 1e6, share = 0.4, intact = 20e6;
+  const auto rock = [&](std::vector<Stage> stages) {
+    Path path = path_of("hoek_brown", std::move(stages));
+    path.material.youngs_modulus = 2e9;
+    path.material.intact_strength = intact;
+    path.material.m_i = 10.0;
+    path.material.gsi = 45.0;
+    path.material.dilation_ratio = share;
+    return path;
+  };
+  const double m_b = 10.0 * std::exp(-55.0 / 28.0), s = std::exp(-55.0 / 9.0);
+  const double a = 0.5 + (std::exp(-3.0) - std::exp(-20.0 / 3.0)) / 6.0;
+  const auto strength = [&](double least) {
+    return least + intact * std::pow(m_b * least / intact + s, a);
+  };
+  const Course compression = followed(
+      rock({stage(TestKind::isotropic, cell, 2), stage(TestKind::triaxial_compression, 0.03)}));
+  const Point& last = end_of(compression);
+  EXPECT_NEAR(-last.state.stress[1], strength(cell), tolerance * strength(cell));
+  const Point& before = compression.points[compression.points.size() - 11];
+  const double volume = constitutive::trace(last.strain) - constitutive::trace(before.strain);
+  const double axial = before.strain[1] - last.strain[1];
+  const double k = a * m_b * std::pow(m_b * cell / intact + s, a - 1.0);
+  EXPECT_NEAR(volume / axial, share * k, 1e-6);
+  const Course extension = followed(
+      rock({stage(TestKind::isotropic, cell, 2), stage(TestKind::triaxial_extension, 0.01)}));
+  EXPECT_NEAR(strength(-end_of(extension).state.stress[1]), cell, tolerance * cell);
+}
+
 // lambda ln p on the way up, kappa ln p on the way back.
 TEST(ModifiedCamClay, FollowsItsLinesOfIsotropicCompression) {
   const Course course = followed(

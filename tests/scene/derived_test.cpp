@@ -31,7 +31,18 @@ TEST(HourglassControl, AutoFollowsMaterialAndDimension) {
   Scene softening = scene_of("drucker_prager");
   softening.material[0].residual_strain = 0.1;
   EXPECT_EQ(resolve_control(softening), C::incremental) << "nor a strength of their own";
-  EXPECT_EQ(resolve_control(scene_of("modified_cam_clay")), C::incremental);
+  for (const char* model : {"modified_cam_clay", "hoek_brown", "power_law"}) {
+    EXPECT_EQ(resolve_control(scene_of(model)), C::incremental) << model;
+  }
+}
+
+TEST(CurvedEnvelope, IsAssociatedIfItsDilationRatioIsOne) {
+  Scene scene = scene_of("hoek_brown");
+  EXPECT_FALSE(is_associated(scene));
+  scene.material[0].curve.dilation_ratio = 1.0;
+  EXPECT_TRUE(is_associated(scene));
+  scene.material[0].curve.dilation_ratio = 0.9;
+  EXPECT_FALSE(is_associated(scene));
 }
 
 TEST(HourglassControl, AutoIsThatOfWhatYieldsWhateverElasticPartsThereAre) {

@@ -4,6 +4,8 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
+#include "limit/programme/tangents.hpp"
+
 namespace limit::programme {
 
 /// Mohr-Coulomb in plane strain for the mean stress p, half the difference d of the normal stresses
@@ -21,7 +23,8 @@ struct ConeProgram {
   Eigen::SparseMatrix<double, Eigen::RowMajor> equations;
   Eigen::VectorXd right_side;
   Eigen::VectorXd objective;
-  Eigen::VectorXd start;  // strictly inside every cone
+  Eigen::VectorXd start;       // strictly inside every cone
+  std::vector<Touch> touches;  // of cones that are tangents of curved envelopes
 };
 
 }  // namespace limit::programme

@@ -80,8 +80,9 @@ struct Loads {
 
 class Builder {
  public:
-  explicit Builder(const problem::Problem& problem)
+  Builder(const problem::Problem& problem, const Tangents& tangents)
       : problem_(problem),
+        tangents_(tangents),
         edges_(mesh::edges_of(problem.mesh)),
         overburden_(problem),
         rows_(problem) {}
@@ -129,19 +130,34 @@ class Builder {
       program.start.segment<3>(3 * static_cast<Eigen::Index>(k)) = starts_[k];
     }
     program.cones = std::move(cones_);
+    program.touches = std::move(touches_);
     return program;
   }
 
  private:
-  // First variable of a new cone.
-  int add_cone(const problem::Soil& local, const mesh::Point& place, double cohesion) {
-    const problem::Soil soil = local.with_cohesion(cohesion);
-    const double load = overburden_.at(soil, place);
+  // A new cone, its first variable and the cosine of its friction angle.
+  struct Cone {
+    int column;
+    double cosine;
+  };
+  // @param middle  of its triangle, or of its side if it is a jump's
+  Cone add_cone(const problem::Soil& local, int region, const mesh::Point& place, double cohesion,
+                bool is_jump, const mesh::Point& middle) {
+    problem::Soil soil = local.with_cohesion(cohesion);
+    double load = overburden_.at(soil, place);
+    const int column = 3 * static_cast<int>(cones_.size());
+    if (soil.is_curved()) {
+      const mesh::Point within = towards(place, middle);
+      load = tangents_.pressure_near(region, is_jump, within).value_or(load);
+      touches_.push_back({column, region, is_jump, within, load});
+      const Tangent tangent = touched(soil, is_jump, load);
+      soil = tangent.soil;
+      load = tangent.pressure;
+    }
     cones_.push_back(yield_cone(soil, load, 0.0));
     starts_.push_back(inner_point(cones_.back(), load));
-    const int column = 3 * static_cast<int>(cones_.size() - 1);
     if (soil.cuts_tension()) cuts_.emplace_back(column, tension_cone(soil, load, 0.0));
-    return column;
+    return {column, std::cos(soil.friction_angle)};
   }
 
   // A normal traction (variable `traction`) that may not pull, as a variable of its own: the
@@ -165,12 +181,16 @@ class Builder {
     const double weight = shapes.area / 3.0;
     const problem::Soil soil = problem::soil_in(problem_, triangle, problem::Bound::upper);
     double sum = 0.0;
-    for (const int node : triangle.nodes) sum += soil.cohesion_at(node_at(mesh, node));
+    mesh::Point middle(0.0, 0.0);
+    for (const int node : triangle.nodes) {
+      sum += soil.cohesion_at(node_at(mesh, node));
+      middle += node_at(mesh, node) / 3.0;
+    }
     for (std::size_t corner = 0; corner < 3; ++corner) {
       // The integral of a linear cohesion times a linear rate.
       const mesh::Point& place = node_at(mesh, triangle.nodes[corner]);
       const double cohesion = (sum + soil.cohesion_at(place)) / 4.0;
-      const int column = add_cone(soil, place, cohesion);
+      const int column = add_cone(soil, triangle.region, place, cohesion, false, middle).column;
       for (std::size_t i = 0; i < 6; ++i) {
         const auto row = static_cast<int>(2 * (6 * t + i));
         const mesh::Point slope = weight * shapes.slopes[corner][i];
@@ -204,8 +224,8 @@ class Builder {
     }
     const mesh::Mesh& mesh = problem_.mesh;
     const mesh::Point along = node_at(mesh, edge.second) - node_at(mesh, edge.first);
+    const int region = problem::region_across(problem_, edge);
     const problem::Soil soil = problem::soil_across(problem_, edge);
-    const double cosine = std::cos(soil.friction_angle);
     const double length = along.norm();
     const mesh::Point tangent = along / length, normal(tangent.y(), -tangent.x());
     const std::array<mesh::Point, 3> at{node_at(mesh, edge.first),
@@ -219,7 +239,7 @@ class Builder {
       const double share = 0.25 + 0.25 * static_cast<double>(c);
       const double cohesion =
           (1.0 - share) * soil.cohesion_at(at[0]) + share * soil.cohesion_at(at[2]);
-      const int column = add_cone(soil, at[c], cohesion);
+      const auto [column, cosine] = add_cone(soil, region, at[c], cohesion, true, at[1]);
       const bool cut = soil.cuts_tension();
       if (may_open) add_contact(column, cut);
       for (std::size_t i = 0; i < 3; ++i) {
@@ -263,6 +283,8 @@ class Builder {
   }
 
   const problem::Problem& problem_;
+  const Tangents& tangents_;
+  std::vector<Touch> touches_;
   std::vector<mesh::Edge> edges_;
   Overburden overburden_;
   Rows rows_;
@@ -279,8 +301,8 @@ class Builder {
 
 }  // namespace
 
-ConeProgram upper_bound_program(const problem::Problem& problem) {
-  return Builder(problem).program();
+ConeProgram upper_bound_program(const problem::Problem& problem, const Tangents& tangents) {
+  return Builder(problem, tangents).program();
 }
 
 problem::VelocityField velocity_field(const problem::Problem& problem,

@@ -3,6 +3,7 @@
 // Everything but the Boost archives, which are in constitutive/serialization.hpp.
 #include "constitutive/cone.hpp"
 #include "constitutive/cone_update.hpp"
+#include "constitutive/curved_envelope.hpp"
 #include "constitutive/cut_cone.hpp"
 #include "constitutive/drucker_prager.hpp"
 #include "constitutive/elastic.hpp"

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "constitutive/cone_update.hpp"
+#include "constitutive/curved_envelope.hpp"
 #include "constitutive/cut_cone.hpp"
 #include "constitutive/drucker_prager.hpp"
 #include "constitutive/elastic.hpp"
@@ -19,7 +20,7 @@ namespace constitutive {
 /// This is where materials are registered: each brings its models (`M::models`), is made by
 /// `M::make(parameters, model)`, and has `update` and `trial_tangent` beside it.
 using Material = std::variant<Elastic, VonMises, DruckerPrager, MohrCoulomb, CutCone, HardeningSoil,
-                              ModifiedCamClay>;
+                              ModifiedCamClay, CurvedEnvelope>;
 
 /// The material of valid parameters, its derived constants computed once.
 /// @throws std::invalid_argument with every message of `validate` (dimension 2) if there is one

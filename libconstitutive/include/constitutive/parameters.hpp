@@ -31,6 +31,19 @@ struct MaterialParameters {
   double swelling_index = 0;
   double critical_stress_ratio = 0;
   double preconsolidation_pressure = 0;
+  /// Required of rock by Hoek and Brown, but for the disturbance: the defaults are refused.
+  double intact_strength = 0;
+  double m_i = 0;
+  double gsi = -1;
+  double disturbance = 0;
+  /// Required of a power law: the defaults are refused.
+  double power_coefficient = 0;
+  double power_exponent = 0;
+  double power_tension = 0;
+  double reference_stress = 0;
+  /// Of curved envelopes.
+  double dilation_ratio = 0;
+  double strength_factor = 1;
 
   /// Calls visitor(name, field) for every field, in a fixed order.
   template <class Visitor>
@@ -65,8 +78,21 @@ struct MaterialParameters {
     visitor("swelling_index", self.swelling_index);
     visitor("critical_stress_ratio", self.critical_stress_ratio);
     visitor("preconsolidation_pressure", self.preconsolidation_pressure);
+    visitor("intact_strength", self.intact_strength);
+    visitor("m_i", self.m_i);
+    visitor("gsi", self.gsi);
+    visitor("disturbance", self.disturbance);
+    visitor("power_coefficient", self.power_coefficient);
+    visitor("power_exponent", self.power_exponent);
+    visitor("power_tension", self.power_tension);
+    visitor("reference_stress", self.reference_stress);
+    visitor("dilation_ratio", self.dilation_ratio);
+    visitor("strength_factor", self.strength_factor);
   }
 };
+
+/// Strength told by a curved Mohr envelope in place of cohesion and friction.
+enum class Curve { none, hoek_brown, power_law };
 
 /// One model of a material, described by the material itself (its member `models`). `Material`
 /// lists the materials; everything else that is said of models comes from here.
@@ -77,18 +103,24 @@ struct ModelInfo {
   /// Mohr-Coulomb they match; a model alone is its own family.
   std::string_view family = name;
   std::string_view match = "";
-  bool yields = true;           ///< Cohesion is a parameter, unless it is of critical states.
+  bool yields = true;           ///< Cohesion is a parameter if it `is_cohesive`.
   bool frictional = false;      ///< Friction, dilation and its cut-off are, too.
   bool critical_state = false;  ///< Strength by compaction in place of cohesion and friction.
+  Curve curve = Curve::none;    ///< Strength by a curved envelope in place of them.
   /// Deviatoric points share one pressure side by side (`mixed.hpp`); true corners can as well, one
   /// by one (`mixed_mohr_coulomb.hpp`).
   bool one_pressure = false;
   /// Why it is for plane strain only; "" if it is for three dimensions as well.
   std::string_view only_plane_strain = "";
+
+  /// Whether cohesion is what its strength begins with.
+  [[nodiscard]] constexpr bool is_cohesive() const {
+    return yields && !critical_state && curve == Curve::none;
+  }
 };
 
 /// Which models use a parameter.
-enum class Use { all, yielding, frictional, critical_state };
+enum class Use { all, yielding, frictional, critical_state, curved, hoek_brown, power_law };
 
 /// One parameter: what it may be, and for whom.
 struct ParameterInfo {
@@ -103,7 +135,10 @@ struct ParameterInfo {
   [[nodiscard]] bool is_used_by(const ModelInfo& model) const {
     if (use == Use::all) return true;
     if (use == Use::critical_state) return model.critical_state;
-    return use == Use::yielding ? model.yields && !model.critical_state : model.frictional;
+    if (use == Use::hoek_brown) return model.curve == Curve::hoek_brown;
+    if (use == Use::power_law) return model.curve == Curve::power_law;
+    if (use == Use::curved) return model.curve != Curve::none;
+    return use == Use::yielding ? model.is_cohesive() : model.frictional;
   }
   /// Whether a value lies in the range; not a number does not.
   [[nodiscard]] bool holds(double value) const;

@@ -23,7 +23,7 @@
 namespace constitutive {
 
 /// Class version of an archived `MaterialParameters`; raised when its fields change.
-inline constexpr int material_parameters_version = 3;
+inline constexpr int material_parameters_version = 4;
 
 /// Class version of an archived `PointState`; raised when its fields change.
 inline constexpr int point_state_version = 1;
@@ -92,9 +92,10 @@ void load(Archive& archive, constitutive::MaterialParameters& p, unsigned int ve
   const constitutive::detail::FieldLoader<Archive> loader{archive};
   // A record of an earlier version ends before the fields that came later, which keep their
   // defaults.
-  constexpr unsigned int with_tension_cutoff = 2, with_residuals = 3;
+  constexpr unsigned int with_tension_cutoff = 2, with_residuals = 3, with_curves = 4;
   const std::string_view last = version < with_tension_cutoff ? "dilation_cutoff"
                                 : version < with_residuals    ? "tension_cutoff"
+                                : version < with_curves       ? "preconsolidation_pressure"
                                                               : "";
   bool ended = false;
   p.for_each_field([&](const char* name, auto& field) {

@@ -8,7 +8,8 @@
 namespace constitutive {
 
 /// A material whose cohesion and tan(phi), residual ones included, are divided by a factor, and
-/// tan(psi) with them, so that flow that is associated stays so.
+/// tan(psi) with them, so that flow that is associated stays so; of a curved envelope the shear
+/// strength under every normal stress.
 /// @param factor  > 0; below 1 it strengthens
 [[nodiscard]] inline MaterialParameters with_strength_over(MaterialParameters parameters,
                                                            double factor) {
@@ -18,6 +19,7 @@ namespace constitutive {
   };
   if (factor == 1.0) return parameters;
   parameters.cohesion /= factor;
+  parameters.strength_factor *= factor;
   parameters.friction_angle = divided(parameters.friction_angle);
   parameters.dilation_angle = divided(parameters.dilation_angle);
   parameters.residual_cohesion /= factor;

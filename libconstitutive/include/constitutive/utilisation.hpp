@@ -77,6 +77,18 @@ double utilisation(const ModifiedCamClay& material,
                                    material.slope * std::sqrt(std::max(0.0, room)));
 }
 
+/// Half the largest difference of principal stresses over that of the envelope at the same mean of
+/// the two.
+template <int Dim>
+double utilisation(const CurvedEnvelope& material,
+                   const std::type_identity_t<StressVector<Dim>>& stress,
+                   double /*plastic_volume_strain*/, double /*plastic_strain*/) {
+  const Eigen::Vector3d principal = spectrum(stress).values;
+  const double shear = (principal[0] - principal[2]) / 2;
+  const double centre = -(principal[0] + principal[2]) / 2;
+  return detail::share_of_strength(shear, detail::curved_radius(material, centre));
+}
+
 /// What does not yield has no strength to use up: 0.
 template <int Dim>
 double utilisation(const Elastic&, const std::type_identity_t<StressVector<Dim>>&,
