@@ -18,8 +18,7 @@ double estimated_factor(const problem::Problem& problem, double one) {
     rise += std::abs(b.y() - a.y());
     run += std::abs(b.x() - a.x());
   }
-  constexpr double stability = 5.0;
-  double area = 0.0, cohesion = 0.0, friction = 0.0, weight = 0.0, weakness = 0.0;
+  double area = 0.0, cohesion = 0.0, friction = 0.0, weight = 0.0;
   for (const mesh::Triangle& triangle : problem.mesh.triangles) {
     const problem::Soil& soil = problem.soils[static_cast<std::size_t>(triangle.region)];
     const double here = mesh::twice_area(problem.mesh, triangle);
@@ -27,13 +26,10 @@ double estimated_factor(const problem::Problem& problem, double one) {
     cohesion += here * soil.cohesion;
     friction += here * std::tan(soil.friction_angle);
     weight += here * one * soil.live_unit_weight;
-    const double alone = std::tan(soil.friction_angle) * run / rise +
-                         stability * soil.cohesion / (one * soil.live_unit_weight * (high - low));
-    weakness += here / std::max(alone, 1e-6);
   }
-  // Of soils of very different strength the factor is nearer to that of the weakest.
-  const double mean = friction / area * run / rise + stability * cohesion / (weight * (high - low));
-  const double factor = std::sqrt(mean * area / weakness);
+  constexpr double stability = 5.0;
+  const double factor =
+      friction / area * run / rise + stability * cohesion / (weight * (high - low));
   return std::isfinite(factor) && factor > 0.0 ? std::clamp(factor, 1e-3, 1e3) : 1.0;
 }
 

@@ -48,8 +48,6 @@ class Flank {
   [[nodiscard]] bool may_rest(double factor) const {
     return resting_ != Resting::all && is_steep_at(factor);
   }
-  /// Whether a mesh with steep soils that move, or are as steep as they are, has been solved.
-  [[nodiscard]] bool copes() const { return copes_; }
   /// Gain of the last mesh for its work; infinite as long as it is not known.
   [[nodiscard]] double promise() const { return promise_; }
   /// @param reach  how far off it may be, as a factor
@@ -215,7 +213,6 @@ class Flank {
       return;
     }
     failures_ = 0;
-    copes_ = copes_ || is_steep_at(factor);
     constexpr double rounding = 1e-3;
     const double multiplier = last.certified.value_or(last.proposed);
     const bool has_no_end = multiplier >= (1.0 - rounding) * most_;
@@ -244,7 +241,6 @@ class Flank {
   double excess_ = 0.0;  // how far the multiplier is from one where it last decided, as a logarithm
   Bracket best_;
   int failures_ = 0;
-  bool copes_ = false;
   enum class Resting { none, buried, all };
   Resting resting_ = Resting::none;    // which steep soils have been put to rest
   double steepest_ = std::tan(steep);  // tangent of the friction that is left to them

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include "limit/bracket/block_factor.hpp"
 #include "limit/bracket/flank.hpp"
-#include "limit/bracket/weakened.hpp"
-#include "limit/mesh/bisection.hpp"
 
 namespace limit::bracket {
 
@@ -78,19 +75,6 @@ class Reduction {
     if (options_.wants_mechanism && !above_.factor()) begin_above();
   }
 
-  // Each soil has the measure of its friction, up to that of the mesh.
-  static mesh::Mesh measured(mesh::Mesh mesh, const std::vector<problem::Soil>& soils,
-                             double factor) {
-    for (std::size_t region = 0; region < soils.size(); ++region) {
-      const double friction = weakened(soils[region], factor).friction_angle;
-      mesh.stretch[region] =
-          std::min(mesh.stretch[region], std::tan(std::numbers::pi / 4.0 + friction / 2.0));
-    }
-    constexpr double aspect = 6.0;  // of the longest side's square to twice the area
-    constexpr std::size_t most = 3000;
-    return mesh::evened(std::move(mesh), aspect, most);
-  }
-
   // Meshes of long triangles instead of the first one, where steep soils may need them: if one
   // decides for a better factor at once.
   void try_long(Flank& flank, problem::Problem problem, const std::vector<mesh::Mesh>& meshes,
@@ -99,7 +83,7 @@ class Reduction {
     for (const mesh::Mesh& mesh : meshes) {
       const std::optional<double> known = is_lower ? below_.factor() : upper();
       if (!known || gap() <= far || !flank.is_steep_at(*known) || remaining() <= 0.0) return;
-      problem.mesh = measured(mesh, problem.soils, *known);
+      problem.mesh = mesh;
       Flank other(problem::in_units(problem, case_.units), is_lower, 1.0 / case_.units.multiplier(),
                   means_);
       const double better = is_lower ? close * *known : *known / close;
@@ -172,9 +156,8 @@ class Reduction {
     // What takes more than a good share of it ends nowhere, and another factor might, or, sooner,
     // the same one with steep soils at rest.
     constexpr double share = 0.3, before_rest = 0.1;
-    rest.max_seconds =
-        std::min(remaining(), (flank.may_rest(factor) && !flank.copes() ? before_rest : share) *
-                                  options_.max_seconds);
+    rest.max_seconds = std::min(
+        remaining(), (flank.may_rest(factor) ? before_rest : share) * options_.max_seconds);
     rest.solver_gap = solver_gap();
     flank.solve_at(factor, rest, watch_, result_.bracket.attempts);
     return gap() > options_.gap || !flank.factor();

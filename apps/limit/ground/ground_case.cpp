@@ -211,7 +211,7 @@ void add_long_meshes(const GroundScene& scene, const GroundOutline& outline, dou
       mesh::Mesh mesh =
           ground_mesh(scene, squeezed, fineness_of(scene, squeezed, length, is_lower));
       for (mesh::Point& node : mesh.nodes) node.x() *= stretch;
-      mesh.stretch.assign(scene.materials.size(), stretch);
+      mesh.stretch = stretch;
       meshes.push_back(std::move(mesh));
     };
     try {

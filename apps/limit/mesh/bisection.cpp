@@ -28,15 +28,12 @@ class Bisector {
   // Follows the longest sides until two triangles share one (or it is on the outline), splits
   // those, and goes on until the triangle itself is gone.
   void bisect(int triangle) {
-    // Sides become longer and longer on the way, unless soils with measures of their own lead it
-    // round in a circle: then it ends at any one.
-    constexpr int most_steps = 1000;
     while (alive_[static_cast<std::size_t>(triangle)]) {
       int last = triangle;
-      for (int step = 0;; ++step) {
+      for (;;) {
         const Side side = longest(last);
         const int next = across(side);
-        if (next < 0 || step == most_steps || longest(next) == Side(side.second, side.first)) {
+        if (next < 0 || longest(next) == Side(side.second, side.first)) {
           split(side);
           break;
         }
@@ -85,7 +82,6 @@ class Bisector {
   // Of sides of equal length the one of the lower nodes, so that both neighbours choose alike.
   Side longest(int triangle) const {
     const auto& nodes = at(triangle).nodes;
-    const double stretch = mesh_.stretch_of(at(triangle).region);
     Side best;
     double most = -1.0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -93,7 +89,7 @@ class Bisector {
       const auto [low, high] = std::minmax(side.first, side.second);
       // From the lower node to the higher one, so that both neighbours round alike.
       const Point way = node(high) - node(low);
-      const double length = Point(way.x() / stretch, way.y()).squaredNorm();
+      const double length = Point(way.x() / mesh_.stretch, way.y()).squaredNorm();
       if (length > most || (length == most && std::minmax(side.first, side.second) <
                                                   std::minmax(best.first, best.second))) {
         most = length;
@@ -198,26 +194,6 @@ Mesh refined(Mesh mesh, std::vector<double> indicators, double share, double gro
     const std::vector<bool> marked = largest(indicators, share);
     std::tie(mesh, indicators) = bisected_with(mesh, std::move(indicators), marked);
   } while (static_cast<double>(mesh.triangles.size()) < wanted);
-  return mesh;
-}
-
-Mesh evened(Mesh mesh, double aspect, std::size_t most) {
-  const auto is_long = [&](const Triangle& triangle) {
-    const double stretch = mesh.stretch_of(triangle.region);
-    double longest = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Point way = mesh.nodes[static_cast<std::size_t>(triangle.nodes[(i + 1) % 3])] -
-                        mesh.nodes[static_cast<std::size_t>(triangle.nodes[i])];
-      longest = std::max(longest, Point(way.x() / stretch, way.y()).squaredNorm());
-    }
-    return longest > aspect * twice_area(mesh, triangle) / stretch;
-  };
-  while (mesh.triangles.size() < most) {
-    std::vector<bool> marked;
-    for (const Triangle& triangle : mesh.triangles) marked.push_back(is_long(triangle));
-    if (std::find(marked.begin(), marked.end(), true) == marked.end()) break;
-    mesh = bisected(mesh, marked);
-  }
   return mesh;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "limit/mesh/mesh.hpp"
@@ -18,11 +17,6 @@ namespace limit::mesh {
 /// goes on with what has become of them, an indicator being divided as its triangle is, until there
 /// are `growth` times as many triangles. The mesh itself if no indicator is positive.
 [[nodiscard]] Mesh refined(Mesh mesh, std::vector<double> indicators, double share, double growth);
-
-/// Bisects triangles that are longer than high, each in the measure of its soil, until the square
-/// of none's longest side is more than `aspect` times twice its area (2 of a halved square), or
-/// there are at least `most` triangles.
-[[nodiscard]] Mesh evened(Mesh mesh, double aspect, std::size_t most);
 
 /// Marks the triangles of the largest indicators that together make up `share` of their sum.
 [[nodiscard]] std::vector<bool> largest(const std::vector<double>& indicators, double share);

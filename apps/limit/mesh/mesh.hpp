@@ -26,13 +26,8 @@ struct Mesh {
   std::vector<Point> nodes;  // [m] or in a unit length, as the problem says
   std::vector<Triangle> triangles;
   std::vector<BoundaryEdge> boundary;
-  /// What bisection takes for as long as it is high, by region: lengths along x count by the
-  /// inverse of this. Empty: 1.
-  std::vector<double> stretch;
-
-  [[nodiscard]] double stretch_of(int region) const {
-    return stretch.empty() ? 1.0 : stretch[static_cast<std::size_t>(region)];
-  }
+  /// What bisection takes for as long as it is high: lengths along x count by the inverse of this.
+  double stretch = 1.0;
 };
 
 /// A side between two triangles, or on the outline. It runs counterclockwise around `left`.

@@ -150,7 +150,8 @@ class Builder {
     if (soil.is_curved()) {
       unused = std::max(reserve, tangents_.reserve());
       const mesh::Point within = towards(place, middle);
-      load = tangents_.pressure_near(region, false, within).value_or(load);
+      load = tangents_.pressure_near(region, false, within)
+                 .value_or(std::max(load, soil.envelope.unconfined()));
       touches_.push_back({multiplier(), region, false, within, load});
       const Tangent tangent = touched(soil, false, load);
       soil = tangent.soil;

@@ -1,5 +1,6 @@
 #include "limit/programme/upper_bound.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -148,7 +149,8 @@ class Builder {
     const int column = 3 * static_cast<int>(cones_.size());
     if (soil.is_curved()) {
       const mesh::Point within = towards(place, middle);
-      load = tangents_.pressure_near(region, is_jump, within).value_or(load);
+      load = tangents_.pressure_near(region, is_jump, within)
+                 .value_or(std::max(load, soil.envelope.unconfined()));
       touches_.push_back({column, region, is_jump, within, load});
       const Tangent tangent = touched(soil, is_jump, load);
       soil = tangent.soil;
