@@ -87,12 +87,12 @@ void assign_materials(const scene::Scene& scene, Model<Dim>& model) {
   // By where its cell is: jitter moves no particle into another material. What is left of a cell
   // that was cut is where its particle is.
   for (Eigen::Index a = 0; a < n; ++a) {
+    fpm::Vector<Dim> place = model.particles.position.row(a).transpose();
+    const bool is_whole_cell =
+        model.cells.size() > 0 &&
+        (model.surface.empty() || model.particles.volume[a] == std::pow(model.spacing_at(a), Dim));
+    if (is_whole_cell) place = model.cells.site(static_cast<fpm::Index>(a));
     if (!known) {
-      fpm::Vector<Dim> place = model.cells.site(static_cast<fpm::Index>(a));
-      if (!model.surface.empty() &&
-          model.particles.volume[a] != std::pow(model.spacing_at(a), Dim)) {
-        place = model.particles.position.row(a).transpose();
-      }
       model.material[static_cast<std::size_t>(a)] =
           static_cast<MaterialIndex>(scene::material_at(scene, {place.data(), Dim}));
     }

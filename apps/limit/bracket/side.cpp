@@ -12,8 +12,6 @@ namespace limit::bracket {
 
 namespace {
 
-constexpr double tolerance = 1e-3;  // the solver's, with room
-
 // Shear strain rate in a triangle, which the equations' multipliers imply, times its strength.
 std::vector<double> flow_indicators(const problem::Problem& problem,
                                     const programme::ConeProgram& program,
@@ -61,6 +59,8 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
                    const std::function<void(const Attempt&)>& watch) {
   const std::optional<double> before = best(bracket);
   const double began = means_.seconds();
+  const programme::ConeProgram program = is_lower_ ? programme::lower_bound_program(problem_)
+                                                   : programme::upper_bound_program(problem_);
   std::vector<solver::ConeForm> forms = forms_of(is_lower_, options.engine);
   std::erase_if(forms, [&](solver::ConeForm form) {
     return std::find(given_up_.begin(), given_up_.end(), form) != given_up_.end();
@@ -68,37 +68,14 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
   ++failures_;
   work_ = 0.0;
   for (const solver::ConeForm form : forms) {
-    BracketOptions rest = options;
-    rest.max_seconds = options.max_seconds - (means_.seconds() - began);
-    const bool is_first = form == forms.front();
-    if (rest.max_seconds <= 0.0 && !is_first) break;
-    const Attempt attempt = ask(form, is_first, bracket, rest, watch);
-    if (is_good(attempt, before)) {
-      failures_ = 0;
-      break;
-    }
-    if (!is_first) given_up_.push_back(form);
-    if (attempt.status == solver::SolverStatus::timed_out || !options.fall_back) break;
-  }
-  const std::optional<double> after = best(bracket);
-  if (before && after) promise_ = std::abs(*after / *before - 1.0) / std::max(1.0, work_);
-}
-
-Attempt Side::ask(solver::ConeForm form, bool is_first, Bracket& bracket,
-                  const BracketOptions& options, const std::function<void(const Attempt&)>& watch) {
-  constexpr int most_rounds = 6;
-  const double began = means_.seconds();
-  double last = std::numeric_limits<double>::infinity();
-  for (int round = 1;; ++round) {
-    const programme::ConeProgram program =
-        is_lower_ ? programme::lower_bound_program(problem_, tangents_)
-                  : programme::upper_bound_program(problem_, tangents_);
-    const double start = means_.seconds(), left = options.max_seconds - (start - began);
     solver::SolverOptions solver;
     solver.form = form;
     solver.max_iterations = options.max_iterations;
     solver.cone_gap = options.solver_gap;
     solver.wants_interior = !is_lower_;
+    const double start = means_.seconds();
+    const double left = options.max_seconds - (start - began);
+    if (left <= 0.0 && form != forms.front()) break;
     solver.max_seconds = std::max(1.0, left);
     const solver::ConeSolution solution = means_.solve(program, solver);
     Attempt attempt{is_lower_,        triangles(),         form, solution.status,
@@ -109,7 +86,7 @@ Attempt Side::ask(solver::ConeForm form, bool is_first, Bracket& bracket,
                            : std::numeric_limits<double>::quiet_NaN();
     if (solution.variables.allFinite() && solution.multipliers.allFinite()) {
       certify(bracket, attempt, solution);
-      if (is_first || attempt.certified) {
+      if (form == forms.front() || attempt.certified) {
         indicators_ = flow_indicators(problem_, program, solution);
       }
     }
@@ -117,48 +94,28 @@ Attempt Side::ask(solver::ConeForm form, bool is_first, Bracket& bracket,
     work_ += attempt.work;
     bracket.attempts.push_back(attempt);
     if (watch) watch(attempt);
-    // Tangents of a curved envelope are put where the stresses are, until that changes little.
-    const auto towards_found = [&](const programme::ConeProgram& of, Eigen::VectorXd found) {
-      // The stresses that go with velocities are not unique, and tangents would follow them to and
-      // fro: they go half of the way, unless they were guessed.
-      const programme::Touch& any = of.touches.front();
-      const bool is_guess = !tangents_.pressure_near(any.region, any.is_jump, any.place);
-      if (is_lower_ || is_guess) return found;
-      for (const programme::Touch& touch : of.touches) {
-        found[touch.variable] = (found[touch.variable] - touch.pressure) / 2.0;
-      }
-      return found;
-    };
-    if (program.touches.empty() || !is_solved(attempt)) return attempt;
-    tangents_.take(program.touches, towards_found(program, solution.variables));
-    if (!attempt.certified && is_lower_) tangents_.draw_in();
-    // A stress field shows by what its certificate takes away how far off they are; velocities flow
-    // by the tangents' normals, and do not.
-    constexpr double of_gap = 0.1;
-    const double other = is_lower_ ? attempt.certified.value_or(0.0) : last;
-    const bool is_close = attempt.certified && std::abs(other - attempt.proposed) <=
-                                                   of_gap * options.gap * attempt.proposed;
-    last = attempt.proposed;
-    const bool is_spent = means_.seconds() - began >= options.max_seconds;
-    if (is_close || is_spent || has_no_end(attempt) || round == most_rounds) return attempt;
+    if (is_good(attempt, before)) {
+      failures_ = 0;
+      break;
+    }
+    if (form != forms.front()) given_up_.push_back(form);
+    if (solution.status == solver::SolverStatus::timed_out || !options.fall_back) break;
   }
-}
-
-bool Side::is_solved(const Attempt& attempt) {
-  return attempt.status == solver::SolverStatus::solved ||
-         attempt.status == solver::SolverStatus::acceptable;
-}
-
-bool Side::has_no_end(const Attempt& attempt) const {
-  return problem_.most_multiplier &&
-         attempt.proposed >= (1.0 - tolerance) * *problem_.most_multiplier;
+  const std::optional<double> after = best(bracket);
+  if (before && after) promise_ = std::abs(*after / *before - 1.0) / std::max(1.0, work_);
 }
 
 // A bisected mesh holds every field of the mesh before: its optimum cannot be worse.
 bool Side::is_good(const Attempt& attempt, const std::optional<double>& before) const {
-  if (!is_solved(attempt)) return false;
+  if (attempt.status != solver::SolverStatus::solved &&
+      attempt.status != solver::SolverStatus::acceptable) {
+    return false;
+  }
+  constexpr double tolerance = 1e-3;  // the solver's, with room
   // No mechanism fails under that much: this is an answer, too.
-  if (!attempt.certified) return !is_lower_ && has_no_end(attempt);
+  const bool has_no_end =
+      problem_.most_multiplier && attempt.proposed >= (1.0 - tolerance) * *problem_.most_multiplier;
+  if (!attempt.certified) return !is_lower_ && has_no_end;
   const double worse = is_lower_ ? -tolerance : tolerance;
   return !before || (is_lower_ ? *attempt.certified >= *before + worse * std::abs(*before)
                                : *attempt.certified <= *before + worse * std::abs(*before));

@@ -8,7 +8,6 @@
 #include "limit/bracket/attempt.hpp"
 #include "limit/bracket/means.hpp"
 #include "limit/problem/problem.hpp"
-#include "limit/programme/tangents.hpp"
 
 namespace limit::bracket {
 
@@ -41,12 +40,6 @@ class Side {
                const std::function<void(const Attempt&)>& watch);
 
  private:
-  // With the tangents of curved envelopes where they should be.
-  // @return the last attempt of those that takes
-  Attempt ask(solver::ConeForm form, bool is_first, Bracket& bracket, const BracketOptions& options,
-              const std::function<void(const Attempt&)>& watch);
-  [[nodiscard]] static bool is_solved(const Attempt& attempt);
-  [[nodiscard]] bool has_no_end(const Attempt& attempt) const;
   [[nodiscard]] bool is_good(const Attempt& attempt, const std::optional<double>& before) const;
   [[nodiscard]] std::optional<double> best(const Bracket& bracket) const;
   void certify(Bracket& bracket, Attempt& attempt, const solver::ConeSolution& solution);
@@ -54,7 +47,6 @@ class Side {
   problem::Problem problem_;
   bool is_lower_;
   Means means_;
-  programme::Tangents tangents_;
   std::vector<double> indicators_;
   std::vector<solver::ConeForm> given_up_;
   int failures_ = 0;

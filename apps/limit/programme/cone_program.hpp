@@ -4,8 +4,6 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "limit/programme/tangents.hpp"
-
 namespace limit::programme {
 
 /// Mohr-Coulomb in plane strain for the mean stress p, half the difference d of the normal stresses
@@ -23,8 +21,7 @@ struct ConeProgram {
   Eigen::SparseMatrix<double, Eigen::RowMajor> equations;
   Eigen::VectorXd right_side;
   Eigen::VectorXd objective;
-  Eigen::VectorXd start;       // strictly inside every cone
-  std::vector<Touch> touches;  // of cones that are tangents of curved envelopes
+  Eigen::VectorXd start;  // strictly inside every cone
 };
 
 }  // namespace limit::programme

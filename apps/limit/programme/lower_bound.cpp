@@ -1,6 +1,5 @@
 #include "limit/programme/lower_bound.hpp"
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -51,11 +50,8 @@ struct SideFrame {
 
 class Builder {
  public:
-  Builder(const problem::Problem& problem, const Tangents& tangents)
-      : problem_(problem),
-        tangents_(tangents),
-        edges_(mesh::edges_of(problem.mesh)),
-        overburden_(problem) {
+  explicit Builder(const problem::Problem& problem)
+      : problem_(problem), edges_(mesh::edges_of(problem.mesh)), overburden_(problem) {
     add_cones();
     for (std::size_t corner = 0; corner < cuts_.size(); ++corner) add_cut(corner);
     for (const mesh::Edge& edge : edges_) add_contacts(edge);
@@ -80,7 +76,6 @@ class Builder {
     program.right_side = Eigen::Map<const Eigen::VectorXd>(
         right_side_.data(), static_cast<Eigen::Index>(right_side_.size()));
     program.objective = Eigen::VectorXd::Unit(variables, multiplier());
-    program.touches = touches_;
     program.start = Eigen::VectorXd::Zero(variables);
     for (std::size_t k = 0; k < cones_.size(); ++k) {
       program.start.segment<3>(3 * static_cast<Eigen::Index>(k)) = starts_[k];
@@ -105,19 +100,14 @@ class Builder {
     std::vector<problem::Soil> soils;
     for (const mesh::Triangle& triangle : triangles) {
       soils.push_back(problem::soil_in(problem_, triangle, problem::Bound::lower));
-      const mesh::Point middle =
-          (node_of(triangle, 0) + node_of(triangle, 1) + node_of(triangle, 2)) / 3.0;
-      for (int i = 0; i < 3; ++i) {
-        add_cone(soils.back(), triangle.region, node_of(triangle, i), middle);
-      }
+      for (int i = 0; i < 3; ++i) add_cone(soils.back(), node_of(triangle, i));
     }
     middles_.assign(triangles.size(), -1);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       if (!soils[t].has_uneven_weight()) continue;
       middles_[t] = multiplier();
       for (int i = 0; i < 3; ++i) {
-        const mesh::Point place = (node_of(triangles[t], i) + node_of(triangles[t], i + 1)) / 2.0;
-        add_cone(soils[t], triangles[t].region, place, place);
+        add_cone(soils[t], (node_of(triangles[t], i) + node_of(triangles[t], i + 1)) / 2.0);
       }
     }
   }
@@ -142,22 +132,10 @@ class Builder {
     return triangle >= 0 && middles_[static_cast<std::size_t>(triangle)] >= 0;
   }
 
-  // @param middle  of its triangle
-  void add_cone(const problem::Soil& local, int region, const mesh::Point& place,
-                const mesh::Point& middle) {
-    problem::Soil soil = local.with_cohesion(local.cohesion_at(place));
-    double load = overburden_.at(soil, place), unused = reserve;
-    if (soil.is_curved()) {
-      unused = std::max(reserve, tangents_.reserve());
-      const mesh::Point within = towards(place, middle);
-      load = tangents_.pressure_near(region, false, within)
-                 .value_or(std::max(load, soil.envelope.unconfined()));
-      touches_.push_back({multiplier(), region, false, within, load});
-      const Tangent tangent = touched(soil, false, load);
-      soil = tangent.soil;
-      load = tangent.pressure;
-    }
-    cones_.push_back(yield_cone(soil, load, unused));
+  void add_cone(const problem::Soil& local, const mesh::Point& place) {
+    const problem::Soil soil = local.with_cohesion(local.cohesion_at(place));
+    const double load = overburden_.at(soil, place);
+    cones_.push_back(yield_cone(soil, load, reserve));
     starts_.push_back(inner_point(cones_.back(), load));
     cuts_.push_back(soil.cuts_tension() ? std::optional(tension_cone(soil, load, reserve))
                                         : std::nullopt);
@@ -367,8 +345,6 @@ class Builder {
   }
 
   const problem::Problem& problem_;
-  const Tangents& tangents_;
-  std::vector<Touch> touches_;
   std::vector<mesh::Edge> edges_;
   Overburden overburden_;
   std::vector<YieldCone> cones_;
@@ -388,8 +364,8 @@ class Builder {
 
 }  // namespace
 
-ConeProgram lower_bound_program(const problem::Problem& problem, const Tangents& tangents) {
-  return Builder(problem, tangents).program();
+ConeProgram lower_bound_program(const problem::Problem& problem) {
+  return Builder(problem).program();
 }
 
 problem::StressField stress_field(const problem::Problem& problem,

@@ -15,10 +15,7 @@ namespace limit::programme {
 /// Where the footing may lift off, no corner under it is in tension.
 /// The variables are 9 per triangle, 3 per such corner, the last one is the multiplier.
 /// The strength is less by one or two parts in 1e6, so that the answer of a solver lies inside.
-/// The cones of a curved envelope are its tangents, where `tangents` says or, if it says nothing,
-/// under the ground above: what is within the envelope is within all of them.
-[[nodiscard]] ConeProgram lower_bound_program(const problem::Problem& problem,
-                                              const Tangents& tangents = {});
+[[nodiscard]] ConeProgram lower_bound_program(const problem::Problem& problem);
 
 /// The stress field in the variables of such a program.
 [[nodiscard]] problem::StressField stress_field(const problem::Problem& problem,

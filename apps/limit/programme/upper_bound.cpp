@@ -1,6 +1,5 @@
 #include "limit/programme/upper_bound.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -81,9 +80,8 @@ struct Loads {
 
 class Builder {
  public:
-  Builder(const problem::Problem& problem, const Tangents& tangents)
+  explicit Builder(const problem::Problem& problem)
       : problem_(problem),
-        tangents_(tangents),
         edges_(mesh::edges_of(problem.mesh)),
         overburden_(problem),
         rows_(problem) {}
@@ -131,35 +129,19 @@ class Builder {
       program.start.segment<3>(3 * static_cast<Eigen::Index>(k)) = starts_[k];
     }
     program.cones = std::move(cones_);
-    program.touches = std::move(touches_);
     return program;
   }
 
  private:
-  // A new cone, its first variable and the cosine of its friction angle.
-  struct Cone {
-    int column;
-    double cosine;
-  };
-  // @param middle  of its triangle, or of its side if it is a jump's
-  Cone add_cone(const problem::Soil& local, int region, const mesh::Point& place, double cohesion,
-                bool is_jump, const mesh::Point& middle) {
-    problem::Soil soil = local.with_cohesion(cohesion);
-    double load = overburden_.at(soil, place);
-    const int column = 3 * static_cast<int>(cones_.size());
-    if (soil.is_curved()) {
-      const mesh::Point within = towards(place, middle);
-      load = tangents_.pressure_near(region, is_jump, within)
-                 .value_or(std::max(load, soil.envelope.unconfined()));
-      touches_.push_back({column, region, is_jump, within, load});
-      const Tangent tangent = touched(soil, is_jump, load);
-      soil = tangent.soil;
-      load = tangent.pressure;
-    }
+  // First variable of a new cone.
+  int add_cone(const problem::Soil& local, const mesh::Point& place, double cohesion) {
+    const problem::Soil soil = local.with_cohesion(cohesion);
+    const double load = overburden_.at(soil, place);
     cones_.push_back(yield_cone(soil, load, 0.0));
     starts_.push_back(inner_point(cones_.back(), load));
+    const int column = 3 * static_cast<int>(cones_.size() - 1);
     if (soil.cuts_tension()) cuts_.emplace_back(column, tension_cone(soil, load, 0.0));
-    return {column, std::cos(soil.friction_angle)};
+    return column;
   }
 
   // A normal traction (variable `traction`) that may not pull, as a variable of its own: the
@@ -183,16 +165,12 @@ class Builder {
     const double weight = shapes.area / 3.0;
     const problem::Soil soil = problem::soil_in(problem_, triangle, problem::Bound::upper);
     double sum = 0.0;
-    mesh::Point middle(0.0, 0.0);
-    for (const int node : triangle.nodes) {
-      sum += soil.cohesion_at(node_at(mesh, node));
-      middle += node_at(mesh, node) / 3.0;
-    }
+    for (const int node : triangle.nodes) sum += soil.cohesion_at(node_at(mesh, node));
     for (std::size_t corner = 0; corner < 3; ++corner) {
       // The integral of a linear cohesion times a linear rate.
       const mesh::Point& place = node_at(mesh, triangle.nodes[corner]);
       const double cohesion = (sum + soil.cohesion_at(place)) / 4.0;
-      const int column = add_cone(soil, triangle.region, place, cohesion, false, middle).column;
+      const int column = add_cone(soil, place, cohesion);
       for (std::size_t i = 0; i < 6; ++i) {
         const auto row = static_cast<int>(2 * (6 * t + i));
         const mesh::Point slope = weight * shapes.slopes[corner][i];
@@ -226,8 +204,8 @@ class Builder {
     }
     const mesh::Mesh& mesh = problem_.mesh;
     const mesh::Point along = node_at(mesh, edge.second) - node_at(mesh, edge.first);
-    const int region = problem::region_across(problem_, edge);
     const problem::Soil soil = problem::soil_across(problem_, edge);
+    const double cosine = std::cos(soil.friction_angle);
     const double length = along.norm();
     const mesh::Point tangent = along / length, normal(tangent.y(), -tangent.x());
     const std::array<mesh::Point, 3> at{node_at(mesh, edge.first),
@@ -241,7 +219,7 @@ class Builder {
       const double share = 0.25 + 0.25 * static_cast<double>(c);
       const double cohesion =
           (1.0 - share) * soil.cohesion_at(at[0]) + share * soil.cohesion_at(at[2]);
-      const auto [column, cosine] = add_cone(soil, region, at[c], cohesion, true, at[1]);
+      const int column = add_cone(soil, at[c], cohesion);
       const bool cut = soil.cuts_tension();
       if (may_open) add_contact(column, cut);
       for (std::size_t i = 0; i < 3; ++i) {
@@ -285,8 +263,6 @@ class Builder {
   }
 
   const problem::Problem& problem_;
-  const Tangents& tangents_;
-  std::vector<Touch> touches_;
   std::vector<mesh::Edge> edges_;
   Overburden overburden_;
   Rows rows_;
@@ -303,8 +279,8 @@ class Builder {
 
 }  // namespace
 
-ConeProgram upper_bound_program(const problem::Problem& problem, const Tangents& tangents) {
-  return Builder(problem, tangents).program();
+ConeProgram upper_bound_program(const problem::Problem& problem) {
+  return Builder(problem).program();
 }
 
 problem::VelocityField velocity_field(const problem::Problem& problem,

@@ -17,10 +17,7 @@ namespace limit::programme {
 /// (Bernstein) is kept everywhere. The velocities are the multipliers of the equations: 12 per
 /// triangle, then the footing's motions that are free; then the openings, at each control point
 /// where the footing may lift off.
-/// The cones of a curved envelope are its tangents, where `tangents` says or, if it says nothing,
-/// under the ground above: what is within the envelope is within all of them.
-[[nodiscard]] ConeProgram upper_bound_program(const problem::Problem& problem,
-                                              const Tangents& tangents = {});
+[[nodiscard]] ConeProgram upper_bound_program(const problem::Problem& problem);
 
 /// The velocity field of such a program's multipliers, scaled to unit power of the live load.
 [[nodiscard]] problem::VelocityField velocity_field(const problem::Problem& problem,
