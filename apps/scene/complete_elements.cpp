@@ -57,7 +57,7 @@ std::optional<BaseFace> base_of(const Scene& scene, const ElementBody& body, std
 
 }  // namespace
 
-void complete_box_of_elements(Scene& scene, const ElementBody& body) {
+void complete_box_of_elements(Scene& scene, const ElementBody& body, tables::Diagnosis& diagnosis) {
   Geometry& geometry = scene.geometry;
   const auto n = static_cast<std::size_t>(geometry.dimension);
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -74,9 +74,21 @@ void complete_box_of_elements(Scene& scene, const ElementBody& body) {
       }
     }
   }
+  const double spacing = std::ranges::min(shape::spacings(body.mesh, body.joined, volume));
+  const auto check = [&](double given, double is, const char* key) {
+    constexpr double round_off = 1e-9;
+    if (std::abs(given - is) <= round_off * std::abs(is) + round_off * spacing) return;
+    diagnosis.error(key, fmt::format("found {:.6g}, and the mesh has {:.6g}", given, is),
+                    "where particles are elements, leave it out: the mesh says it");
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (geometry.min.size() == n) check(geometry.min[i], low[i], "geometry.min");
+    if (geometry.max.size() == n) check(geometry.max[i], high[i], "geometry.max");
+  }
+  if (geometry.spacing > 0.0) check(geometry.spacing, spacing, "geometry.spacing");
   geometry.min = low;
   geometry.max = high;
-  geometry.spacing = std::ranges::min(shape::spacings(body.mesh, body.joined, volume));
+  geometry.spacing = spacing;
 }
 
 void complete_drive_of_solid(Scene& scene, const ElementBody& body, tables::Diagnosis& diagnosis) {

@@ -88,6 +88,14 @@ TEST(ElementScene, RefusesWhatBelongsToCells) {
               HasSubstr("geometry.spacing: is missing; needed is a number > 0 [m]"));
 }
 
+TEST(ElementScene, RefusesABoxAndASpacingThatAreNotTheMeshs) {
+  EXPECT_THAT(error_with(plane, "[geometry]", "[geometry]\nspacing = 0.1"),
+              HasSubstr("geometry.spacing: found 0.1, and the mesh has 0.25; "));
+  EXPECT_THAT(error_with(plane, "[geometry]", "[geometry]\nmax = [2.5, 1.0]"),
+              HasSubstr("geometry.max: found 2.5, and the mesh has 2; "));
+  EXPECT_EQ(error_with(plane, "[geometry]", "[geometry]\nmax = [2.0, 1.0]"), "");
+}
+
 TEST(ElementScene, RefusesTheOtherDimension) {
   EXPECT_THAT(error_with(solid, "dimension = 3", "dimension = 2"),
               HasSubstr("geometry.dimension: found 2 with a solid mesh"));

@@ -94,7 +94,7 @@ class Reader {
             "the bounds are those of a soil without a tension cut-off");
     require(!material.residual_strain, table + "residual_strain",
             "the bounds are those of a soil whose strength stays");
-    require(scene::model_of(material).curve == constitutive::Curve::none, table + "model",
+    require(!material.curve.intact_strength && !material.curve.power_coefficient, table + "model",
             "fpm-limit's strengths are cohesion and friction: a curved envelope has no bounds yet");
     require(!material.overconsolidation_ratio, table + "model",
             "the bounds are those of a soil whose strength stays");
