@@ -65,7 +65,7 @@ TEST(Rows, NameTheParticleThatHasNoNeighbourhood) {
   auto set = fpm::make_lattice(lattice<2>({8, 8}));
   set.position.row(17) << 5.0, 5.0;
   EXPECT_THAT([&] { Model<2>(set, row_options<2>()); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("particle 17 has no")));
+              ThrowsMessage<fpm::PoorNeighbourhood>(HasSubstr("particle 17 at (5, 5) m has no")));
 }
 
 TEST(Rows, RefuseAPlaneOfParticlesInSpace) {
@@ -74,8 +74,9 @@ TEST(Rows, RefuseAPlaneOfParticlesInSpace) {
   set.position.setZero(64, 3);
   set.position.leftCols(2) = plane.position;
   set.volume = plane.volume;
-  EXPECT_THAT([&] { Model<3>(set, row_options<3>()); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("particle 0 has no")));
+  EXPECT_THAT(
+      [&] { Model<3>(set, row_options<3>()); },
+      ThrowsMessage<fpm::PoorNeighbourhood>(HasSubstr("particle 0 at (0.05, 0.05, 0) m has no")));
 }
 
 TEST(Rows, AskForMoreNeighboursWhenSecondGradientsAreFitted) {

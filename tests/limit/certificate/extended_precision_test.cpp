@@ -132,7 +132,7 @@ TEST_P(ExtendedPrecision, AStressFieldBalancesTheLowerBoundNowhereBeyondYield) {
   problem::Problem problem = GetParam().problem();
   problem.mesh = found.lower->mesh;
   std::vector<Real> stress;
-  for (const Eigen::Matrix3d& corners : found.lower->certificate.field) {
+  for (const auto& corners : found.lower->certificate.field) {
     for (const double component : corners.reshaped()) stress.emplace_back(component);
   }
   const Real bound(found.lower_bound());
