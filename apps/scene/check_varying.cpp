@@ -204,7 +204,8 @@ void check_varying(const Scene& scene, std::size_t index, tables::Diagnosis& dia
         {"cohesion", 0.0, infinity, may_vanish,
          may_vanish ? "allowed is a cohesion of zero or more wherever the material is"
                     : "allowed is a cohesion of more than zero wherever the material is"});
-  constexpr const char* angle = "allowed is an angle from zero to below 90 wherever the material is";
+  constexpr const char* angle =
+      "allowed is an angle from zero to below 90 wherever the material is";
   check(material.friction_angle, {"friction_angle", 0.0, right_angle, true, angle});
   check(material.dilation_angle, {"dilation_angle", 0.0, right_angle, true, angle});
   constexpr const char* weight = "allowed is more than zero wherever the material is";

@@ -72,8 +72,9 @@ void check_share(const Scene& scene, tables::Diagnosis& diagnosis) {
   const auto varying = std::ranges::find_if(
       scene.material, [](const Material& material) { return material.density.varies(); });
   if (varying != scene.material.end()) {
-    diagnosis.error(key, fmt::format("found {}, and the weight of {} changes from place to place",
-                                     *scene.water.r_u, varying->name),
+    diagnosis.error(key,
+                    fmt::format("found {}, and the weight of {} changes from place to place",
+                                *scene.water.r_u, varying->name),
                     "give a water table, or one weight");
     return;
   }

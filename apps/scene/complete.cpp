@@ -46,8 +46,8 @@ bool agree(const tables::VaryingNumber& one, const tables::VaryingNumber& other)
 // earthquake.
 void complete_weights(Scene& scene, tables::Diagnosis& diagnosis) {
   const bool weighs = std::ranges::any_of(scene.material, [](const Material& material) {
-    return material.unit_weight && (material.unit_weight->value > 0.0 ||
-                                    material.unit_weight->varies());
+    return material.unit_weight &&
+           (material.unit_weight->value > 0.0 || material.unit_weight->varies());
   });
   if (!weighs || !diagnosis.good({"material", "gravity", "gravity.acceleration", "load.kh",
                                   "load.kv", "geometry.dimension"})) {
@@ -74,12 +74,11 @@ void complete_weights(Scene& scene, tables::Diagnosis& diagnosis) {
     if (material.density == tables::VaryingNumber()) {
       material.density = density;
     } else if (!agree(density, material.density)) {
-      diagnosis.error(
-          key,
-          fmt::format("found {:g}, and a density of {:g}", material.unit_weight->value,
-                      material.density.value),
-          fmt::format("it would be {:.6g} with gravity's {:.6g} m/s2: give one of them",
-                      material.density.value * still, still));
+      diagnosis.error(key,
+                      fmt::format("found {:g}, and a density of {:g}", material.unit_weight->value,
+                                  material.density.value),
+                      fmt::format("it would be {:.6g} with gravity's {:.6g} m/s2: give one of them",
+                                  material.density.value * still, still));
     }
   }
 }

@@ -32,7 +32,8 @@ struct Support;
 /// A material as libconstitutive takes it; what its model does not use is left out.
 [[nodiscard]] constitutive::MaterialParameters parameters_of(const Material& material);
 
-/// Whether strength or stiffness of a material change from place to place; `parameters_of` has those of one place.
+/// Whether strength or stiffness of a material change from place to place; `parameters_of` has
+/// those of one place.
 [[nodiscard]] bool varies(const Material& material);
 
 /// Its parameters at a place.

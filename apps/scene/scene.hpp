@@ -137,20 +137,20 @@ struct Approximation {
 /// the body, later ones win inside their region.
 struct Material {
   std::string name;
-  std::string model = "elastic";       // a family of models of libconstitutive
+  std::string model = "elastic";         // a family of models of libconstitutive
   tables::VaryingNumber youngs_modulus;  // [Pa]
   double poissons_ratio = 0.0;
-  std::optional<tables::VaryingNumber> cohesion;    // [Pa] present for every yielding model
+  std::optional<tables::VaryingNumber> cohesion;  // [Pa] present for every yielding model
   // [deg] present for the frictional models
   std::optional<tables::VaryingNumber> friction_angle, dilation_angle;
-  tables::VaryingNumber density;                              // [kg/m3]
-  std::optional<tables::VaryingNumber> unit_weight;           // [N/m3] which says the same
-  std::optional<tables::VaryingNumber> saturated_unit_weight; // [N/m3] below the water table
-  std::optional<double> dilation_cutoff;          // accumulated plastic volume strain
-  std::optional<double> tension_cutoff;           // [Pa] largest principal stress
-  std::optional<double> residual_strain;          // equivalent plastic strain
-  std::optional<double> residual_cohesion;        // [Pa]
-  std::optional<double> residual_friction_angle;  // [deg]
+  tables::VaryingNumber density;                               // [kg/m3]
+  std::optional<tables::VaryingNumber> unit_weight;            // [N/m3] which says the same
+  std::optional<tables::VaryingNumber> saturated_unit_weight;  // [N/m3] below the water table
+  std::optional<double> dilation_cutoff;                       // accumulated plastic volume strain
+  std::optional<double> tension_cutoff;                        // [Pa] largest principal stress
+  std::optional<double> residual_strain;                       // equivalent plastic strain
+  std::optional<double> residual_cohesion;                     // [Pa]
+  std::optional<double> residual_friction_angle;               // [deg]
   std::optional<double> compression_index;        // present for models of critical states
   std::optional<double> swelling_index;           // as is this,
   std::optional<double> critical_stress_ratio;    // this
