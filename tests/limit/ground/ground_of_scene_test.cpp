@@ -128,7 +128,7 @@ TEST(SceneOfBoth, HasTheSameWater) {
   EXPECT_EQ(ground->water.unit_weight, 10e3);
   ASSERT_EQ(ground->water.table.size(), 3U);
   EXPECT_EQ(ground->water.table[0], mesh::Point(-1.0, 1.5));
-  EXPECT_NEAR(ground->materials[1].saturated_unit_weight.value_or(0.0), 21e3, 1e-9);
+  EXPECT_NEAR(ground->materials[1].saturated_unit_weight.value_or(0.0).value, 21e3, 1e-9);
   EXPECT_FALSE(ground->materials[0].saturated_unit_weight);
   const auto share = ground_of(both + "[water]\nr_u = 0.3\n");
   ASSERT_TRUE(share);
