@@ -16,7 +16,6 @@
 #include "scene/derived.hpp"
 #include "scene/element_body.hpp"
 #include "scene/ground.hpp"
-#include "scene/outline_faces.hpp"
 #include "scene/scene.hpp"
 
 namespace model {

@@ -7,6 +7,7 @@
 #include "scene/derived.hpp"
 #include "scene/ground.hpp"
 #include "scene/names.hpp"
+#include "scene/outline_faces.hpp"
 #include "scene/places.hpp"
 
 namespace scene {

@@ -8,6 +8,7 @@
 #include "scene/derived.hpp"
 #include "scene/ground.hpp"
 #include "scene/names.hpp"
+#include "scene/outline_faces.hpp"
 #include "scene/scene.hpp"
 
 namespace scene {

@@ -10,6 +10,7 @@
 #include "constitutive/parameters.hpp"
 #include "scene/course.hpp"
 #include "scene/ground.hpp"
+#include "scene/outline_faces.hpp"
 #include "scene/scene.hpp"
 #include "scene/water.hpp"
 

@@ -5,11 +5,8 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <set>
 
 #include "scene/box.hpp"
-#include "scene/element_body.hpp"
-#include "scene/outline_faces.hpp"
 #include "scene/scene.hpp"
 
 namespace scene {
@@ -48,22 +45,8 @@ std::optional<std::size_t> footing_of(const Scene& scene) {
   return static_cast<std::size_t>(found - scene.side.begin());
 }
 
-std::vector<std::size_t> regions_at(const Scene& scene, std::size_t side) {
-  std::set<std::size_t> regions;
-  if (is_solid(scene)) {
-    const ElementBody body = elements_of(scene);
-    for (std::size_t f = 0; f < body.side.size(); ++f) {
-      if (body.side[f] != static_cast<int>(side)) continue;
-      const auto part = static_cast<std::size_t>(body.joined.facets[f].part);
-      regions.insert(static_cast<std::size_t>(body.joined.parts[part].region));
-    }
-  } else {
-    for (const shape::OutlineSegment& segment : outline_of(scene).segments) {
-      if (segment.right >= 0 || segment.side != static_cast<int>(side)) continue;
-      regions.insert(static_cast<std::size_t>(segment.left));
-    }
-  }
-  return {regions.begin(), regions.end()};
+bool holds(OutlineKind kind) {
+  return kind == OutlineKind::fixed || kind == OutlineKind::roller || kind == OutlineKind::symmetry;
 }
 
 std::size_t material_of(const Scene& scene, std::size_t region) {
@@ -92,20 +75,6 @@ std::size_t material_of_region_at(const Scene& scene, const shape::Outline& outl
     nearest = r;
   }
   return material_of(scene, nearest);
-}
-
-std::vector<std::string> tied_surfaces(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Cutout& cutout : scene.cutout) {
-    if (cutout.kind != CutoutKind::free) names.push_back(cutout.name);
-  }
-  if (scene.region.empty()) return names;
-  for (const OuterPiece& piece : outer_pieces(scene)) {
-    const OutlineSide& side = scene.side[piece.side];
-    if (!holds(side.kind) || (piece.face && is_held(scene, *piece.face))) continue;
-    if (std::ranges::count(names, side.name) == 0) names.push_back(side.name);
-  }
-  return names;
 }
 
 std::vector<shape::Point> singular_corners(const Scene& scene) {

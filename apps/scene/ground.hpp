@@ -23,8 +23,8 @@ struct Scene;
 /// Index of the side that is a footing.
 [[nodiscard]] std::optional<std::size_t> footing_of(const Scene& scene);
 
-/// Indices of the regions whose surface a side is.
-[[nodiscard]] std::vector<std::size_t> regions_at(const Scene& scene, std::size_t side);
+/// Whether a side holds the body: particles are tied to it, where no support or mirror holds it.
+[[nodiscard]] bool holds(OutlineKind kind);
 
 /// Index of a region's material.
 [[nodiscard]] std::size_t material_of(const Scene& scene, std::size_t region);
@@ -35,10 +35,6 @@ struct Scene;
 
 /// Whether a support or a mirror holds a face of the box.
 [[nodiscard]] bool is_held(const Scene& scene, Side face);
-
-/// Names of the surfaces that particles are tied to: cutouts and sides that hold the body where no
-/// support or mirror does.
-[[nodiscard]] std::vector<std::string> tied_surfaces(const Scene& scene);
 
 /// Corners of the outline where stress is singular: re-entrant ones, and ends of pressures.
 [[nodiscard]] std::vector<shape::Point> singular_corners(const Scene& scene);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "scene/box.hpp"
 #include "scene/element_body.hpp"
@@ -12,10 +13,6 @@
 #include "scene/scene.hpp"
 
 namespace scene {
-
-bool holds(OutlineKind kind) {
-  return kind == OutlineKind::fixed || kind == OutlineKind::roller || kind == OutlineKind::symmetry;
-}
 
 std::vector<OuterPiece> outer_pieces(const Scene& scene, const shape::Outline& outline) {
   const auto face_of = [&](const shape::OutlineSegment& segment) -> std::optional<Side> {
@@ -83,6 +80,38 @@ std::string OutlineFaces::name_of_holders(const std::vector<std::size_t>& sides,
     if (faces_of(s) > 1) name += fmt::format(" {}", name_of(face));
   }
   return name;
+}
+
+std::vector<std::string> tied_surfaces(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Cutout& cutout : scene.cutout) {
+    if (cutout.kind != CutoutKind::free) names.push_back(cutout.name);
+  }
+  if (scene.region.empty()) return names;
+  for (const OuterPiece& piece : outer_pieces(scene)) {
+    const OutlineSide& side = scene.side[piece.side];
+    if (!holds(side.kind) || (piece.face && is_held(scene, *piece.face))) continue;
+    if (std::ranges::count(names, side.name) == 0) names.push_back(side.name);
+  }
+  return names;
+}
+
+std::vector<std::size_t> regions_at(const Scene& scene, std::size_t side) {
+  std::set<std::size_t> regions;
+  if (is_solid(scene)) {
+    const ElementBody body = elements_of(scene);
+    for (std::size_t f = 0; f < body.side.size(); ++f) {
+      if (body.side[f] != static_cast<int>(side)) continue;
+      const auto part = static_cast<std::size_t>(body.joined.facets[f].part);
+      regions.insert(static_cast<std::size_t>(body.joined.parts[part].region));
+    }
+  } else {
+    for (const shape::OutlineSegment& segment : outline_of(scene).segments) {
+      if (segment.right >= 0 || segment.side != static_cast<int>(side)) continue;
+      regions.insert(static_cast<std::size_t>(segment.left));
+    }
+  }
+  return {regions.begin(), regions.end()};
 }
 
 }  // namespace scene

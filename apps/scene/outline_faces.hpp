@@ -13,9 +13,6 @@ namespace scene {
 struct Scene;
 struct ElementBody;
 
-/// Whether a side holds the body: particles are tied to it, where no support or mirror holds it.
-[[nodiscard]] bool holds(OutlineKind kind);
-
 /// A piece of the surface of all regions together: its side, and the face of the box that it is on.
 struct OuterPiece {
   std::size_t side = 0;
@@ -26,6 +23,13 @@ struct OuterPiece {
 [[nodiscard]] std::vector<OuterPiece> outer_pieces(const Scene& scene, const ElementBody& body);
 /// Of a completed scene.
 [[nodiscard]] std::vector<OuterPiece> outer_pieces(const Scene& scene);
+
+/// Indices of the regions whose surface a side is.
+[[nodiscard]] std::vector<std::size_t> regions_at(const Scene& scene, std::size_t side);
+
+/// Names of the surfaces that particles are tied to: cutouts and sides that hold the body where no
+/// support or mirror does.
+[[nodiscard]] std::vector<std::string> tied_surfaces(const Scene& scene);
 
 /// The sides of regions on the faces of the box.
 class OutlineFaces {

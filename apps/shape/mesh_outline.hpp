@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shape/gmsh.hpp"
+#include "shape/mesh.hpp"
 #include "shape/point.hpp"
 
 namespace shape {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "shape/gmsh.hpp"
+#include "shape/mesh.hpp"
 
 namespace shape {
 

@@ -343,6 +343,13 @@ TEST(TheTangent, StandsUpToDifferencesOfEveryModelAndAFaultOfItIsSeen) {
     if (model.yields) p.cohesion = 10e3;
     if (model.frictional) p.friction_angle = 25.0, p.dilation_angle = 10.0;
     if (model.critical_state) p = parameters_of(clay({}));
+    if (model.curve == constitutive::Curve::hoek_brown) {
+      p.intact_strength = 200e3, p.m_i = 10.0, p.gsi = 45.0, p.dilation_ratio = 0.4;
+    }
+    if (model.curve == constitutive::Curve::power_law) {
+      p.power_coefficient = 0.5, p.power_exponent = 0.7, p.dilation_ratio = 0.4;
+      p.power_tension = 5e3, p.reference_stress = 100e3;
+    }
     const constitutive::Material made = constitutive::make_material(p);
     int smooth = 0;
     for (int trial = 0; trial < 200; ++trial) {

@@ -10,6 +10,7 @@
 #include "scene/box.hpp"
 #include "scene/cutouts.hpp"
 #include "scene/derived.hpp"
+#include "scene/outline_faces.hpp"
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
