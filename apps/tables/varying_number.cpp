@@ -32,15 +32,16 @@ std::pair<std::size_t, double> between(double place, double lower, double step, 
 }
 
 double in_raster(const Samples& raster, double x, double y) {
-  const auto [column, right] = between(x, raster.lower[0], raster.step[0], raster.columns);
+  const auto across = between(x, raster.lower[0], raster.step[0], raster.columns);
   const auto [row, up] = between(y, raster.lower[1], raster.step[1], raster.rows());
+  const std::size_t column = across.first;
   const std::size_t next = raster.columns > 1 ? 1 : 0;
   const auto along = [&](std::size_t at, double share) {
     const double* first = raster.values.data() + at * raster.columns;
     return (1.0 - share) * first[column] + share * first[column + next];
   };
-  const double below = along(row, right);
-  return raster.rows() > 1 ? (1.0 - up) * below + up * along(row + 1, right) : below;
+  const double below = along(row, across.second);
+  return raster.rows() > 1 ? (1.0 - up) * below + up * along(row + 1, across.second) : below;
 }
 
 // Points are sorted by x: those farther along it than the nearest so far are not looked at.
@@ -128,8 +129,9 @@ std::array<double, 2> Samples::place(std::size_t i) const {
     case Kind::raster:
       break;
   }
-  return {lower[0] + step[0] * static_cast<double>(i % columns),
-          lower[1] + step[1] * static_cast<double>(i / columns)};
+  const std::size_t row = i / columns, column = i % columns;
+  return {lower[0] + step[0] * static_cast<double>(column),
+          lower[1] + step[1] * static_cast<double>(row)};
 }
 
 double Samples::at_place(std::span<const double> place) const {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "shape/gmsh.hpp"
 #include "shape/mesh_solids.hpp"
 #include "support/box_mesh.hpp"
 
