@@ -11,6 +11,7 @@
 
 #include "program/command_line.hpp"
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
 
@@ -90,6 +91,11 @@ std::string list_of(const scene::Point& point) {
 }  // namespace
 
 std::vector<double> spacings_on_offer(const scene::Scene& scene) {
+  if (scene::has_elements(scene)) {
+    throw program::UsageError(
+        "the scene's particles are the elements of its mesh: no spacing makes them finer, a finer "
+        "mesh does");
+  }
   const WholeNumbers numbers = whole_numbers_of(scene);
   const std::int64_t divisor = numbers.divisor();
   // With fewer cells across the least of them, values are not on their way to the limit yet.

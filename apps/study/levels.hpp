@@ -14,6 +14,7 @@ namespace study {
 /// Spacings at which the body is still a whole number of cells each way, and so is whatever of the
 /// scene's places is at its own spacing, from some cells across the least of these to an eighth of
 /// the scene's; each finer than the one before by 1.5, as nearly as whole numbers allow.
+/// @throws UsageError if the particles are the elements of a mesh
 [[nodiscard]] std::vector<double> spacings_on_offer(const scene::Scene& scene);
 
 /// Sides of a body, as `left,bottom`, that are only where the ground that is looked at ends.

@@ -211,6 +211,11 @@ std::vector<double> offered(const std::string& name) {
   return spacings_on_offer(*scene::read_scene(file).scene);
 }
 
+// A body of elements has the spacing of its mesh.
+TEST(Spacings, OfElementsAreNotOnOffer) {
+  EXPECT_THROW((void)offered("circle.toml"), program::UsageError);
+}
+
 // B/spacing = 16 of 64 x 32 cells: B keeps whole numbers of cells, from 6 on.
 TEST(SpacingsOnOffer, KeepTheFootingAWholeNumberOfCells) {
   const auto all = offered("prandtl_phi0.toml");
