@@ -83,12 +83,12 @@ void BackgroundGrid<Dim>::build(const model::Model<Dim>& model, const Mesh& mesh
   std::vector<Eigen::Triplet<double>> entries = grid_stiffness(model, mesh);
   add_grid_supports(model, mesh, entries);
   mesh.eliminate(entries);
-  const Eigen::Index size = free_nodes_ * Dim;
+  const auto size = static_cast<int>(free_nodes_ * Dim);
+  // Grid nodes that no particle sees keep a row of their own.
+  for (int k = 0; k < size; ++k) entries.emplace_back(k, k, 0.0);
   Eigen::SparseMatrix<double> stiffness(size, size);
   stiffness.setFromTriplets(entries.begin(), entries.end());
-  // Grid nodes that no particle sees keep a row of their own.
-  const double floor = 1e-10 * stiffness.diagonal().maxCoeff();
-  for (Eigen::Index k = 0; k < stiffness.rows(); ++k) stiffness.coeffRef(k, k) += floor;
+  stiffness.diagonal().array() += 1e-10 * stiffness.diagonal().maxCoeff();
   factor_ = CoarseFactor(stiffness, sorted_along(mesh));
   coarse_.resize(mesh.nodes() * Dim);
   index_by_nodes(mesh.nodes());

@@ -30,7 +30,7 @@ fpm::Cells<Dim> cells_behind(const Model<Dim>& model) {
             search.within(0.5 * (lower + upper), 0.5 * (upper - lower).norm(), near);
             double wanted = std::numeric_limits<double>::infinity();
             for (const fpm::Index a : near) wanted = std::min(wanted, model.spacing_at(a));
-            return wanted;
+            return 2.0 * wanted;
           }};
 }
 

@@ -142,6 +142,9 @@ void check_initial_stress(const Scene& scene, tables::Diagnosis& diagnosis) {
                     "geostatic stress is carried weight: give gravity.acceleration");
     return;
   }
+  const Point& g = scene.gravity.acceleration;
+  bool down = g[1] < 0.0;
+  for (std::size_t i = 0; i < g.size(); ++i) down = down && (i == 1 || g[i] == 0.0);
   if (initial.kind == InitialStressKind::gravity) {
     const auto refuse = [&](bool given, const char* key) {
       if (!given || !diagnosis.good({key})) return;
@@ -149,13 +152,13 @@ void check_initial_stress(const Scene& scene, tables::Diagnosis& diagnosis) {
                       "it belongs to geostatic: what gravity leaves is what it is");
     };
     refuse(initial.surface.has_value(), "initial_stress.surface");
-    refuse(initial.K0.has_value(), "initial_stress.K0");
     refuse(initial.surcharge != 0.0, "initial_stress.surcharge");
+    if (initial.K0 && !down) {
+      diagnosis.error("gravity.acceleration", "found a direction other than -y",
+                      "initial_stress.K0 is horizontal over vertical stress");
+    }
     return;
   }
-  const Point& g = scene.gravity.acceleration;
-  bool down = g[1] < 0.0;
-  for (std::size_t i = 0; i < g.size(); ++i) down = down && (i == 1 || g[i] == 0.0);
   if (!down) {
     diagnosis.error("gravity.acceleration", "found a direction other than -y",
                     "geostatic stress needs gravity along -y");

@@ -124,8 +124,10 @@ SceneTable initial_stress() {
       .key("K0", &InitialStress::K0,
            {.need = tables::Need::optional,
             .range = tables::at_least(0.0),
-            .doc = "Horizontal over vertical stress, effective ones.",
-            .absent = "nu / (1 - nu), laterally confined elasticity"})
+            .doc = "Horizontal over vertical stress, effective ones; with gravity as far as the "
+                   "ground bears it, which is then brought to equilibrium.",
+            .absent = "geostatic: nu / (1 - nu), laterally confined elasticity; gravity: what "
+                      "is left"})
       .key("surcharge", &InitialStress::surcharge,
            {.unit = "Pa",
             .range = tables::at_least(0.0),

@@ -62,6 +62,46 @@ void take_stress(const model::Model<Dim>& ground, const model::State<Dim>& rest,
   }
 }
 
+template <int Dim>
+void finish(LoadStepper<Dim>& stepper, const model::State<Dim>& state, const char* what) {
+  while (!stepper.finished()) {
+    const StepResult result = stepper.advance();
+    if (result.outcome == StepOutcome::converged) continue;
+    throw DoesNotSettle(fmt::format(
+        "initial_stress.kind = \"gravity\": the ground does not stand under its own weight and "
+        "dead loads: no equilibrium beyond {:.3g} of {} ({})",
+        state.programme.progress, what, result.reason));
+  }
+}
+
+// The ground at rest with K0 times its vertical stress across, as far as it can be: what that
+// leaves unbalanced, where the surface or a joint is not level, fades while all yield.
+template <int Dim>
+model::State<Dim> with_lateral_stress(const scene::Scene& scene, model::Model<Dim>& ground,
+                                      const model::State<Dim>& rest) {
+  constexpr int up = 1;
+  take_stress(model::Model<Dim>(ground), rest, ground);
+  for (Eigen::Index a = 0; a < ground.size(); ++a) {
+    auto stress = ground.initial_stress.col(a);
+    const double across = *scene.initial_stress.K0 * stress[up];
+    for (int i = 0; i < 3; ++i) {
+      if (i != up) stress[i] = across;
+    }
+  }
+  ground.layout.staged = true;
+  model::State<Dim> state = model::initial_state(ground);
+  state.programme.balanced = 0;
+  scene::Scene fading = settling(scene);
+  fading.course.load_begin = fading.course.load_end;
+  LoadStepper<Dim> stepper(fading, ground, state);
+  constexpr const char* what = "the stress that K0 asks for";
+  if (!stepper.begin_stage()) {
+    throw DoesNotSettle(fmt::format("initial_stress.K0: the ground cannot bear {}", what));
+  }
+  finish(stepper, state, what);
+  return state;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -69,17 +109,11 @@ model::Model<Dim> model_at_rest(const scene::Scene& scene) {
   model::Model<Dim> model = model::build_model<Dim>(scene);
   if (scene.initial_stress.kind != scene::InitialStressKind::gravity) return model;
   const scene::Scene ground_scene = settling(scene);
-  const model::Model<Dim> ground = model::build_model<Dim>(ground_scene);
+  model::Model<Dim> ground = model::build_model<Dim>(ground_scene);
   model::State<Dim> rest = model::initial_state(ground);
   LoadStepper<Dim> stepper(ground_scene, ground, rest);
-  while (!stepper.finished()) {
-    const StepResult result = stepper.advance();
-    if (result.outcome == StepOutcome::converged) continue;
-    throw DoesNotSettle(fmt::format(
-        "initial_stress.kind = \"gravity\": the ground does not stand under its own weight and "
-        "dead loads: no equilibrium beyond {:.3g} of them ({})",
-        rest.programme.load, result.reason));
-  }
+  finish(stepper, rest, "them");
+  if (scene.initial_stress.K0) rest = with_lateral_stress(scene, ground, rest);
   take_stress(ground, rest, model);
   return model;
 }

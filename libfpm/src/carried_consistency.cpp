@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "consistency_solver.hpp"
 #include "consistency_system.hpp"
 
 namespace fpm {
@@ -112,7 +113,7 @@ class Carrier {
       nodes.insert(a);
       for (const Index b : rows_.neighbours(a)) nodes.insert(source(b));
     }
-    for (const Index b : nodes) local_.emplace(b, static_cast<Eigen::Index>(local_.size()));
+    for (const Index b : nodes) local_.emplace(b, static_cast<Index>(local_.size()));
   }
 
   Index source(Index b) const { return b < rows_.size() ? b : ghosts_.source(b - rows_.size()); }
@@ -121,8 +122,8 @@ class Carrier {
   }
 
   Eigen::SparseMatrix<double> matrix_of(int component) {
-    std::vector<Eigen::Triplet<double>> entries;
-    std::vector<Eigen::Index> id;
+    detail::ConsistencySystem<Dim> normal(static_cast<Index>(local_.size()));
+    std::vector<Index> id;
     std::vector<double> signs;
     for (const CorrectedRow<Dim>& each : chosen_) {
       weigh(each.row);
@@ -132,22 +133,9 @@ class Carrier {
         id.push_back(local_.at(source(b)));
         signs.push_back(sign(b, component));
       }
-      const Eigen::MatrixXd part = detail::row_matrix(geometry_, weights_, each.factor);
-      for (std::size_t i = 0; i < id.size(); ++i) {
-        for (std::size_t j = 0; j < id.size(); ++j) {
-          if (id[i] < id[j]) continue;  // lower triangle
-          entries.emplace_back(
-              id[i], id[j],
-              signs[i] * signs[j] *
-                  part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
-        }
-      }
+      normal.add(id, signs, geometry_, weights_, each.factor);
     }
-    const auto n = static_cast<Eigen::Index>(local_.size());
-    for (Eigen::Index k = 0; k < n; ++k) entries.emplace_back(k, k, 0.0);
-    Eigen::SparseMatrix<double> s(n, n);
-    s.setFromTriplets(entries.begin(), entries.end());
-    return s;
+    return normal.lower();
   }
 
   double solve() {
@@ -157,9 +145,11 @@ class Carrier {
     const double round_off = detail::area_round_off * std::sqrt(size_of_areas_);
     potential_.setZero(n, Dim);
     double left = 0.0;
-    std::optional<const detail::RegularisedSolver> solver;
+    std::optional<detail::ConsistencySolver> solver;
     for (int i = 0; i < Dim; ++i) {
-      if (i == 0 || ghosts_.size() > 0) solver.emplace(matrix_of(i));
+      if (i == 0 || ghosts_.size() > 0) {
+        solver.emplace(matrix_of(i), detail::SolutionMethod::factors);
+      }
       const auto solution = solver->solve(missing.col(i), round_off);
       potential_.col(i) = solution.x;
       left += solution.residual * solution.residual;
@@ -215,7 +205,7 @@ class Carrier {
   std::map<Index, Vector<Dim>> change_;
   double size_of_areas_ = 0.0;  // [m^(2 Dim - 2)] sum of squares
   std::vector<CorrectedRow<Dim>> chosen_;
-  std::map<Index, Eigen::Index> local_;  // number of a particle in the system
+  std::map<Index, Index> local_;  // number of a particle in the system
   Field<Dim> potential_;
 };
 

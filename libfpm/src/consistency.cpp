@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "consistency_solver.hpp"
 #include "consistency_system.hpp"
 #include "fpm/stencil.hpp"
 
@@ -42,13 +43,12 @@ template <int Dim>
 Eigen::SparseMatrix<double> assemble(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
                                      const std::vector<char>& corrected, int component) {
   const Index n = rows.size();
-  std::vector<Eigen::Triplet<double>> entries;
+  detail::ConsistencySystem<Dim> normal(n);
   RowGeometry<Dim> geometry;
   RowWeights<Dim> weights;
   std::vector<Index> id;
   std::vector<double> sign;
   for (Index a = 0; a < n; ++a) {
-    entries.emplace_back(a, a, 0.0);  // the diagonal is there, whatever is corrected
     if (corrected[static_cast<std::size_t>(a)] == 0) continue;
     rows.geometry(a, geometry);
     compute_weights(geometry, rows.options().kernel, false, weights);
@@ -58,20 +58,9 @@ Eigen::SparseMatrix<double> assemble(const Rows<Dim>& rows, const Ghosts<Dim>& g
       id.push_back(b < n ? b : ghosts.source(b - n));
       sign.push_back(b < n ? 1.0 : ghosts.sign(b - n, component));
     }
-    const Eigen::MatrixXd matrix =
-        detail::row_matrix(geometry, weights, geometry.own_volume * geometry.own_volume);
-    for (std::size_t i = 0; i < id.size(); ++i) {
-      for (std::size_t j = 0; j < id.size(); ++j) {
-        if (id[i] < id[j]) continue;  // lower triangle
-        entries.emplace_back(
-            id[i], id[j],
-            sign[i] * sign[j] * matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
-      }
-    }
+    normal.add(id, sign, geometry, weights, geometry.own_volume * geometry.own_volume);
   }
-  Eigen::SparseMatrix<double> s(n, n);
-  s.setFromTriplets(entries.begin(), entries.end());
-  return s;
+  return normal.lower();
 }
 
 // Round-off of the defect in the 2-norm: that of a sum of areas V_a G_ab, and that of the boundary,
@@ -123,10 +112,14 @@ std::optional<Field<Dim>> solve_for_potential(const Rows<Dim>& rows, const Ghost
                                               const std::vector<char>& corrected,
                                               const Field<Dim>& missing, double round_off) {
   Field<Dim> potential(rows.size(), Dim);
-  std::optional<const detail::RegularisedSolver> solver;
+  constexpr auto method =
+      Dim == 2 ? detail::SolutionMethod::factors : detail::SolutionMethod::conjugate_gradients;
+  std::optional<detail::ConsistencySolver> solver;
   for (int i = 0; i < Dim; ++i) {
     // Without images S is the same for all components.
-    if (i == 0 || ghosts.size() > 0) solver.emplace(assemble(rows, ghosts, corrected, i));
+    if (i == 0 || ghosts.size() > 0) {
+      solver.emplace(assemble(rows, ghosts, corrected, i), method);
+    }
     const auto solution = solver->solve(missing.col(i), round_off);
     if (!solution.reached) return std::nullopt;
     potential.col(i) = solution.x;

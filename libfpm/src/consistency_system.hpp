@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/LU>
-#include <Eigen/SparseCholesky>
-#include <algorithm>
+#include <Eigen/SparseCore>
 #include <limits>
-#include <stdexcept>
+#include <span>
+#include <vector>
 
 #include "fpm/stencil.hpp"
 
@@ -27,74 +27,51 @@ Eigen::Matrix<double, Dim, Eigen::Dynamic> weighted_remainder(
   return (difference - slope * geometry.offset) * weights.kappa.asDiagonal();
 }
 
-/// A row's part of S: factor * T^T diag(kappa) T on [the row, its neighbours], dense and symmetric.
+/// The matrix S = sum over rows of factor * T^T diag(kappa) T.
+///
+/// A row's part is a graph Laplacian of its kappa less Y^T spread^-1 Y, spread = sum kappa X X^T
+/// and Y = kappa X of its neighbours, itself with minus their sum. Only these factors are stored:
+/// in space the entries of all parts are some twenty times the entries of S.
 template <int Dim>
-Eigen::MatrixXd row_matrix(const RowGeometry<Dim>& geometry, const RowWeights<Dim>& weights,
-                           double factor) {
-  const Eigen::Index count = geometry.size();
-  Tensor<Dim> spread = Tensor<Dim>::Zero();
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const auto x = geometry.offset.col(k);
-    spread += weights.kappa[k] * x * x.transpose();
-  }
-  // On differences d: T = I - X^T spread^-1 X diag(kappa), so diag(kappa) T is symmetric.
-  const Eigen::MatrixXd weighted = geometry.offset * weights.kappa.asDiagonal();
-  Eigen::MatrixXd on_differences = -(weighted.transpose() * spread.inverse() * weighted);
-  on_differences.diagonal() += weights.kappa;
-  on_differences *= factor;
-
-  Eigen::MatrixXd matrix(count + 1, count + 1);
-  matrix.bottomRightCorner(count, count) = on_differences;
-  matrix.bottomLeftCorner(count, 1) = -on_differences.rowwise().sum();
-  matrix.topRightCorner(1, count) = matrix.bottomLeftCorner(count, 1).transpose();
-  matrix(0, 0) = on_differences.sum();
-  return matrix;
-}
-
-/// Solves S x = b. S has the affine fields in its null space, to which b is orthogonal: a small
-/// multiple of the diagonal makes it definite, and iterative refinement removes its trace. The
-/// smoothest modes need the most of it, their eigenvalues are about (spacing / length)^4 of the
-/// largest.
-class RegularisedSolver {
+class ConsistencySystem {
  public:
-  explicit RegularisedSolver(const Eigen::SparseMatrix<double>& lower) : lower_(lower) {
-    constexpr double regularisation = 1e-10;
-    Eigen::SparseMatrix<double> shifted = lower_;
-    shifted.diagonal().array() += regularisation * lower_.diagonal().maxCoeff();
-    factor_.compute(shifted);
-    if (factor_.info() != Eigen::Success) {
-      throw std::runtime_error("the consistency correction's matrix could not be factorised");
-    }
-  }
+  explicit ConsistencySystem(Index unknowns) : unknowns_(unknowns) {}
 
-  struct Solution {
-    Eigen::VectorXd x;
-    double residual = 0.0;  // norm
-    bool reached = false;   // the tolerance
-  };
+  /// @param unknown  of the row itself and its neighbours; one may be met more than once
+  /// @param sign  +1, or -1 where a neighbour is an image that has minus its unknown
+  void add(std::span<const Index> unknown, std::span<const double> sign,
+           const RowGeometry<Dim>& geometry, const RowWeights<Dim>& weights, double factor);
 
-  /// @param round_off  residual below which the right-hand side means nothing
-  /// @returns the best there is: a right-hand side that is not in the range of S leaves a residual
-  Solution solve(const Eigen::VectorXd& right_hand_side, double round_off) const {
-    constexpr double tolerance = 1e-10;  // of the residual, relative; the loads' error in a patch
-    constexpr int max_refinements = 50;
-    const double target = std::max(tolerance * right_hand_side.norm(), round_off);
-    Solution best{Eigen::VectorXd::Zero(right_hand_side.size()), right_hand_side.norm(), false};
-    Eigen::VectorXd x = factor_.solve(right_hand_side);
-    for (int k = 0; k <= max_refinements; ++k) {
-      const Eigen::VectorXd residual = right_hand_side - lower_.selfadjointView<Eigen::Lower>() * x;
-      const double norm = residual.norm();
-      if (!(norm < best.residual)) break;
-      best = {x, norm, norm <= target};
-      if (best.reached) break;
-      x += factor_.solve(residual);
-    }
-    return best;
-  }
+  /// Lower triangle of S; its diagonal is stored whatever rows there are.
+  Eigen::SparseMatrix<double> lower() const;
 
  private:
-  Eigen::SparseMatrix<double> lower_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+  struct Member {
+    Index unknown = 0;
+    double kappa = 0.0;  // [1/m^2] of a neighbour; of the row itself the sum
+    double link = 0.0;   // [1/m^2] kappa with the sign of an image
+    Vector<Dim> y;       // [1/m]
+  };
+  struct Row {
+    std::size_t begin = 0;  // of its members, itself first
+    std::size_t end = 0;
+    Tensor<Dim> spread_inverse;
+    double factor = 0.0;
+  };
+  struct Place {  // of an unknown in a row
+    std::size_t row = 0;
+    std::size_t member = 0;
+  };
+  class Column;
+
+  std::vector<std::vector<Place>> places() const;
+
+  Index unknowns_;
+  std::vector<Member> members_;
+  std::vector<Row> rows_;
 };
+
+extern template class ConsistencySystem<2>;
+extern template class ConsistencySystem<3>;
 
 }  // namespace fpm::detail

@@ -329,7 +329,7 @@ TEST(GroundScene, ThatIsNoGroundIsRefused) {
        "s.toml:40:8: initial_stress.kind: found geostatic in a body of regions; it is the stress "
        "under a level surface: under any other it is kind = \"gravity\""},
   };
-  for (const char* key : {"K0", "surface", "surcharge"}) {
+  for (const char* key : {"surface", "surcharge"}) {
     EXPECT_THAT(
         errors_of(replaced(good, "cohesion = 1e3\n", "cohesion = 1e3\nunit_weight = 1e4\n") +
                   "[initial_stress]\nkind = \"gravity\"\n" + key + " = 1.0\n"),
@@ -337,6 +337,12 @@ TEST(GroundScene, ThatIsNoGroundIsRefused) {
             ::testing::HasSubstr(std::string("initial_stress.") + key +
                                  ": found with kind = \"gravity\"; it belongs to geostatic")));
   }
+  EXPECT_THAT(errors_of(replaced(good, "cohesion = 1e3\n", "cohesion = 1e3\nunit_weight = 1e4\n") +
+                        "[gravity]\nacceleration = [1.0, -10.0]\n"
+                        "[initial_stress]\nkind = \"gravity\"\nK0 = 1.0\n"),
+              ::testing::Contains(::testing::HasSubstr(
+                  "gravity.acceleration: found a direction other than -y; initial_stress.K0 is "
+                  "horizontal over vertical stress")));
   for (const Bad& bad : all) {
     const auto errors = errors_of(bad.text);
     ASSERT_FALSE(errors.empty()) << bad.message;

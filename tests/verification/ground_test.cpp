@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "limit_load.hpp"
 #include "model/measures.hpp"
 #include "run.hpp"
@@ -324,6 +327,79 @@ TEST(Settled, GroundIsAtRest) {
         .minCoeff(&deepest);
     EXPECT_NEAR(state.stress(1, deepest), -1e4 * 1.95, 0.1 * 1e4 * 1.95);
   }
+}
+
+// Under level ground horizontal stress is K0 of the vertical one, in the layers, too. What departs
+// is of first order: less than the stress on which a particle of the first row is off, half a
+// spacing's weight.
+TEST(Settled, LevelGroundHasTheK0ThatIsAskedFor) {
+  const std::string level = region("soft", "[[0, 1], [3, 1], [3, 2], [0, 2]]") +
+                            region("stiff", "[[0, 0], [3, 0], [3, 1], [0, 1]]") +
+                            side("left", "\"roller\"", "[[0, 2], [0, 0]]") +
+                            side("base", "\"roller\"", "[[0, 0], [3, 0]]") +
+                            side("right", "\"roller\"", "[[3, 0], [3, 2]]") +
+                            side("surface", "\"free\"", "[[3, 2], [0, 2]]") +
+                            "[gravity]\nacceleration = [0.0, -10.0]\n";
+  const auto departure = [&](double spacing, double K0) {
+    const std::string text = level + geometry(spacing) + clay("soft", 2e4) + clay("stiff", 4e4) +
+                             fmt::format("[initial_stress]\nkind = \"gravity\"\nK0 = {}\n", K0);
+    const model::Model<2> model = stepping::model_at_rest<2>(scene_of(text));
+    const auto vertical = model.initial_stress.row(1);
+    const double of_a_spacing = 1e4 * spacing;
+    double most = 0.0;
+    for (const int across : {0, 2}) {
+      const auto left = model.initial_stress.row(across) - K0 * vertical;
+      most = std::max(most, left.cwiseAbs().maxCoeff() / of_a_spacing);
+    }
+    report(fmt::format("departure_{}_{}", K0, spacing), most);
+    return most;
+  };
+  for (const double K0 : {0.8, 1.3}) {
+    EXPECT_LT(departure(0.25, K0), 0.5);
+    EXPECT_LT(departure(0.125, K0), 0.5);
+  }
+}
+
+// At the face of a slope nothing presses against K0: the stress there is what equilibrium leaves,
+// while beside the left side, 1.95 m below level ground, it is K0 of the vertical one.
+TEST(Settled, K0OfASlopeIsWhatEquilibriumLeavesOfIt) {
+  const std::string text =
+      heavy_slope + geometry(0.1) + clay("soft", 5e3) + clay("stiff", 9e3) + small_strain;
+  const auto ratio_and_top = [&](const char* K0) {
+    const TestScene scene = scene_of(text + "[initial_stress]\nkind = \"gravity\"\n" + K0);
+    const model::Model<2> model = stepping::model_at_rest<2>(scene);
+    model::State<2> state = model::initial_state(model);
+    stepping::LoadStepper<2> stepper(scene, model, state);
+    EXPECT_EQ(stepper.advance().outcome, stepping::StepOutcome::converged);
+    EXPECT_LT(state.displacement.cwiseAbs().maxCoeff(), 1e-9);
+    const auto measured = model::Measures<2>(scene, model).of(state);
+    double borne = 0.0;
+    for (std::size_t i = 2; i < measured.size(); i += 2) borne += measured[i];
+    const double weight = model.mass.sum() * 10.0;
+    EXPECT_NEAR(borne, weight, 1e-6 * weight);
+    Eigen::Index deepest = 0;
+    (model.particles.position.rowwise() - Eigen::RowVector2d(0.05, 0.05))
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&deepest);
+    EXPECT_NEAR(state.stress(1, deepest), -1e4 * 1.95, 0.1 * 1e4 * 1.95);
+    // Nowhere is it beyond Mohr and Coulomb's strength, 2 c cos phi - (s1 + s3) sin phi.
+    for (Eigen::Index a = 0; a < model.size(); ++a) {
+      const double sum = state.stress(0, a) + state.stress(1, a);
+      const double radius =
+          std::hypot(state.stress(0, a) - state.stress(1, a), 2.0 * state.stress(3, a));
+      const double phi = std::numbers::pi / 9.0;
+      const double cohesion = model.material[static_cast<std::size_t>(a)] == 0 ? 5e3 : 9e3;
+      EXPECT_LE(radius, 2.0 * cohesion * std::cos(phi) - sum * std::sin(phi) + 1e-3 * weight);
+    }
+    return state.stress(0, deepest) / state.stress(1, deepest);
+  };
+  const double left = ratio_and_top("");
+  const double asked = ratio_and_top("K0 = 0.9\n");
+  report("left_by_gravity", left);
+  report("asked_0.9", asked);
+  EXPECT_LT(left, 0.6);  // nu / (1 - nu) = 0.43 beside a roller, and the slope pulls
+  EXPECT_NEAR(asked, 0.9, 0.1);
 }
 
 TEST(Settled, GroundThatDoesNotStandIsSaidToFall) {

@@ -37,7 +37,7 @@ struct ConsistencyCorrection {
 /// @param area_vector  [m^(Dim-1)] n x Dim, s_b; over all particles sum s = 0 and
 ///   sum s x X = |Omega| I (boundary.hpp computes it)
 /// @returns nu to a relative residual of 1e-10 per component, or round-off; none if nothing but
-///   round-off is missing. Cost: one sparse factorisation over the corrected rows, or one per
+///   round-off is missing. Cost: one sparse solve over the corrected rows, or one per
 ///   component if there are images.
 /// @throws ShapeError if sizes disagree; std::runtime_error if the factorisation fails or the
 ///   tolerance is not reached, as it cannot be if s does not close the surface.
