@@ -69,6 +69,9 @@ class Equilibrium {
 
   const InitialBalance<Dim>& balance() const { return balance_; }
 
+  /// On the initial rows, whatever was re-searched since, with the consistency correction.
+  fpm::MomentOperator<Dim> initial_operator() const;
+
   // The residual in the sense of libjfnk.
   jfnk::Evaluation operator()(const Eigen::VectorXd& increment, Eigen::VectorXd& residual);
   bool linearise(const Eigen::VectorXd& increment);
@@ -118,7 +121,6 @@ class Equilibrium {
 
  private:
   void pair_up();
-  fpm::MomentOperator<Dim> initial_operator() const;
   LoopData<Dim> loop_data();
   void reduce_strength(double factor);
   void add_to_images(const fpm::Field<Dim>& motion, Eigen::VectorXd& extended) const;

@@ -3,17 +3,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include "equilibrium/held_directions.hpp"
+
 namespace equilibrium {
 namespace {
-
-// The directions in which a point is held, columns: across the face, then along it if it sticks.
-template <int Dim>
-Eigen::Matrix<double, Dim, Eigen::Dynamic> held_directions(const model::Interface<Dim>& interface,
-                                                           fpm::Index point) {
-  const fpm::Vector<Dim> normal = interface.faces.points.normal.row(point).transpose();
-  if (!constitutive::sticks(interface.law)) return normal;
-  return normal.householderQr().householderQ();
-}
 
 // A column for each motion in which some plate is free: the gaps it makes in the springs, which are
 // those of all points one after the other.

@@ -306,7 +306,7 @@ std::string scene_summary(const scene::Scene& scene) {
                    scene::resolve_stiffness_ratio(scene)));
   line("drive",
        fmt::format("{}, {} steps", scene::name_of(scene.drive.kind), scene::planned_steps(scene)));
-  const scene::SolverSettings solver = scene::resolve_solver(scene.solver);
+  const scene::SolverSettings solver = scene::resolve_solver(scene);
   line("solver", fmt::format("{}, {} Jacobian, {} preconditioner, tolerance {}",
                              scene::name_of(solver.method), scene::name_of(solver.jacobian),
                              scene::name_of(solver.preconditioner), solver.tolerance));

@@ -352,7 +352,7 @@ void check_drive(const Scene& scene, tables::Diagnosis& diagnosis) {
 void check_tolerance(const Scene& scene, tables::Diagnosis& diagnosis) {
   constexpr double steepest = 60.0;  // [deg] below, the default tolerance costs 1 % at most
   constexpr double error_of_load = 0.01;
-  const double tolerance = resolve_solver(scene.solver).tolerance;
+  const double tolerance = resolve_solver(scene).tolerance;
   for (std::size_t i = 0; i < scene.material.size(); ++i) {
     const std::string key = fmt::format("material.{}.friction_angle", i);
     if (!diagnosis.good({key, "solver.tolerance", fmt::format("material.{}.model", i)})) continue;
@@ -394,7 +394,7 @@ void check_run(const Scene& scene, tables::Diagnosis& diagnosis) {
         "programme.easy_evaluations", fmt::format("found {}", programme.easy_evaluations),
         fmt::format("it must be below hard_evaluations, {}", programme.hard_evaluations));
   }
-  const SolverSettings solver = resolve_solver(scene.solver);
+  const SolverSettings solver = resolve_solver(scene);
   if (solver.preconditioner == PreconditionerKind::none &&
       solver.method != SolverMethod::newton_krylov &&
       diagnosis.good({"solver.preset", "solver.method", "solver.preconditioner"})) {

@@ -43,6 +43,6 @@ enum class MeasureKind {
 enum class SolverPreset { standard, appendix_a };
 enum class SolverMethod { hybrid, newton_krylov, multisecant };
 enum class JacobianKind { analytic, finite_difference };
-enum class PreconditionerKind { two_level, block_jacobi, none };
+enum class PreconditionerKind { two_level, factors, block_jacobi, none };
 
 }  // namespace scene

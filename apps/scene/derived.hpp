@@ -77,8 +77,8 @@ struct SolverSettings {
   bool operator==(const SolverSettings&) const = default;
 };
 
-/// Fills absent keys of `solver` from its preset.
-[[nodiscard]] SolverSettings resolve_solver(const Solver& solver);
+/// Fills absent keys of the solver from its preset and the scene.
+[[nodiscard]] SolverSettings resolve_solver(const Scene& scene);
 
 /// Particles along x, y, z (1 along z in 2D), without ghosts.
 [[nodiscard]] std::array<std::int64_t, 3> lattice_counts(const Geometry& geometry);

@@ -42,8 +42,8 @@ inline constexpr std::array<std::string_view, 6> measure{
 inline constexpr std::array<std::string_view, 2> preset{"default", "appendix_a"};
 inline constexpr std::array<std::string_view, 3> solver{"hybrid", "newton_krylov", "multisecant"};
 inline constexpr std::array<std::string_view, 2> jacobian{"analytic", "finite_difference"};
-inline constexpr std::array<std::string_view, 3> preconditioner{"two_level", "block_jacobi",
-                                                                "none"};
+inline constexpr std::array<std::string_view, 4> preconditioner{"two_level", "factors",
+                                                                "block_jacobi", "none"};
 }  // namespace names
 
 /// The names of an enumeration's values as written in a scene, in the enumerators' order.

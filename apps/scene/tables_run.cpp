@@ -73,8 +73,11 @@ SceneTable solver() {
             .absent = "the preset's"})
       .key("preconditioner", &Solver::preconditioner,
            {.need = tables::Need::optional,
-            .doc = "two_level: elastic blocks of the particles plus an elastic background grid.",
-            .absent = "the preset's"})
+            .doc = "two_level: elastic blocks of the particles plus an elastic background grid. "
+                   "factors: Cholesky factors of the elastic stiffness of the particles, for the "
+                   "plane or few particles.",
+            .absent = "the preset's; factors in the plane where some poissons_ratio is above "
+                      "0.49"})
       .key("coarse_spacing_over_spacing", &Solver::coarse_spacing_over_spacing,
            {.range = tables::between(1.0, 20.0),
             .doc = "two_level: spacing of the background grid."})

@@ -95,7 +95,7 @@ std::string advice(const scene::Scene& scene, const model::State<Dim>& state,
     return fmt::format(
         "a looser tolerance, if its error is acceptable: resume with --set "
         "solver.tolerance={:.2g}",
-        3.0 * scene::resolve_solver(scene.solver).tolerance);
+        3.0 * scene::resolve_solver(scene).tolerance);
   }
   return fmt::format("resume with --set programme.minimum_increment_ratio={:.2g}",
                      scene.programme.minimum_increment_ratio / 64.0);

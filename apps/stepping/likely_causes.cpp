@@ -8,6 +8,7 @@
 #include <array>
 
 #include "equilibrium/elastic_block.hpp"
+#include "scene/derived.hpp"
 #include "scene/scene.hpp"
 #include "scene/stages.hpp"
 
@@ -79,6 +80,7 @@ Eigen::Matrix<double, rigid_motions<Dim>, rigid_motions<Dim>> resistance(
 
 std::string incompressible(const scene::Scene& scene) {
   constexpr double nearly = 0.49;
+  if (scene::resolve_solver(scene).preconditioner == scene::PreconditionerKind::factors) return "";
   std::vector<std::string> keys;
   for (std::size_t i = 0; i < scene.material.size(); ++i) {
     if (scene.material[i].poissons_ratio <= nearly) continue;
@@ -88,7 +90,8 @@ std::string incompressible(const scene::Scene& scene) {
   if (keys.empty()) return "";
   return fmt::format(
       "{}: next to 0.5 the volume is so much stiffer than the shape that the solver finds no "
-      "direction; undrained clay is well served by {}",
+      "direction; solver.preconditioner = \"factors\" does, where particles are few, and undrained "
+      "clay is well served by {}",
       fmt::join(keys, ", "), nearly);
 }
 

@@ -22,7 +22,7 @@ namespace {
 constexpr double end_slack = 1e-9;
 
 jfnk::Options solver_options(const scene::Scene& scene, double rounding) {
-  const scene::SolverSettings settings = scene::resolve_solver(scene.solver);
+  const scene::SolverSettings settings = scene::resolve_solver(scene);
   jfnk::Options options = scene.solver.preset == scene::SolverPreset::appendix_a
                               ? jfnk::appendix_a(settings.tolerance, settings.tolerance, 1000)
                               : jfnk::plasticity();
@@ -78,23 +78,28 @@ std::string reason_of(const jfnk::Report& report, const scene::Scene& scene, int
   }
   const std::string unbalanced =
       fmt::format("unbalanced are {} {}, solver.tolerance = {} allows {}", found, unit,
-                  scene::resolve_solver(scene.solver).tolerance, allowed);
+                  scene::resolve_solver(scene).tolerance, allowed);
   if (report.status != jfnk::Status::evaluation_limit) return unbalanced;
   return fmt::format("solver.max_evaluations_per_step = {} is used up: {}",
                      scene.solver.max_evaluations_per_step, unbalanced);
 }
 
-double coarse_spacing(const scene::Scene& scene) {
-  return scene::resolve_solver(scene.solver).preconditioner == scene::PreconditionerKind::two_level
-             ? scene.solver.coarse_spacing_over_spacing
-             : 0.0;
-}
-
 // On the initial rows, whatever was re-searched since: a resumed run has the same preconditioner.
 template <int Dim>
-fpm::MomentOperator<Dim> initial_operator(const model::Model<Dim>& model) {
-  return {fpm::Rows<Dim>(model.particles, model.ghosts, model.row_options), model.ghosts,
-          model.channels};
+equilibrium::Preconditioner<Dim> preconditioner_for(
+    const scene::Scene& scene, const model::Model<Dim>& model,
+    const equilibrium::Equilibrium<Dim>& equilibrium) {
+  const scene::PreconditionerKind kind = scene::resolve_solver(scene).preconditioner;
+  using Way = equilibrium::Preconditioner<Dim>;
+  if (kind == scene::PreconditionerKind::factors) {
+    return Way(equilibrium::StiffnessFactors<Dim>(model, equilibrium.initial_operator()));
+  }
+  const fpm::MomentOperator<Dim> op(
+      fpm::Rows<Dim>(model.particles, model.ghosts, model.row_options), model.ghosts,
+      model.channels);
+  const double coarse =
+      kind == scene::PreconditionerKind::two_level ? scene.solver.coarse_spacing_over_spacing : 0.0;
+  return Way(equilibrium::TwoLevelPreconditioner<Dim>(model, op, coarse));
 }
 
 }  // namespace
@@ -108,9 +113,9 @@ LoadStepper<Dim>::LoadStepper(const scene::Scene& scene, const model::Model<Dim>
       state_(state),
       rounding_(rounding_of_forces(scene, model)),
       equilibrium_(std::make_unique<equilibrium::Equilibrium<Dim>>(model, state, std::move(rest))),
-      preconditioner_(std::make_unique<equilibrium::TwoLevelPreconditioner<Dim>>(
-          model, initial_operator(model), coarse_spacing(scene))),
-      use_preconditioner_(scene::resolve_solver(scene.solver).preconditioner !=
+      preconditioner_(std::make_unique<equilibrium::Preconditioner<Dim>>(
+          preconditioner_for(scene, model, *equilibrium_))),
+      use_preconditioner_(scene::resolve_solver(scene).preconditioner !=
                           scene::PreconditionerKind::none),
       solver_(solver_options(scene, rounding_)),
       nominal_increment_(1.0 / static_cast<double>(scene::nominal_steps(scene))),

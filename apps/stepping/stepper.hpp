@@ -21,7 +21,7 @@ namespace equilibrium {
 template <int Dim>
 class Equilibrium;
 template <int Dim>
-class TwoLevelPreconditioner;
+class Preconditioner;
 }  // namespace equilibrium
 
 namespace stepping {
@@ -107,7 +107,7 @@ class LoadStepper {
   model::State<Dim>& state_;
   double rounding_;  // [N/m or N] what it leaves of a residual that is zero
   std::unique_ptr<equilibrium::Equilibrium<Dim>> equilibrium_;
-  std::unique_ptr<equilibrium::TwoLevelPreconditioner<Dim>> preconditioner_;
+  std::unique_ptr<equilibrium::Preconditioner<Dim>> preconditioner_;
   bool use_preconditioner_ = true;
   jfnk::Solver solver_;
   double nominal_increment_ = 1.0;  // of the progress

@@ -56,7 +56,7 @@ class Runs {
     if (!plain) throw program::UsageError("no run with such a spacing");
     const auto steps = static_cast<double>(scene::nominal_steps(*plain)) * fineness.steps;
     settings.push_back(fmt::format("programme.steps={}", std::llround(steps)));
-    const double tolerance = scene::resolve_solver(plain->solver).tolerance * fineness.tolerance;
+    const double tolerance = scene::resolve_solver(*plain).tolerance * fineness.tolerance;
     settings.push_back(fmt::format("solver.tolerance={}", tolerance));
     if (fineness.tolerance != 1.0) {
       // A tighter tolerance takes more of them, and must not be stopped by a limit made for less.

@@ -62,7 +62,7 @@ std::vector<std::string> settings_of(Quality quality, const scene::Scene& scene)
   std::vector<std::string> settings;
   if (best) settings.push_back(fmt::format("geometry.spacing={}", *best));
   if (quality == Quality::draft && may_be_loose(scene)) {
-    const double tolerance = scene::resolve_solver(scene.solver).tolerance;
+    const double tolerance = scene::resolve_solver(scene).tolerance;
     settings.push_back(
         fmt::format("solver.tolerance={}", std::clamp(looser * tolerance, tolerance, loosest)));
   }

@@ -40,13 +40,30 @@ class TreeBuilder {
         for (int i = 0; i < Dim; ++i) beside[i] += at[i] == 0 ? -1 : at[i] == 2 ? cell.steps() : 0;
         for (int level = level_at(beside); level > cell.level + 1; --level) {
           const Cell wide{corner_at<Dim>(beside, level), level};
-          leaf_.erase(key_of<Dim>(wide.place, wide.level));
-          for_each_child(wide, [&](const Cell& child) {
-            insert(child);
-            queue.push_back(child);
-          });
+          split(wide);
+          for_each_child(wide, [&](const Cell& child) { queue.push_back(child); });
         }
       });
+    }
+  }
+
+  // Cells come in pairs, but for those at an upper face of a box that is no whole number of wider
+  // ones. A layer of one, on wider ones, would see too little across it: what is below is split.
+  void thicken() {
+    for (bool thin = true; thin;) {
+      thin = false;
+      for (const Cell& cell : leaves()) {
+        for (int i = 0; i < Dim; ++i) {
+          if (cell.place[i] + cell.steps() != extent_[i]) continue;
+          Place<Dim> below = cell.place;
+          below[i] -= 1;
+          const int level = level_at(below);
+          if (level <= cell.level) continue;
+          split(Cell{corner_at<Dim>(below, level), level});
+          thin = true;
+        }
+      }
+      if (thin) balance();
     }
   }
 
@@ -67,6 +84,11 @@ class TreeBuilder {
 
  private:
   void insert(const Cell& cell) { leaf_.emplace(key_of<Dim>(cell.place, cell.level), cell); }
+
+  void split(const Cell& cell) {
+    leaf_.erase(key_of<Dim>(cell.place, cell.level));
+    for_each_child(cell, [&](const Cell& child) { insert(child); });
+  }
 
   template <class Visitor>
   static void for_each_child(const Cell& cell, Visitor&& visit) {
@@ -108,6 +130,7 @@ std::vector<TreeCell<Dim>> balanced_tree(const Eigen::Matrix<Index, Dim, 1>& ext
   TreeBuilder<Dim> builder(extent);
   builder.refine(split);
   builder.balance();
+  builder.thicken();
   return builder.leaves();
 }
 

@@ -38,7 +38,8 @@ Eigen::Matrix<Index, Dim, 1> corner_at(const Eigen::Matrix<Index, Dim, 1>& fines
   return finest.unaryExpr([level](Index x) { return (x >> level) << level; });
 }
 
-/// The cells of the coarsest balanced tree in a box, sorted by level, then as in a lattice.
+/// The cells of the coarsest balanced tree in a box that has no layer of one cell on wider ones,
+/// sorted by level, then as in a lattice.
 /// @param extent  of the box, in finest spacings
 /// @param split  whether a cell inside the box, above the finest level, is too wide
 template <int Dim>

@@ -6,7 +6,7 @@
 
 #include "bodies.hpp"
 #include "equilibrium/equilibrium.hpp"
-#include "equilibrium/preconditioner.hpp"
+#include "equilibrium/two_level_preconditioner.hpp"
 #include "model/build.hpp"
 #include "model/model.hpp"
 #include "stepping/stepper.hpp"

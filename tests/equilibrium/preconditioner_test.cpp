@@ -1,6 +1,6 @@
 // The two-level preconditioner: symmetric, positive definite, and as good on fine lattices as on
 // coarse ones.
-#include "equilibrium/preconditioner.hpp"
+#include "equilibrium/two_level_preconditioner.hpp"
 
 #include <gtest/gtest.h>
 

@@ -42,7 +42,7 @@ TEST(Axis, PoissonsRatio) {
     axis.samples.push_back({fmt::format("{}", nu),
                             box(0, 0, 1, 1, 0.1) + small_strain + elastic(1e6, nu) + on_rollers +
                                 pressed_by(1e3) + tightly,
-                            nu > -1.0 && nu < 0.499});
+                            nu > -1.0 && nu < 0.5});
   }
   axis.error = [&](PlaneRun& run, std::size_t k) {
     return settlement_error(run, 1e3, 1e6, ratios[k]);

@@ -80,6 +80,27 @@ TEST(Cells, ThatTouchDifferByAFactorOfTwoAtMost) {
   expect_balance(graded_cells<2>({37, 21}));
 }
 
+// Heights of a number of finest cells that is nearly a power of two leave a thin cell of each width
+// at the upper face: on wider ones none would see three layers, as quadratic fields ask for.
+TEST(Cells, HaveNoLayerOfOneOnWiderOnes) {
+  const auto fine_at_the_corner = [](const auto& lower, const auto& /*upper*/) {
+    return std::max(0.1, 0.25 * lower.norm());
+  };
+  for (const Index height : {14, 15, 30, 31}) {
+    const Cells<2> cells(lattice<2>({64, height}), fine_at_the_corner);
+    expect_a_partition(cells);
+    expect_balance(cells);
+    for (Index a = 0; a < cells.size(); ++a) {
+      if (cells.place(a)[1] + cells.steps(a) != height) continue;
+      Vector<2> below = cells.site(a);
+      below[1] -= cells.width(a);
+      EXPECT_LE(cells.steps(cells.containing(below)), cells.steps(a));
+    }
+    EXPECT_NO_THROW(
+        (void)fpm::Rows<2>(make_particles(cells), Ghosts<2>{}, row_options<2>(0.1, true)));
+  }
+}
+
 TEST(Cells, AreAsWideAsWantedWhereNothingElseForbidsIt) {
   const Cells<2> cells(lattice<2>({64, 64}), [](const auto& lower, const auto& /*upper*/) {
     return std::max(0.1, 0.25 * lower.norm());

@@ -67,14 +67,26 @@ TEST(HourglassControl, HasItsStiffnessRatioUnlessTheSceneSaysOtherwise) {
 }
 
 TEST(Solver, PresetFillsAbsentKeysOnly) {
-  Solver solver;
-  EXPECT_EQ(resolve_solver(solver).method, SolverMethod::hybrid);
-  solver.preset = SolverPreset::appendix_a;
-  solver.jacobian = JacobianKind::analytic;
-  const SolverSettings paper = resolve_solver(solver);
+  Scene scene;
+  EXPECT_EQ(resolve_solver(scene).method, SolverMethod::hybrid);
+  scene.solver.preset = SolverPreset::appendix_a;
+  scene.solver.jacobian = JacobianKind::analytic;
+  const SolverSettings paper = resolve_solver(scene);
   EXPECT_EQ(paper.method, SolverMethod::newton_krylov);
   EXPECT_EQ(paper.preconditioner, PreconditionerKind::none);
   EXPECT_EQ(paper.jacobian, JacobianKind::analytic);
+}
+
+TEST(Solver, TakesFactorsNextToIncompressibilityInThePlane) {
+  Scene scene;
+  scene.geometry.dimension = 2;
+  scene.material.resize(2);
+  scene.material[1].poissons_ratio = 0.49;
+  EXPECT_EQ(resolve_solver(scene).preconditioner, PreconditionerKind::two_level);
+  scene.material[1].poissons_ratio = 0.4999;
+  EXPECT_EQ(resolve_solver(scene).preconditioner, PreconditionerKind::factors);
+  scene.geometry.dimension = 3;
+  EXPECT_EQ(resolve_solver(scene).preconditioner, PreconditionerKind::two_level);
 }
 
 TEST(Lattice, CountsCellsOrVertices) {

@@ -295,7 +295,7 @@ TEST(AQuality, IsTwiceOrHalfTheSpacingAsNearlyAsWholeCellsAllow) {
     EXPECT_GT(draft, own) << name;
     EXPECT_LE(draft, 2.0 * 1.5 * own) << name;
     const auto tolerance = [](const scene::Scene& of) {
-      return scene::resolve_solver(of.solver).tolerance;
+      return scene::resolve_solver(of).tolerance;
     };
     EXPECT_DOUBLE_EQ(tolerance(shipped(name, settings_of(Quality::draft, scene))),
                      std::min(10.0 * tolerance(scene), 0.01))
@@ -312,8 +312,7 @@ TEST(AQuality, LoosensNoToleranceThatDecidesWhenARunFails) {
     const scene::Scene scene = shipped(name);
     const scene::Scene draft = shipped(name, settings_of(Quality::draft, scene));
     EXPECT_GT(draft.geometry.spacing, scene.geometry.spacing) << name;
-    EXPECT_EQ(scene::resolve_solver(draft.solver).tolerance,
-              scene::resolve_solver(scene.solver).tolerance)
+    EXPECT_EQ(scene::resolve_solver(draft).tolerance, scene::resolve_solver(scene).tolerance)
         << name;
   }
 }

@@ -181,6 +181,25 @@ TEST(CylinderOfArcs, WidensAsLameSaysAtSecondOrder) {
   EXPECT_LT(std::abs(error[2]), 0.01);
 }
 
+// Next to incompressibility, too: nothing locks, and no solve takes more than a dozen evaluations.
+TEST(CylinderOfArcs, WidensAsLameSaysNextToIncompressibility) {
+  const double a = 1.0, b = 2.0, modulus = 1e6, pressure = 1e3;
+  for (const double nu : {0.499, 0.499999}) {
+    const double exact =
+        pressure * a * (1.0 + nu) / modulus / (b * b - a * a) * ((1.0 - 2.0 * nu) * a * a + b * b);
+    std::vector<double> error;
+    for (const double spacing : {0.1, 0.05, 0.025}) {
+      verification::Run<2> run(scene_of(cylinder(spacing, elastic("soft", modulus, nu), pressure) +
+                                        "[programme]\nsteps = 1\n"));
+      EXPECT_LT(run.complete().back().evaluations, 12);
+      error.push_back(model::Measures<2>(run.scene, run.model).of(run.state)[0] / exact - 1.0);
+      report(fmt::format("error_at_{}_nu_{}", spacing, nu), error.back());
+    }
+    EXPECT_GT(std::log2(error[0] / error[2]) / 2.0, 1.8);
+    EXPECT_LT(std::abs(error[2]), 0.01);
+  }
+}
+
 // 2 c ln(b / a), as Tresca's in plane strain.
 TEST(CylinderOfArcs, YieldsAtItsLimitPressure) {
   const double limit = 2e3 * std::log(2.0);

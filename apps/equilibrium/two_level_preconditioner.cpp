@@ -1,4 +1,4 @@
-#include "equilibrium/preconditioner.hpp"
+#include "equilibrium/two_level_preconditioner.hpp"
 
 #include <Eigen/LU>
 
