@@ -10,6 +10,7 @@
 #include "limit/algebra/equation_builder.hpp"
 #include "limit/algebra/least_change.hpp"
 #include "limit/certificate/stress_layout.hpp"
+#include "limit/problem/bare_corners.hpp"
 #include "limit/problem/local_soil.hpp"
 
 namespace limit::certificate {
@@ -43,6 +44,7 @@ class BalanceEquations {
       match(edge, layout_.middle(edge.left, edge.first, edge.second),
             edge.right < 0 ? Shares() : layout_.middle(edge.right, edge.first, edge.second));
     }
+    leave_free_faces_bare();
     for (std::size_t motion = 0; motion < 3; ++motion) {
       const problem::Footing& footing = problem.footing;
       if (!footing.may_move[motion]) continue;
@@ -122,6 +124,31 @@ class BalanceEquations {
         add(own, to_b + to_c, direction, -1.0);
         add(at_b, to_b, direction, 1.0);
         add(at_c, to_c, direction, 1.0);
+      }
+    }
+  }
+
+  // No equations of equilibrium, but without them rounding would make tensions of them.
+  void leave_free_faces_bare() {
+    const std::vector<problem::BareTriangle> bare = problem::bare_corners(problem_);
+    for (std::size_t t = 0; t < bare.size(); ++t) {
+      for (std::size_t i = 0; i < 6; ++i) {
+        const problem::BareCorner& corner = bare[t][i];
+        if (corner.bears == problem::BareCorner::Bears::all) continue;
+        if (i >= 3 && layout_.middles(t) < 0) continue;
+        const Eigen::Index at = i < 3 ? static_cast<Eigen::Index>(9 * t + 3 * i)
+                                      : layout_.middles(t) + static_cast<Eigen::Index>(3 * i - 9);
+        if (corner.bears == problem::BareCorner::Bears::nothing) {
+          for (Eigen::Index row = 0; row < 3; ++row) {
+            equations_.begin(0.0);
+            equations_.add(at + row, 1.0);
+          }
+          continue;
+        }
+        for (const mesh::Point& direction : {mesh::Point(1, 0), mesh::Point(0, 1)}) {
+          equations_.begin(0.0);
+          add(at, corner.normal, direction, 1.0);
+        }
       }
     }
   }
@@ -259,7 +286,15 @@ double excess(const Ceiling& ceiling, const Eigen::VectorXd& field) {
   }
   const double mean = (stress[0] + stress[1]) / 2.0;
   const double radius = std::hypot((stress[0] - stress[1]) / 2.0, stress[2]);
-  if (ceiling.kind == Ceiling::Kind::tension) return mean + radius - ceiling.tension;
+  if (ceiling.kind == Ceiling::Kind::tension) {
+    const double excess = mean + radius - ceiling.tension;
+    // Without tension no stress at a free face is strictly within, and rounding decides. A pressure
+    // of that much more, equal in all directions, is within; it is out of equilibrium with the
+    // faces by less than what equilibrium is held to.
+    constexpr double rounding = 1e-12;
+    const double allowed = rounding * std::max(1.0, std::abs(mean));
+    return ceiling.tension == 0.0 && excess > 0.0 && excess <= allowed ? 0.0 : excess;
+  }
   return radius - (ceiling.cohesive - mean * ceiling.sine);
 }
 

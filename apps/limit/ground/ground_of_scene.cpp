@@ -116,10 +116,6 @@ class Reader {
            "fpm-limit brackets collapse");
     refuse(material.match != "plane_strain", table + "match", "found " + material.match,
            "only strengths matched in plane strain are those of Mohr-Coulomb");
-    refuse(
-        material.tension_cutoff && material.model != "mohr_coulomb", table + "tension_cutoff",
-        fmt::format("found {:g}, of a {}", material.tension_cutoff.value_or(0.0), material.model),
-        "cut off in tension, only mohr_coulomb is the same soil in plane strain");
     refuse(material.residual_strain.has_value(), table + "residual_strain",
            fmt::format("found {:g}", material.residual_strain.value_or(0.0)),
            "the bounds are those of a soil whose strength stays");

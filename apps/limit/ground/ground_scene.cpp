@@ -126,8 +126,9 @@ GroundTable material() {
            {.need = Need::optional,
             .unit = "Pa",
             .range = at_least(0.0),
-            .doc = "more than zero, largest principal stress (Rankine); beyond the apex it changes "
-                   "nothing",
+            .doc =
+                "largest principal stress (Rankine), more than zero in soil without weight; beyond "
+                "the apex it changes nothing",
             .absent = "none"})
       .key("unit_weight", &GroundMaterial::unit_weight,
            {.unit = "N/m3", .range = at_least(0.0), .doc = "also linear, or by a table"})

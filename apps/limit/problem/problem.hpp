@@ -26,6 +26,9 @@ struct Soil {
   mesh::Point seepage{0.0, 0.0}, live_seepage{0.0, 0.0};
   /// [Pa] a tension cut-off (Rankine): no principal stress is more. Infinite: none.
   double tension = std::numeric_limits<double>::infinity();
+  /// Behind an upright free face of soil without tension: a lower bound has it bear along uprights
+  /// only (bare_corners.hpp).
+  bool stands = false;
 
   /// [N/m3 per m] Of the unit weights, which are those at `centre`.
   mesh::Point weight_gradient{0.0, 0.0}, live_weight_gradient{0.0, 0.0};

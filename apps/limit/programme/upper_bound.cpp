@@ -78,6 +78,11 @@ struct Loads {
   }
 };
 
+// Of the cohesion, of the tension of soil without any: what a stronger soil does not carry, a
+// softer one does not, and there is a stress strictly within yield at free faces. The certificate
+// knows what the mechanism dissipates without it.
+constexpr double trace = 1e-4;
+
 class Builder {
  public:
   explicit Builder(const problem::Problem& problem)
@@ -140,7 +145,11 @@ class Builder {
     cones_.push_back(yield_cone(soil, load, 0.0));
     starts_.push_back(inner_point(cones_.back(), load));
     const int column = 3 * static_cast<int>(cones_.size() - 1);
-    if (soil.cuts_tension()) cuts_.emplace_back(column, tension_cone(soil, load, 0.0));
+    if (soil.cuts_tension()) {
+      problem::Soil cut = soil;
+      cut.tension = std::max(soil.tension, trace * soil.cohesion);
+      cuts_.emplace_back(column, tension_cone(cut, load, 0.0));
+    }
     return column;
   }
 
