@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "limit/ground/ground_curves.hpp"
 #include "limit/ground/ground_variation.hpp"
 
 namespace limit::ground {
@@ -191,7 +192,10 @@ void recentre(const mesh::Point& centre, problem::Soil& soil) {
 }
 
 void tell_soils(GroundScene& scene, tables::Diagnosis& diagnosis) {
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) tell_soil(scene, m, diagnosis);
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    tell_soil(scene, m, diagnosis);
+    tell_curve(scene, m);
+  }
   if (!diagnosis.errors().empty()) return;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) tell_tension(scene, m, diagnosis);
 }

@@ -8,6 +8,8 @@
 
 #include "limit/problem/bare_corners.hpp"
 #include "limit/problem/local_soil.hpp"
+#include "limit/programme/polygon_cones.hpp"
+#include "limit/programme/stress_forms.hpp"
 #include "limit/programme/yield_cones.hpp"
 
 namespace limit::programme {
@@ -18,46 +20,16 @@ namespace {
 // into equilibrium: much more than that of the solver, much less than a bracket.
 constexpr double reserve = 1e-6;
 
-// A linear form in one corner's (p, d, t).
-using Form = Eigen::Vector3d;
-
-Form stress_xx() {
-  return {1, 1, 0};
-}
-Form stress_yy() {
-  return {1, -1, 0};
-}
-Form stress_xy() {
-  return {0, 0, 1};
-}
-// Traction along `direction` on a plane of normal `normal`.
-Form traction(const mesh::Point& normal, const mesh::Point& direction) {
-  return normal.x() * direction.x() * stress_xx() + normal.y() * direction.y() * stress_yy() +
-         (normal.x() * direction.y() + normal.y() * direction.x()) * stress_xy();
-}
-
-// Outward unit normal of a counterclockwise side, and its length.
-struct SideFrame {
-  SideFrame(const mesh::Mesh& mesh, const mesh::Edge& edge)
-      : first(mesh.nodes[static_cast<std::size_t>(edge.first)]),
-        second(mesh.nodes[static_cast<std::size_t>(edge.second)]) {
-    const mesh::Point along = second - first;
-    length = along.norm();
-    tangent = along / length;
-    normal = mesh::Point(tangent.y(), -tangent.x());
-  }
-  mesh::Point first, second, tangent, normal;
-  double length;
-};
-
 class Builder {
  public:
-  explicit Builder(const problem::Problem& problem)
+  Builder(const problem::Problem& problem, const Polygons& polygons)
       : problem_(problem),
+        polygons_(polygons),
         edges_(mesh::edges_of(problem.mesh)),
         overburden_(problem),
         bare_(problem::bare_corners(problem)) {
     add_cones();
+    curves_.add_others();
     for (std::size_t corner = 0; corner < cuts_.size(); ++corner) add_cut(corner);
     for (std::size_t point = 0; point < cuts_.size(); ++point) add_pressure(point);
     for (const mesh::Edge& edge : edges_) add_contacts(edge);
@@ -74,6 +46,8 @@ class Builder {
     stresses_of_contacts();
     stresses_of_cuts();
     stresses_of_bare_corners();
+    curves_.equations([&](double right_side) { begin_equation(right_side); },
+                      [&](Eigen::Index variable, double factor) { add(variable, factor); });
     end_of_multiplier();
     const Eigen::Index variables = multiplier() + 1;
     ConeProgram program;
@@ -87,6 +61,7 @@ class Builder {
     for (std::size_t k = 0; k < cones_.size(); ++k) {
       program.start.segment<3>(3 * static_cast<Eigen::Index>(k)) = starts_[k];
     }
+    curves_.tell(program);
     return program;
   }
 
@@ -108,7 +83,13 @@ class Builder {
     for (const mesh::Triangle& triangle : triangles) {
       soils.push_back(problem::soil_in(problem_, triangle, problem::Bound::lower));
       const std::size_t t = soils.size() - 1;
-      for (int i = 0; i < 3; ++i) add_cone(soils.back(), node_of(triangle, i), bare_at(t, i));
+      for (int i = 0; i < 3; ++i) {
+        if (soils.back().is_curved()) {
+          add_curved(triangle, i);
+        } else {
+          add_cone(soils.back(), node_of(triangle, i), bare_at(t, i));
+        }
+      }
     }
     middles_.assign(triangles.size(), -1);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -145,6 +126,19 @@ class Builder {
     if (bare_.empty()) return nullptr;
     const problem::BareCorner& corner = bare_[triangle][static_cast<std::size_t>(point)];
     return corner.bears == problem::BareCorner::Bears::all ? nullptr : &corner;
+  }
+
+  void add_curved(const mesh::Triangle& triangle, int i) {
+    const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(triangle.region)];
+    const mesh::Point& place = node_of(triangle, i);
+    const mesh::Point centre =
+        (node_of(triangle, 0) + node_of(triangle, 1) + node_of(triangle, 2)) / 3.0;
+    const CurvedPoint point{0, triangle.region, false, towards(place, centre)};
+    const double load = overburden_.at(soil, place);
+    const double guess = load + soil.envelope.unconfined() / 2.0;
+    curves_.add(polygons_.lines(soil, point, guess, Polygon::chords), point, load, reserve);
+    cuts_.emplace_back();
+    bare_points_.push_back(nullptr);
   }
 
   void add_cone(const problem::Soil& local, const mesh::Point& place,
@@ -426,10 +420,12 @@ class Builder {
   }
 
   const problem::Problem& problem_;
+  const Polygons& polygons_;
   std::vector<mesh::Edge> edges_;
   Overburden overburden_;
   std::vector<YieldCone> cones_;
   std::vector<Eigen::Vector3d> starts_;
+  PolygonCones curves_{cones_, starts_};
   std::vector<Eigen::Index> middles_;  // first variable of a triangle's three; -1: none
   // The stress of a corner, and the variable that is its normal component.
   struct Contact {
@@ -447,8 +443,8 @@ class Builder {
 
 }  // namespace
 
-ConeProgram lower_bound_program(const problem::Problem& problem) {
-  return Builder(problem).program();
+ConeProgram lower_bound_program(const problem::Problem& problem, const Polygons& polygons) {
+  return Builder(problem, polygons).program();
 }
 
 problem::StressField stress_field(const problem::Problem& problem,
