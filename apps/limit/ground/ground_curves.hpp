@@ -2,8 +2,9 @@
 
 #include <cstddef>
 
-#include "limit/ground/ground_scene.hpp"
+#include "limit/ground/ground_types.hpp"
 #include "tables/builder.hpp"
+#include "tables/diagnosis.hpp"
 
 namespace limit::ground {
 
