@@ -30,7 +30,7 @@ std::vector<Face> faces_of(const GroundScene& scene, const GroundOutline& outlin
   for (const GroundSegment& segment : outline.segments) {
     if (segment.right >= 0) continue;
     if (!is_bare(scene.sides[static_cast<std::size_t>(segment.side)])) continue;
-    const mesh::Point first = outline.at(segment.first), second = outline.at(segment.second);
+    const mesh::Point &first = outline.at(segment.first), &second = outline.at(segment.second);
     const mesh::Point along = second - first;
     if (std::abs(along.x()) > level * std::abs(along.y())) continue;
     // The ground is to the left.
@@ -54,7 +54,7 @@ std::vector<Face> faces_of(const GroundScene& scene, const GroundOutline& outlin
   for (Face& face : faces) {
     for (const GroundSegment& segment : outline.segments) {
       if (segment.right >= 0) continue;
-      const mesh::Point first = outline.at(segment.first), second = outline.at(segment.second);
+      const mesh::Point &first = outline.at(segment.first), &second = outline.at(segment.second);
       if (first != face.crest && second != face.crest) continue;
       const mesh::Point back = (first == face.crest ? second : first) - face.crest;
       if (std::abs(back.y()) > level * std::abs(back.x()) || back.x() * face.inwards <= 0.0)
