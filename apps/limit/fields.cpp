@@ -71,8 +71,9 @@ void write_fields(const std::filesystem::path& file, const problem::Case& proble
       const double mean = (s[0] + s[1]) / 2, half = (s[0] - s[1]) / 2;
       const double radius = std::hypot(half, s[2]);
       const problem::Soil soil = soil_of(problem, mesh.triangles[t], at);
-      const double strength =
-          soil.cohesion * std::cos(soil.friction_angle) - mean * std::sin(soil.friction_angle);
+      const double strength = soil.is_curved() ? soil.envelope.radius_about(-mean)
+                                               : soil.cohesion * std::cos(soil.friction_angle) -
+                                                     mean * std::sin(soil.friction_angle);
       const double angle = std::atan2(s[2], half) / 2;
       put(points, {at.x(), at.y(), 0.0});
       // Across the plane the stress takes no part in plane-strain yield; the mean stands for it.

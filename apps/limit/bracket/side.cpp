@@ -22,6 +22,11 @@ std::vector<double> flow_indicators(const problem::Problem& problem,
     const auto shear = strain.segment<2>(static_cast<Eigen::Index>(3 * k + 1)).norm();
     if (std::isfinite(shear)) indicators[k / 3] += program.cones[k].scale * shear;
   }
+  for (const auto& [own, twin] : program.twins) {
+    if (own >= 3 * indicators.size()) continue;
+    const auto shear = strain.segment<2>(static_cast<Eigen::Index>(3 * twin + 1)).norm();
+    if (std::isfinite(shear)) indicators[own / 3] += program.cones[own].scale * shear;
+  }
   return indicators;
 }
 
@@ -59,24 +64,50 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
                    const std::function<void(const Attempt&)>& watch) {
   const std::optional<double> before = best(bracket);
   const double began = means_.seconds();
-  const programme::ConeProgram program = is_lower_ ? programme::lower_bound_program(problem_)
-                                                   : programme::upper_bound_program(problem_);
   std::vector<solver::ConeForm> forms = forms_of(is_lower_, options.engine);
   std::erase_if(forms, [&](solver::ConeForm form) {
     return std::find(given_up_.begin(), given_up_.end(), form) != given_up_.end();
   });
+  // Stresses that bear no tension lie in no cone's inside at free faces, which Ipopt's forms want.
+  const bool bears_none = std::ranges::any_of(
+      problem_.soils, [](const problem::Soil& soil) { return soil.tension == 0.0; });
+  if (is_lower_ && bears_none && options.engine != Engine::ipopt) forms.resize(1);
   ++failures_;
   work_ = 0.0;
   for (const solver::ConeForm form : forms) {
+    BracketOptions rest = options;
+    rest.max_seconds = options.max_seconds - (means_.seconds() - began);
+    const bool is_first = form == forms.front();
+    if (rest.max_seconds <= 0.0 && !is_first) break;
+    const Attempt attempt = ask(form, is_first, bracket, rest, watch);
+    if (is_good(attempt, before)) {
+      failures_ = 0;
+      break;
+    }
+    if (!is_first) given_up_.push_back(form);
+    if (attempt.status == solver::SolverStatus::timed_out || !options.fall_back) break;
+  }
+  const std::optional<double> after = best(bracket);
+  if (before && after) promise_ = std::abs(*after / *before - 1.0) / std::max(1.0, work_);
+}
+
+Attempt Side::ask(solver::ConeForm form, bool is_first, Bracket& bracket,
+                  const BracketOptions& options, const std::function<void(const Attempt&)>& watch) {
+  const double began = means_.seconds();
+  // Coarse polygons know nothing but where to look; afterwards those of one mesh do for the next.
+  const int rounds = is_new_ ? 3 : 1;
+  std::optional<double> last;
+  for (int round = 1;; ++round) {
+    const programme::ConeProgram program =
+        is_lower_ ? programme::lower_bound_program(problem_, polygons_)
+                  : programme::upper_bound_program(problem_, polygons_);
     solver::SolverOptions solver;
     solver.form = form;
     solver.max_iterations = options.max_iterations;
     solver.cone_gap = options.solver_gap;
     solver.wants_interior = !is_lower_;
     const double start = means_.seconds();
-    const double left = options.max_seconds - (start - began);
-    if (left <= 0.0 && form != forms.front()) break;
-    solver.max_seconds = std::max(1.0, left);
+    solver.max_seconds = std::max(1.0, options.max_seconds - (start - began));
     const solver::ConeSolution solution = means_.solve(program, solver);
     Attempt attempt{is_lower_,        triangles(),         form, solution.status,
                     solution.message, solution.iterations, 0.0,  solution.work,
@@ -86,7 +117,7 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
                            : std::numeric_limits<double>::quiet_NaN();
     if (solution.variables.allFinite() && solution.multipliers.allFinite()) {
       certify(bracket, attempt, solution);
-      if (form == forms.front() || attempt.certified) {
+      if (is_first || attempt.certified) {
         indicators_ = flow_indicators(problem_, program, solution);
       }
     }
@@ -94,15 +125,19 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
     work_ += attempt.work;
     bracket.attempts.push_back(attempt);
     if (watch) watch(attempt);
-    if (is_good(attempt, before)) {
-      failures_ = 0;
-      break;
+    const bool is_solved = attempt.status == solver::SolverStatus::solved ||
+                           attempt.status == solver::SolverStatus::acceptable;
+    if (program.curved.empty() || !is_solved) return attempt;
+    polygons_.take(program.curved, solution.variables);
+    is_new_ = false;
+    constexpr double of_gap = 0.1;
+    const bool is_close = last && attempt.certified &&
+                          std::abs(*attempt.certified / *last - 1.0) < of_gap * options.gap;
+    last = attempt.certified;
+    if (is_close || round == rounds || means_.seconds() - began >= options.max_seconds) {
+      return attempt;
     }
-    if (form != forms.front()) given_up_.push_back(form);
-    if (solution.status == solver::SolverStatus::timed_out || !options.fall_back) break;
   }
-  const std::optional<double> after = best(bracket);
-  if (before && after) promise_ = std::abs(*after / *before - 1.0) / std::max(1.0, work_);
 }
 
 // A bisected mesh holds every field of the mesh before: its optimum cannot be worse.

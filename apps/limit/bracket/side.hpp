@@ -8,6 +8,7 @@
 #include "limit/bracket/attempt.hpp"
 #include "limit/bracket/means.hpp"
 #include "limit/problem/problem.hpp"
+#include "limit/programme/polygons.hpp"
 
 namespace limit::bracket {
 
@@ -40,6 +41,9 @@ class Side {
                const std::function<void(const Attempt&)>& watch);
 
  private:
+  /// One form, and as often again as polygons of curved envelopes are to follow the stresses.
+  Attempt ask(solver::ConeForm form, bool is_first, Bracket& bracket, const BracketOptions& options,
+              const std::function<void(const Attempt&)>& watch);
   [[nodiscard]] bool is_good(const Attempt& attempt, const std::optional<double>& before) const;
   [[nodiscard]] std::optional<double> best(const Bracket& bracket) const;
   void certify(Bracket& bracket, Attempt& attempt, const solver::ConeSolution& solution);
@@ -47,6 +51,8 @@ class Side {
   problem::Problem problem_;
   bool is_lower_;
   Means means_;
+  programme::Polygons polygons_;
+  bool is_new_ = true;  // nothing is known of its stresses
   std::vector<double> indicators_;
   std::vector<solver::ConeForm> given_up_;
   int failures_ = 0;

@@ -10,6 +10,7 @@ problem::Soil weakened(const problem::Soil& soil, double factor) {
   weak.cohesion_gradient /= factor;
   weak.divisor *= factor;
   weak.tension /= factor;
+  weak.envelope.factor *= factor;
   weak.friction_angle = std::atan(std::tan(soil.friction_angle) / factor);
   return weak;
 }

@@ -252,7 +252,7 @@ class Examination {
       const double middle = (ends[i] + ends[i + 1]) / 2.0;
       const problem::Soil* soil = soil_at(radius_at(middle) * towards(middle));
       if (soil == nullptr) continue;  // outside of the ground nothing parts
-      if (soil->varies()) {
+      if (soil->varies() || soil->is_curved()) {
         objection_ = "soil of one cohesion only";
         return;
       }

@@ -10,6 +10,7 @@
 #include "limit/algebra/equation_builder.hpp"
 #include "limit/algebra/least_change.hpp"
 #include "limit/certificate/stress_layout.hpp"
+#include "limit/problem/bare_corners.hpp"
 #include "limit/problem/local_soil.hpp"
 
 namespace limit::certificate {
@@ -43,6 +44,7 @@ class BalanceEquations {
       match(edge, layout_.middle(edge.left, edge.first, edge.second),
             edge.right < 0 ? Shares() : layout_.middle(edge.right, edge.first, edge.second));
     }
+    leave_free_faces_bare();
     for (std::size_t motion = 0; motion < 3; ++motion) {
       const problem::Footing& footing = problem.footing;
       if (!footing.may_move[motion]) continue;
@@ -126,6 +128,31 @@ class BalanceEquations {
     }
   }
 
+  // No equations of equilibrium, but without them rounding would make tensions of them.
+  void leave_free_faces_bare() {
+    const std::vector<problem::BareTriangle> bare = problem::bare_corners(problem_);
+    for (std::size_t t = 0; t < bare.size(); ++t) {
+      for (std::size_t i = 0; i < 6; ++i) {
+        const problem::BareCorner& corner = bare[t][i];
+        if (corner.bears == problem::BareCorner::Bears::all) continue;
+        if (i >= 3 && layout_.middles(t) < 0) continue;
+        const Eigen::Index at = i < 3 ? static_cast<Eigen::Index>(9 * t + 3 * i)
+                                      : layout_.middles(t) + static_cast<Eigen::Index>(3 * i - 9);
+        if (corner.bears == problem::BareCorner::Bears::nothing) {
+          for (Eigen::Index row = 0; row < 3; ++row) {
+            equations_.begin(0.0);
+            equations_.add(at + row, 1.0);
+          }
+          continue;
+        }
+        for (const mesh::Point& direction : {mesh::Point(1, 0), mesh::Point(0, 1)}) {
+          equations_.begin(0.0);
+          add(at, corner.normal, direction, 1.0);
+        }
+      }
+    }
+  }
+
   // Both sides' tractions agree, or the side's is the one prescribed.
   void match(const mesh::Edge& edge, const Shares& left, const Shares& right) {
     const mesh::Mesh& mesh = problem_.mesh;
@@ -197,17 +224,20 @@ struct Ceiling {
   enum class Kind { yield, tension, contact };
   Eigen::Index point = 0;
   Kind kind = Kind::yield;
-  double cohesive = 0.0, sine = 0.0;  // c cos(phi), linear as the stress between points is
-  double tension = 0.0;               // the soil's
-  mesh::Point normal{0.0, 0.0};       // of a contact
+  double cohesive = 0.0, sine = 0.0;         // c cos(phi), linear as the stress between points is
+  double tension = 0.0;                      // the soil's
+  mesh::Point normal{0.0, 0.0};              // of a contact
+  const problem::Envelope* curve = nullptr;  // of a yield that is not c and phi's
 };
 
-void add_ceilings(Eigen::Index point, const problem::Soil& soil, const mesh::Point& place,
-                  std::vector<Ceiling>& ceilings) {
+// @param whole  the soil that `soil` is that of a triangle of; what is curved does not change
+void add_ceilings(Eigen::Index point, const problem::Soil& soil, const problem::Soil& whole,
+                  const mesh::Point& place, std::vector<Ceiling>& ceilings) {
   Ceiling ceiling{point, Ceiling::Kind::yield};
   ceiling.cohesive = soil.cohesion_at(place) * std::cos(soil.friction_angle);
   ceiling.sine = std::sin(soil.friction_angle);
   ceiling.tension = soil.tension;
+  if (whole.is_curved()) ceiling.curve = &whole.envelope;
   ceilings.push_back(ceiling);
   if (!soil.cuts_tension()) return;
   ceiling.kind = Ceiling::Kind::tension;
@@ -221,13 +251,15 @@ std::vector<Ceiling> ceilings_of(const problem::Problem& problem) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     // No stronger than the triangle is anywhere.
     const problem::Soil soil = problem::soil_in(problem, mesh.triangles[t], problem::Bound::lower);
+    const problem::Soil& whole = problem.soils[static_cast<std::size_t>(mesh.triangles[t].region)];
     const auto corner = [&](Eigen::Index i) -> const mesh::Point& {
       return node_at(mesh, mesh.triangles[t].nodes[static_cast<std::size_t>(i % 3)]);
     };
     for (Eigen::Index i = 0; i < 3; ++i) {
-      add_ceilings(static_cast<Eigen::Index>(9 * t) + 3 * i, soil, corner(i), ceilings);
+      add_ceilings(static_cast<Eigen::Index>(9 * t) + 3 * i, soil, whole, corner(i), ceilings);
       if (layout.middles(t) < 0) continue;
-      add_ceilings(layout.middles(t) + 3 * i, soil, (corner(i) + corner(i + 1)) / 2.0, ceilings);
+      add_ceilings(layout.middles(t) + 3 * i, soil, whole, (corner(i) + corner(i + 1)) / 2.0,
+                   ceilings);
     }
   }
   for (const mesh::Edge& edge : mesh::edges_of(mesh)) {
@@ -259,8 +291,42 @@ double excess(const Ceiling& ceiling, const Eigen::VectorXd& field) {
   }
   const double mean = (stress[0] + stress[1]) / 2.0;
   const double radius = std::hypot((stress[0] - stress[1]) / 2.0, stress[2]);
-  if (ceiling.kind == Ceiling::Kind::tension) return mean + radius - ceiling.tension;
+  if (ceiling.kind == Ceiling::Kind::tension) {
+    const double excess = mean + radius - ceiling.tension;
+    // Without tension no stress at a free face is strictly within, and rounding decides. A pressure
+    // of that much more, equal in all directions, is within; it is out of equilibrium with the
+    // faces by less than what equilibrium is held to.
+    constexpr double rounding = 1e-12;
+    const double allowed = rounding * std::max(1.0, std::abs(mean));
+    return ceiling.tension == 0.0 && excess > 0.0 && excess <= allowed ? 0.0 : excess;
+  }
+  if (ceiling.curve != nullptr) {
+    const double beyond = mean - ceiling.curve->apex();
+    return radius - ceiling.curve->radius_about(-mean) + std::max(0.0, beyond);
+  }
   return radius - (ceiling.cohesive - mean * ceiling.sine);
+}
+
+// How far a stress that is outside has to be drawn towards one that is strictly within.
+double share_of_rest(const Ceiling& ceiling, const Eigen::VectorXd& field,
+                     const Eigen::VectorXd& rest) {
+  const double here = excess(ceiling, field), resting = excess(ceiling, rest);
+  // Convex: at the share t of rest the excess is at most (1 - t) here + t resting.
+  if (ceiling.curve == nullptr || ceiling.kind != Ceiling::Kind::yield) {
+    return here / (here - resting);
+  }
+  // The excess of a curved envelope is not, but what is within it is convex.
+  double outside = 0.0, inside = 1.0;
+  constexpr double close = 1e-12;
+  while (inside - outside > close) {
+    const double middle = (inside + outside) / 2.0;
+    const Eigen::VectorXd point =
+        (1.0 - middle) * field.segment<3>(ceiling.point) + middle * rest.segment<3>(ceiling.point);
+    Ceiling alone = ceiling;
+    alone.point = 0;
+    (excess(alone, point) > 0.0 ? outside : inside) = middle;
+  }
+  return inside;
 }
 
 Eigen::VectorXd as_vector(const problem::Problem& problem, const problem::StressField& field) {
@@ -373,10 +439,8 @@ LowerCertificate certify_lower(const problem::Problem& problem,
     const double here = excess(ceiling, x);
     certificate.yield_excess = std::max(certificate.yield_excess, here);
     if (here <= 0.0) continue;
-    // Convex: at the share t of rest the excess is at most (1 - t) here + t resting.
-    const double resting = rest ? excess(ceiling, rest->stress) : 0.0;
-    inside = inside && resting < 0.0;
-    drawn = std::max(drawn, here / (here - resting));
+    inside = inside && rest && excess(ceiling, rest->stress) < 0.0;
+    if (inside) drawn = std::max(drawn, share_of_rest(ceiling, x, rest->stress));
   }
   if (drawn > 0.0 && inside) {
     constexpr double more = 1.0 + 1e-6;  // so that rounding does not undo it

@@ -6,6 +6,7 @@
 
 #include "limit/algebra/equation_builder.hpp"
 #include "limit/algebra/least_change.hpp"
+#include "limit/certificate/curved_power.hpp"
 #include "limit/problem/local_soil.hpp"
 
 namespace limit::certificate {
@@ -45,6 +46,9 @@ struct FlowPoint {
   /// Under a contact that may open, of soil whose tension is cut off: the traction's circle.
   bool is_contact = false;
   double circle_middle = 0.0, circle_radius = 0.0;
+  /// Of soil with a curved envelope; under a contact that may open, its strength without pressure.
+  std::optional<problem::Envelope> envelope = std::nullopt;
+  double without_pressure = 0.0;
   double weight = 0.0;
   std::size_t triangle = 0;
 };
@@ -86,6 +90,14 @@ class Flow {
     point.ratio = ratio;
     point.weight = weight;
     point.triangle = triangle;
+    if (soil.is_curved()) {
+      // Any dilation at all bounds the power; next to none, for rounding's sake.
+      constexpr double least = 1e-4;
+      point.ratio = ratio > 0.0 ? least : 0.0;
+      point.may_dilate = true;
+      point.envelope = soil.envelope;
+      return point;
+    }
     point.may_dilate = soil.friction_angle > 0.0 || soil.cuts_tension();
     if (soil.cuts_tension()) {
       const double sine = std::sin(soil.friction_angle);
@@ -192,6 +204,11 @@ class Flow {
 
   // A jump across which no traction pulls.
   static void let_open(FlowPoint& jump, const problem::Soil& soil, double cohesion) {
+    if (soil.is_curved()) {
+      jump.is_contact = true;
+      jump.without_pressure = soil.envelope.under(0.0).shear;
+      return;
+    }
     jump.per_shear = cohesion;
     if (!soil.cuts_tension()) {
       // The largest power of a traction that yields and does not pull: that of the cohesion.
@@ -327,6 +344,11 @@ double shear_of(const FlowPoint& point, const Eigen::VectorXd& x) {
 double power_of(const FlowPoint& point, const Eigen::VectorXd& x) {
   const double dilation = value(point.dilation, x), shear = shear_of(point, x);
   const double size = point.is_layer ? std::hypot(dilation, shear) : shear;
+  if (point.envelope) {
+    return point.is_contact
+               ? curved_contact_power(*point.envelope, point.without_pressure, dilation, shear)
+               : curved_power(*point.envelope, dilation, size);
+  }
   if (point.is_contact) {
     // Of the tractions on the circle that do not pull, or of their last one, with no pressure.
     const bool presses = point.circle_middle * size + point.circle_radius * dilation < 0.0;

@@ -90,12 +90,14 @@ class Reader {
     require(scene::yields(material), table + "model", "an elastic material never yields");
     require(material.match == "plane_strain", table + "match",
             "only strengths matched in plane strain are those of Mohr-Coulomb");
+    require(!material.curve.intact_strength && !material.curve.reference_stress, table + "model",
+            "strength of a curved envelope is for ground of [[region]]s");
     require(!material.tension_cutoff, table + "tension_cutoff",
             "the bounds are those of a soil without a tension cut-off");
     require(!material.residual_strain, table + "residual_strain",
             "the bounds are those of a soil whose strength stays");
     require(!material.curve.intact_strength && !material.curve.power_coefficient, table + "model",
-            "fpm-limit's strengths are cohesion and friction: a curved envelope has no bounds yet");
+            "strength of a curved envelope is for ground of [[region]]s");
     require(!material.overconsolidation_ratio, table + "model",
             "the bounds are those of a soil whose strength stays");
     const auto require_one = [&](const tables::VaryingNumber& number, const char* key) {
@@ -105,9 +107,11 @@ class Reader {
     require_one(material.cohesion.value_or(0.0), "cohesion");
     require_one(material.friction_angle.value_or(0.0), "friction_angle");
     require_one(material.density, material.unit_weight ? "unit_weight" : "density");
-    found_.soils.push_back({material.cohesion.value_or(0.0).value,
-                            material.friction_angle.value_or(0.0).value * degree,
-                            material.density.value * gravity});
+    problem::Soil soil;
+    soil.cohesion = material.cohesion.value_or(0.0).value;
+    soil.friction_angle = material.friction_angle.value_or(0.0).value * degree;
+    soil.unit_weight = material.density.value * gravity;
+    found_.soils.push_back(soil);
     if (!diagnosis_.errors().empty()) return;
     problem::Strip strip = found_.strip;
     strip.soil = found_.soils.back();

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "limit/ground/ground_columns.hpp"
 #include "limit/ground/ground_cut.hpp"
 #include "limit/ground/ground_footing.hpp"
 #include "limit/ground/ground_mesh.hpp"
@@ -294,6 +295,8 @@ std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagn
     if (diagnosis.errors().empty()) outline = ground_outline(scene, diagnosis);
     if (!diagnosis.errors().empty()) return std::nullopt;
   }
+  if (cut_columns(scene, outline)) outline = ground_outline(scene, diagnosis);
+  if (!diagnosis.errors().empty()) return std::nullopt;
   const std::optional<Base> base = find_base(scene, outline, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   problem::Cases result{case_of(scene, outline, base, false, diagnosis), std::nullopt};

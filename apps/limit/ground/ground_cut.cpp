@@ -121,12 +121,10 @@ Extent extent_of(const GroundScene& scene) {
   return extent;
 }
 
-std::vector<GroundPart> parts_within(const GroundRegion& region,
-                                     const std::vector<mesh::Point>& polygon,
-                                     const Extent& ground) {
-  std::vector<Polygon> pieces;
-  boost::geometry::intersection(polygon_of(region.outline, region.holes), polygon_of(polygon),
-                                pieces);
+namespace {
+
+std::vector<GroundPart> parts_of(const GroundRegion& region, const std::vector<Polygon>& pieces,
+                                 const Extent& ground) {
   std::vector<GroundPart> parts;
   for (const Polygon& piece : pieces) {
     if (!is_something(piece, ground)) continue;
@@ -142,6 +140,26 @@ std::vector<GroundPart> parts_within(const GroundRegion& region,
     }
   }
   return parts;
+}
+
+}  // namespace
+
+std::vector<GroundPart> parts_within(const GroundRegion& region,
+                                     const std::vector<mesh::Point>& polygon,
+                                     const Extent& ground) {
+  std::vector<Polygon> pieces;
+  boost::geometry::intersection(polygon_of(region.outline, region.holes), polygon_of(polygon),
+                                pieces);
+  return parts_of(region, pieces, ground);
+}
+
+std::vector<GroundPart> parts_beyond(const GroundRegion& region,
+                                     const std::vector<mesh::Point>& polygon,
+                                     const Extent& ground) {
+  std::vector<Polygon> pieces;
+  boost::geometry::difference(polygon_of(region.outline, region.holes), polygon_of(polygon),
+                              pieces);
+  return parts_of(region, pieces, ground);
 }
 
 void cut_along_tables(GroundScene& scene) {

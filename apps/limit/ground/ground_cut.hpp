@@ -21,6 +21,11 @@ struct GroundPart {
                                                    const std::vector<mesh::Point>& polygon,
                                                    const Extent& ground);
 
+/// What of it is not.
+[[nodiscard]] std::vector<GroundPart> parts_beyond(const GroundRegion& region,
+                                                   const std::vector<mesh::Point>& polygon,
+                                                   const Extent& ground);
+
 /// Cuts regions whose unit weight is told by a table along the lines of that, so that it is linear
 /// in every part, which has a material of its own, of the same name.
 void cut_along_tables(GroundScene& scene);

@@ -116,16 +116,17 @@ class Reader {
            "fpm-limit brackets collapse");
     refuse(material.match != "plane_strain", table + "match", "found " + material.match,
            "only strengths matched in plane strain are those of Mohr-Coulomb");
-    refuse(
-        material.tension_cutoff && material.model != "mohr_coulomb", table + "tension_cutoff",
-        fmt::format("found {:g}, of a {}", material.tension_cutoff.value_or(0.0), material.model),
-        "cut off in tension, only mohr_coulomb is the same soil in plane strain");
+    refuse(material.curve.power_tension == 0.0, table + "power_tension", "found 0",
+           "at a free face no stress is strictly within such an envelope, and no stress field can "
+           "be certified: allowed is a trace, as a thousandth of the reference_stress");
+    refuse(scene::model_of(material).curve != constitutive::Curve::none &&
+               (material.density.varies() ||
+                (material.saturated_unit_weight && material.saturated_unit_weight->varies())),
+           table + "unit_weight", "it changes, with the model " + material.model,
+           "the weight of ground with a curved envelope is one number");
     refuse(material.residual_strain.has_value(), table + "residual_strain",
            fmt::format("found {:g}", material.residual_strain.value_or(0.0)),
            "the bounds are those of a soil whose strength stays");
-    refuse(scene::model_of(material).curve != constitutive::Curve::none, table + "model",
-           "found " + material.model,
-           "fpm-limit's strengths are cohesion and friction: a curved envelope has no bounds yet");
     refuse(scene::model_of(material).critical_state, table + "model", "found " + material.model,
            "the bounds are those of a soil whose strength stays");
     GroundMaterial soil;
@@ -144,12 +145,37 @@ class Reader {
            table + "dilation_angle", "it changes from place to place",
            "allowed is one angle, or that of friction_angle");
     soil.tension_cutoff = material.tension_cutoff;
+    soil.curve = curve_of(material);
     soil.unit_weight = material.density.scaled(weight_);
     if (material.saturated_unit_weight && material.unit_weight.value_or(0.0).value > 0.0) {
       soil.saturated_unit_weight = material.saturated_unit_weight->scaled(
           material.density.value * weight_, material.unit_weight->value);
     }
     found_.materials.push_back(soil);
+  }
+
+  static GroundCurve curve_of(const scene::Material& material) {
+    const scene::CurvedStrength& told = material.curve;
+    GroundCurve curve;
+    switch (scene::model_of(material).curve) {
+      case constitutive::Curve::none:
+        return curve;
+      case constitutive::Curve::hoek_brown:
+        curve.model = StrengthModel::hoek_brown;
+        break;
+      case constitutive::Curve::power_law:
+        curve.model = StrengthModel::power_law;
+        break;
+    }
+    curve.intact_strength = told.intact_strength;
+    curve.m_i = told.m_i;
+    curve.gsi = told.gsi;
+    curve.disturbance = told.disturbance;
+    curve.power_coefficient = told.power_coefficient;
+    curve.power_exponent = told.power_exponent;
+    curve.power_tension = told.power_tension;
+    curve.reference_stress = told.reference_stress;
+    return curve;
   }
 
   void take_side(const scene::OutlineSide& side) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "limit/ground/ground_curves.hpp"
 #include "limit/ground/ground_soils.hpp"
 #include "scene/mesh_groups.hpp"
 #include "scene/names.hpp"
@@ -105,8 +106,8 @@ GroundTable water() {
 }
 
 GroundTable material() {
-  return Builder<GroundMaterial>("material", &GroundScene::materials, "a soil")
-      .required()
+  Builder<GroundMaterial> table("material", &GroundScene::materials, "a soil");
+  table.required()
       .key("name", &GroundMaterial::name, {.need = Need::required})
       .key("cohesion", &GroundMaterial::cohesion,
            {.unit = "Pa",
@@ -126,8 +127,9 @@ GroundTable material() {
            {.need = Need::optional,
             .unit = "Pa",
             .range = at_least(0.0),
-            .doc = "more than zero, largest principal stress (Rankine); beyond the apex it changes "
-                   "nothing",
+            .doc =
+                "largest principal stress (Rankine), more than zero in soil without weight; beyond "
+                "the apex it changes nothing",
             .absent = "none"})
       .key("unit_weight", &GroundMaterial::unit_weight,
            {.unit = "N/m3", .range = at_least(0.0), .doc = "also linear, or by a table"})
@@ -139,8 +141,9 @@ GroundTable material() {
             .absent = "the unit_weight"})
       .key("grows", &GroundMaterial::grows,
            {.doc = "its weight is multiplied where gravity is sought, and shaken where an "
-                   "earthquake is"})
-      .build();
+                   "earthquake is"});
+  add_curve_keys(table);
+  return table.build();
 }
 
 GroundTable region() {
@@ -201,6 +204,8 @@ void check_material(GroundScene& scene, std::size_t i, tables::Diagnosis& diagno
     diagnosis.error(path + "name", "found \"" + material.name + "\" again",
                     "each material has a name of its own");
   }
+  check_curve(scene, i, diagnosis);
+  if (material.curve.model != StrengthModel::mohr_coulomb) return;
   const double friction = material.friction_angle.value * degree;
   if (!diagnosis.given(path + "dilation_angle")) material.dilation_angle = friction;
   if (material.dilation_angle > friction && !material.friction_angle.varies() &&

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "limit/ground/ground_curves.hpp"
 #include "limit/ground/ground_variation.hpp"
 
 namespace limit::ground {
@@ -151,10 +152,10 @@ void tell_tension(GroundScene& scene, std::size_t m, tables::Diagnosis& diagnosi
   const GroundMaterial& material = scene.materials[m];
   problem::Soil& soil = scene.materials[m].soil;
   if (!material.tension_cutoff) return;
-  if (*material.tension_cutoff == 0.0) {
-    diagnosis.error(fmt::format("material.{}.tension_cutoff", m), "found 0",
-                    "at a free face no stress is strictly below none, and no stress field can be "
-                    "certified: allowed is a trace, as a thousandth of the cohesion");
+  if (*material.tension_cutoff == 0.0 && soil.unit_weight == 0.0 && !soil.has_uneven_weight()) {
+    diagnosis.error(fmt::format("material.{}.tension_cutoff", m), "found 0, of soil without weight",
+                    "nothing presses it together below a free face, and no stress field can be "
+                    "certified: allowed is a trace, as a thousandth of the cohesion, or a weight");
     return;
   }
   std::vector<std::array<double, 2>> places;
@@ -191,7 +192,10 @@ void recentre(const mesh::Point& centre, problem::Soil& soil) {
 }
 
 void tell_soils(GroundScene& scene, tables::Diagnosis& diagnosis) {
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) tell_soil(scene, m, diagnosis);
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    tell_soil(scene, m, diagnosis);
+    tell_curve(scene, m);
+  }
   if (!diagnosis.errors().empty()) return;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) tell_tension(scene, m, diagnosis);
 }

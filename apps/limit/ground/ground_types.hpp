@@ -14,9 +14,20 @@
 
 namespace limit::ground {
 
+/// What the strength of a material is over the normal stress; of a curved envelope its numbers.
+enum class StrengthModel { mohr_coulomb, hoek_brown, power_law };
+struct GroundCurve {
+  StrengthModel model = StrengthModel::mohr_coulomb;
+  std::optional<double> intact_strength;  // [Pa] of Hoek and Brown, sigma_ci
+  std::optional<double> m_i, gsi, disturbance;
+  std::optional<double> power_coefficient, power_exponent;
+  std::optional<double> power_tension, reference_stress;  // [Pa]
+};
+
 /// A soil by its name.
 struct GroundMaterial {
   std::string name;
+  GroundCurve curve;
   tables::VaryingNumber cohesion;        // [Pa]
   tables::VaryingNumber friction_angle;  // [deg]
   tables::VaryingNumber unit_weight;     // [N/m3]
@@ -60,12 +71,17 @@ enum class Sought { footing, traction, gravity, strength, earthquake };
 
 // The names of each enumeration's values as written, in the order of the enumerators.
 namespace names {
+inline constexpr std::array<std::string_view, 3> strength{"mohr_coulomb", "hoek_brown",
+                                                          "power_law"};
 inline constexpr std::array<std::string_view, 6> side{"free",   "loaded",  "fixed",
                                                       "roller", "footing", "symmetry"};
 inline constexpr std::array<std::string_view, 2> base{"rough", "smooth"};
 inline constexpr std::array<std::string_view, 5> sought{"footing", "traction", "gravity",
                                                         "strength", "earthquake"};
 }  // namespace names
+constexpr std::span<const std::string_view> names_of(StrengthModel) {
+  return names::strength;
+}
 constexpr std::span<const std::string_view> names_of(SideKind) {
   return names::side;
 }

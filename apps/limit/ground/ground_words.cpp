@@ -36,6 +36,18 @@ std::string words_of(const tables::VaryingNumber& number, const std::string& uni
                      number.samples->values.size());
 }
 
+std::string curve_text(const GroundMaterial& material, const problem::UnitNames& units) {
+  const problem::Envelope& envelope = material.soil.envelope;
+  if (envelope.kind == problem::Envelope::Kind::hoek_brown) {
+    return fmt::format("Hoek-Brown, sigma_ci = {:g} {}, m_b = {:.4g}, s = {:.4g}, a = {:.4g}",
+                       envelope.stress, units.stress, envelope.coefficient, envelope.cohesive,
+                       envelope.exponent);
+  }
+  return fmt::format("tau = {:g} x {:g} {} ((sigma_n + {:g} {}) / {:g} {})^{:g}",
+                     envelope.coefficient, envelope.stress, units.stress, envelope.apex(),
+                     units.stress, envelope.stress, units.stress, envelope.exponent);
+}
+
 }  // namespace
 
 std::vector<std::string> assumptions_of(const GroundScene& scene, const problem::Problem& problem,
@@ -75,9 +87,18 @@ std::vector<std::string> assumptions_of(const GroundScene& scene, const problem:
         "triangle, from below for the lower bound and from above for the upper one: both hold for "
         "the strength as it is told");
   }
+  const bool is_curved = std::ranges::any_of(
+      problem.soils, [](const problem::Soil& soil) { return soil.is_curved(); });
+  if (is_curved) {
+    assumptions.emplace_back(
+        "strength of a curved envelope flows by its normal, whatever its dilation; the bounds are "
+        "certified against the envelope itself, of whose tangents the programmes know");
+  }
   if (scene.load.sought == Sought::strength) {
     assumptions.emplace_back(
-        "cohesion and tan(friction angle) of all materials are divided by the factor");
+        is_curved ? "cohesion and tan(friction angle) of all materials, and the shear strength of "
+                    "curved envelopes under every normal stress, are divided by the factor"
+                  : "cohesion and tan(friction angle) of all materials are divided by the factor");
   }
   return assumptions;
 }
@@ -89,6 +110,12 @@ void describe(const GroundScene& scene, problem::Case& result) {
     if (!said.insert(material.name).second) continue;
     const std::string& stress = scene.units.stress;
     const std::string weight = scene.units.unit_weight();
+    if (material.soil.is_curved()) {
+      result.data.emplace_back(
+          material.name, fmt::format("{}, {}", curve_text(material, scene.units),
+                                     words_of(material.unit_weight, weight, scene.units.length)));
+      continue;
+    }
     std::string cohesion = "c = " + words_of(material.cohesion, stress, scene.units.length);
     if (material.soil.cuts_tension()) {
       cohesion +=

@@ -11,11 +11,6 @@ const mesh::Point& node_at(const Problem& problem, int node) {
   return problem.mesh.nodes[static_cast<std::size_t>(node)];
 }
 
-const Soil& soil_of(const Problem& problem, int triangle) {
-  const int region = problem.mesh.triangles[static_cast<std::size_t>(triangle)].region;
-  return problem.soils[static_cast<std::size_t>(region)];
-}
-
 // Of what is linear between three corners, or two.
 mesh::Point gradient_of(const std::array<mesh::Point, 3>& corners,
                         const std::array<double, 3>& values) {
@@ -78,19 +73,27 @@ Soil soil_at(const Soil& soil, const mesh::Point& place) {
 }
 
 // A bound in either soil, and the better one in the softer of them, under a mean pressure of one.
-Soil soil_across(const Problem& problem, const mesh::Edge& edge) {
+int region_across(const Problem& problem, const mesh::Edge& edge) {
+  const auto region_of = [&](int triangle) {
+    return problem.mesh.triangles[static_cast<std::size_t>(triangle)].region;
+  };
+  const int left = region_of(edge.left);
+  if (edge.right < 0 || region_of(edge.right) == left) return left;
   const mesh::Point &first = node_at(problem, edge.first), &second = node_at(problem, edge.second);
-  const Soil *left = &soil_of(problem, edge.left), *chosen = left;
-  if (edge.right >= 0 && &soil_of(problem, edge.right) != left) {
-    const mesh::Point middle = first + (second - first) / 2.0;
-    const auto strength = [&](const Soil& soil) {
-      const Soil here = soil_at(soil, middle);
-      return here.cohesion * std::cos(here.friction_angle) + std::sin(here.friction_angle);
-    };
-    const Soil* const right = &soil_of(problem, edge.right);
-    if (strength(*right) < strength(*left)) chosen = right;
-  }
-  return soil_within(*chosen, {first, second, second}, Bound::upper);
+  const mesh::Point middle = first + (second - first) / 2.0;
+  const auto strength = [&](int region) {
+    const Soil here = soil_at(problem.soils[static_cast<std::size_t>(region)], middle);
+    if (here.is_curved()) return here.envelope.radius_about(1.0);
+    return here.cohesion * std::cos(here.friction_angle) + std::sin(here.friction_angle);
+  };
+  const int right = region_of(edge.right);
+  return strength(right) < strength(left) ? right : left;
+}
+
+Soil soil_across(const Problem& problem, const mesh::Edge& edge) {
+  const Soil& chosen = problem.soils[static_cast<std::size_t>(region_across(problem, edge))];
+  const mesh::Point &first = node_at(problem, edge.first), &second = node_at(problem, edge.second);
+  return soil_within(chosen, {first, second, second}, Bound::upper);
 }
 
 }  // namespace limit::problem

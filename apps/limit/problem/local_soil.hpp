@@ -22,6 +22,9 @@ enum class Bound { lower, upper };
 /// The same of the soil of a triangle.
 [[nodiscard]] Soil soil_in(const Problem& problem, const mesh::Triangle& triangle, Bound bound);
 
+/// The region, of those on both sides, in whose soil the velocity jumps there: the softer one.
+[[nodiscard]] int region_across(const Problem& problem, const mesh::Edge& edge);
+
 /// A soil that bounds from above, along all of a side, that in which the velocity jumps there.
 [[nodiscard]] Soil soil_across(const Problem& problem, const mesh::Edge& edge);
 

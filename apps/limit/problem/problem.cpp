@@ -11,6 +11,7 @@ Problem in_units(const Problem& problem, const Units& units) {
     soil.cohesion /= units.stress;
     soil.cohesion_gradient /= units.stress / units.length;
     soil.tension /= units.stress;
+    soil.envelope.stress /= units.stress;
     soil.centre /= units.length;
     soil.unit_weight /= units.stress / units.length;
     soil.live_unit_weight *= live * units.length;

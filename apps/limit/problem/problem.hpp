@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "limit/mesh/mesh.hpp"
+#include "limit/problem/envelope.hpp"
 #include "limit/problem/variation.hpp"
 
 namespace limit::problem {
@@ -26,6 +27,12 @@ struct Soil {
   mesh::Point seepage{0.0, 0.0}, live_seepage{0.0, 0.0};
   /// [Pa] a tension cut-off (Rankine): no principal stress is more. Infinite: none.
   double tension = std::numeric_limits<double>::infinity();
+  /// Behind an upright free face of soil without tension: a lower bound has it bear along uprights
+  /// only (bare_corners.hpp).
+  bool stands = false;
+  /// Where it is there, the strength; cohesion and friction angle are then those of a tangent that
+  /// is typical of the ground, for scales and guesses alone.
+  Envelope envelope{};
 
   /// [N/m3 per m] Of the unit weights, which are those at `centre`.
   mesh::Point weight_gradient{0.0, 0.0}, live_weight_gradient{0.0, 0.0};
@@ -36,6 +43,7 @@ struct Soil {
   double divisor = 1.0;                                   // of that cohesion and tan(phi)
 
   [[nodiscard]] bool cuts_tension() const { return std::isfinite(tension); }
+  [[nodiscard]] bool is_curved() const { return envelope.is_there(); }
   /// Whether its strength or its weight changes from place to place.
   [[nodiscard]] bool varies() const {
     return variation != nullptr || !cohesion_gradient.isZero(0.0) || has_uneven_weight();

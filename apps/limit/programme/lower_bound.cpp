@@ -1,11 +1,15 @@
 #include "limit/programme/lower_bound.hpp"
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "limit/problem/bare_corners.hpp"
 #include "limit/problem/local_soil.hpp"
+#include "limit/programme/polygon_cones.hpp"
+#include "limit/programme/stress_forms.hpp"
 #include "limit/programme/yield_cones.hpp"
 
 namespace limit::programme {
@@ -16,44 +20,18 @@ namespace {
 // into equilibrium: much more than that of the solver, much less than a bracket.
 constexpr double reserve = 1e-6;
 
-// A linear form in one corner's (p, d, t).
-using Form = Eigen::Vector3d;
-
-Form stress_xx() {
-  return {1, 1, 0};
-}
-Form stress_yy() {
-  return {1, -1, 0};
-}
-Form stress_xy() {
-  return {0, 0, 1};
-}
-// Traction along `direction` on a plane of normal `normal`.
-Form traction(const mesh::Point& normal, const mesh::Point& direction) {
-  return normal.x() * direction.x() * stress_xx() + normal.y() * direction.y() * stress_yy() +
-         (normal.x() * direction.y() + normal.y() * direction.x()) * stress_xy();
-}
-
-// Outward unit normal of a counterclockwise side, and its length.
-struct SideFrame {
-  SideFrame(const mesh::Mesh& mesh, const mesh::Edge& edge)
-      : first(mesh.nodes[static_cast<std::size_t>(edge.first)]),
-        second(mesh.nodes[static_cast<std::size_t>(edge.second)]) {
-    const mesh::Point along = second - first;
-    length = along.norm();
-    tangent = along / length;
-    normal = mesh::Point(tangent.y(), -tangent.x());
-  }
-  mesh::Point first, second, tangent, normal;
-  double length;
-};
-
 class Builder {
  public:
-  explicit Builder(const problem::Problem& problem)
-      : problem_(problem), edges_(mesh::edges_of(problem.mesh)), overburden_(problem) {
+  Builder(const problem::Problem& problem, const Polygons& polygons)
+      : problem_(problem),
+        polygons_(polygons),
+        edges_(mesh::edges_of(problem.mesh)),
+        overburden_(problem),
+        bare_(problem::bare_corners(problem)) {
     add_cones();
+    curves_.add_others();
     for (std::size_t corner = 0; corner < cuts_.size(); ++corner) add_cut(corner);
+    for (std::size_t point = 0; point < cuts_.size(); ++point) add_pressure(point);
     for (const mesh::Edge& edge : edges_) add_contacts(edge);
     if (problem.most_multiplier) {
       cones_.push_back(half_line_cone(*problem.most_multiplier));
@@ -67,6 +45,9 @@ class Builder {
     equilibrium_of_footing();
     stresses_of_contacts();
     stresses_of_cuts();
+    stresses_of_bare_corners();
+    curves_.equations([&](double right_side) { begin_equation(right_side); },
+                      [&](Eigen::Index variable, double factor) { add(variable, factor); });
     end_of_multiplier();
     const Eigen::Index variables = multiplier() + 1;
     ConeProgram program;
@@ -80,6 +61,7 @@ class Builder {
     for (std::size_t k = 0; k < cones_.size(); ++k) {
       program.start.segment<3>(3 * static_cast<Eigen::Index>(k)) = starts_[k];
     }
+    curves_.tell(program);
     return program;
   }
 
@@ -100,14 +82,22 @@ class Builder {
     std::vector<problem::Soil> soils;
     for (const mesh::Triangle& triangle : triangles) {
       soils.push_back(problem::soil_in(problem_, triangle, problem::Bound::lower));
-      for (int i = 0; i < 3; ++i) add_cone(soils.back(), node_of(triangle, i));
+      const std::size_t t = soils.size() - 1;
+      for (int i = 0; i < 3; ++i) {
+        if (soils.back().is_curved()) {
+          add_curved(triangle, i);
+        } else {
+          add_cone(soils.back(), node_of(triangle, i), bare_at(t, i));
+        }
+      }
     }
     middles_.assign(triangles.size(), -1);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       if (!soils[t].has_uneven_weight()) continue;
       middles_[t] = multiplier();
       for (int i = 0; i < 3; ++i) {
-        add_cone(soils[t], (node_of(triangles[t], i) + node_of(triangles[t], i + 1)) / 2.0);
+        add_cone(soils[t], (node_of(triangles[t], i) + node_of(triangles[t], i + 1)) / 2.0,
+                 bare_at(t, 3 + i));
       }
     }
   }
@@ -132,13 +122,34 @@ class Builder {
     return triangle >= 0 && middles_[static_cast<std::size_t>(triangle)] >= 0;
   }
 
-  void add_cone(const problem::Soil& local, const mesh::Point& place) {
+  const problem::BareCorner* bare_at(std::size_t triangle, int point) const {
+    if (bare_.empty()) return nullptr;
+    const problem::BareCorner& corner = bare_[triangle][static_cast<std::size_t>(point)];
+    return corner.bears == problem::BareCorner::Bears::all ? nullptr : &corner;
+  }
+
+  void add_curved(const mesh::Triangle& triangle, int i) {
+    const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(triangle.region)];
+    const mesh::Point& place = node_of(triangle, i);
+    const mesh::Point centre =
+        (node_of(triangle, 0) + node_of(triangle, 1) + node_of(triangle, 2)) / 3.0;
+    const CurvedPoint point{0, triangle.region, false, towards(place, centre)};
+    const double load = overburden_.at(soil, place);
+    const double guess = load + soil.envelope.unconfined() / 2.0;
+    curves_.add(polygons_.lines(soil, point, guess, Polygon::chords), point, load, reserve);
+    cuts_.emplace_back();
+    bare_points_.push_back(nullptr);
+  }
+
+  void add_cone(const problem::Soil& local, const mesh::Point& place,
+                const problem::BareCorner* bare) {
     const problem::Soil soil = local.with_cohesion(local.cohesion_at(place));
     const double load = overburden_.at(soil, place);
     cones_.push_back(yield_cone(soil, load, reserve));
     starts_.push_back(inner_point(cones_.back(), load));
-    cuts_.push_back(soil.cuts_tension() ? std::optional(tension_cone(soil, load, reserve))
-                                        : std::nullopt);
+    const bool is_cut = soil.cuts_tension() && bare == nullptr;
+    cuts_.push_back(is_cut ? std::optional(tension_cone(soil, load, reserve)) : std::nullopt);
+    bare_points_.push_back(bare);
   }
 
   // The stress of a corner once more, in Rankine's cone.
@@ -156,6 +167,34 @@ class Builder {
         add(stress + i, 1.0);
         add(copy + i, -1.0);
       }
+    }
+  }
+
+  // What a corner at a free face bears is a pressure along it, or nothing.
+  void add_pressure(std::size_t point) {
+    const problem::BareCorner* bare = bare_points_[point];
+    if (bare == nullptr || bare->bears == problem::BareCorner::Bears::nothing) return;
+    contacts_.push_back({static_cast<Eigen::Index>(3 * point), multiplier(),
+                         mesh::Point(-bare->normal.y(), bare->normal.x())});
+    cones_.push_back(half_line_cone(cones_[point].scale));
+    starts_.push_back(inner_point(cones_.back(), 0.0));
+  }
+
+  void stresses_of_bare_corners() {
+    for (std::size_t point = 0; point < bare_points_.size(); ++point) {
+      const problem::BareCorner* bare = bare_points_[point];
+      if (bare == nullptr) continue;
+      const auto stress = static_cast<Eigen::Index>(3 * point);
+      const mesh::Point &normal = bare->normal, along(-normal.y(), normal.x());
+      const bool is_nothing = bare->bears == problem::BareCorner::Bears::nothing;
+      const mesh::Point axes[] = {normal, along};
+      for (const mesh::Point& direction : axes) {
+        begin_equation(0.0);
+        add(stress, traction(normal, direction));
+      }
+      if (!is_nothing) continue;
+      begin_equation(0.0);
+      add(stress, traction(along, along));
     }
   }
 
@@ -248,6 +287,7 @@ class Builder {
         const Eigen::Index left = corner_at(edge.left, node);
         if (edge.right >= 0) {
           const Eigen::Index right = corner_at(edge.right, node);
+          if (match_bare(left, right, side)) continue;
           for (const mesh::Point& direction : {side.normal, side.tangent}) {
             begin_equation(0.0);
             add(left, traction(side.normal, direction));
@@ -257,6 +297,7 @@ class Builder {
         }
         const problem::Boundary& boundary =
             problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
+        if (is_bare_across(left, side.normal)) continue;
         if (boundary.normal == problem::Known::traction) {
           begin_equation(boundary.normal_stress);
           add(multiplier(), -boundary.live_normal_stress);
@@ -270,6 +311,40 @@ class Builder {
       }
       if (is_quadratic(edge.left) || is_quadratic(edge.right)) equilibrium_of_middle(edge, side);
     }
+  }
+
+  const problem::BareCorner* bare_of(Eigen::Index stress) const {
+    return bare_points_[static_cast<std::size_t>(stress / 3)];
+  }
+
+  // Whether what is known of a corner is all that equilibrium with a free side asks for.
+  bool is_bare_across(Eigen::Index stress, const mesh::Point& normal) const {
+    const problem::BareCorner* bare = bare_of(stress);
+    if (bare == nullptr) return false;
+    return bare->bears == problem::BareCorner::Bears::nothing || is_one_line(bare->normal, normal);
+  }
+  static bool is_one_line(const mesh::Point& a, const mesh::Point& b) {
+    constexpr double same = 1e-9;
+    return std::abs(a.x() * b.y() - a.y() * b.x()) < same;
+  }
+
+  // Of two corners that bear along one face only, or nothing, what equilibrium is left: their
+  // pressures are equal. Equations that follow from others would spoil the Newton systems.
+  bool match_bare(Eigen::Index left, Eigen::Index right, const SideFrame& side) {
+    using Bears = problem::BareCorner::Bears;
+    const problem::BareCorner *first = bare_of(left), *second = bare_of(right);
+    if (first == nullptr || second == nullptr) return false;
+    const bool first_bears = first->bears == Bears::along,
+               second_bears = second->bears == Bears::along;
+    if (!first_bears && !second_bears) return true;
+    if (first_bears && second_bears && !is_one_line(first->normal, second->normal)) return false;
+    const mesh::Point& normal = first_bears ? first->normal : second->normal;
+    const mesh::Point along(-normal.y(), normal.x());
+    if (is_one_line(along, side.tangent)) return true;
+    begin_equation(0.0);
+    if (first_bears) add(left, traction(along, along));
+    if (second_bears) add(right, traction(along, along), -1.0);
+    return true;
   }
 
   // Tractions that are quadratic along a side are the same if their Bezier points are.
@@ -345,10 +420,12 @@ class Builder {
   }
 
   const problem::Problem& problem_;
+  const Polygons& polygons_;
   std::vector<mesh::Edge> edges_;
   Overburden overburden_;
   std::vector<YieldCone> cones_;
   std::vector<Eigen::Vector3d> starts_;
+  PolygonCones curves_{cones_, starts_};
   std::vector<Eigen::Index> middles_;  // first variable of a triangle's three; -1: none
   // The stress of a corner, and the variable that is its normal component.
   struct Contact {
@@ -357,6 +434,8 @@ class Builder {
   };
   std::vector<Contact> contacts_;
   std::vector<std::optional<YieldCone>> cuts_;                 // of the corners
+  std::vector<problem::BareTriangle> bare_;                    // of the triangles
+  std::vector<const problem::BareCorner*> bare_points_;        // as the cones of the stresses
   std::vector<std::pair<Eigen::Index, Eigen::Index>> copies_;  // first variables
   std::vector<Eigen::Triplet<double, Eigen::Index>> entries_;  // of the equations, row by row
   std::vector<double> right_side_;
@@ -364,8 +443,8 @@ class Builder {
 
 }  // namespace
 
-ConeProgram lower_bound_program(const problem::Problem& problem) {
-  return Builder(problem).program();
+ConeProgram lower_bound_program(const problem::Problem& problem, const Polygons& polygons) {
+  return Builder(problem, polygons).program();
 }
 
 problem::StressField stress_field(const problem::Problem& problem,

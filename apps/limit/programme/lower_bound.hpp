@@ -6,6 +6,7 @@
 #include "limit/problem/fields.hpp"
 #include "limit/problem/problem.hpp"
 #include "limit/programme/cone_program.hpp"
+#include "limit/programme/polygons.hpp"
 
 namespace limit::programme {
 
@@ -15,7 +16,9 @@ namespace limit::programme {
 /// Where the footing may lift off, no corner under it is in tension.
 /// The variables are 9 per triangle, 3 per such corner, the last one is the multiplier.
 /// The strength is less by one or two parts in 1e6, so that the answer of a solver lies inside.
-[[nodiscard]] ConeProgram lower_bound_program(const problem::Problem& problem);
+/// A curved envelope is replaced by polygons within it.
+[[nodiscard]] ConeProgram lower_bound_program(const problem::Problem& problem,
+                                              const Polygons& polygons = {});
 
 /// The stress field in the variables of such a program.
 [[nodiscard]] problem::StressField stress_field(const problem::Problem& problem,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "limit/problem/local_soil.hpp"
+#include "limit/programme/polygon_cones.hpp"
 #include "limit/programme/velocity_shapes.hpp"
 #include "limit/programme/weight_power.hpp"
 #include "limit/programme/yield_cones.hpp"
@@ -78,10 +79,16 @@ struct Loads {
   }
 };
 
+// Of the cohesion, of the tension of soil without any: what a stronger soil does not carry, a
+// softer one does not, and there is a stress strictly within yield at free faces. The certificate
+// knows what the mechanism dissipates without it.
+constexpr double trace = 1e-4;
+
 class Builder {
  public:
-  explicit Builder(const problem::Problem& problem)
+  Builder(const problem::Problem& problem, const Polygons& polygons)
       : problem_(problem),
+        polygons_(polygons),
         edges_(mesh::edges_of(problem.mesh)),
         overburden_(problem),
         rows_(problem) {}
@@ -89,7 +96,17 @@ class Builder {
   ConeProgram program() {
     for (std::size_t t = 0; t < problem_.mesh.triangles.size(); ++t) add_triangle(t);
     for (const mesh::Edge& edge : edges_) add_side(edge);
+    curves_.add_others();
     int equations = rows_.count;
+    std::vector<double> right_side;
+    curves_.equations(
+        [&](double side) {
+          right_side.push_back(side);
+          ++equations;
+        },
+        [&](Eigen::Index variable, double factor) {
+          add(equations - 1, static_cast<int>(variable), factor);
+        });
     for (const Contact& contact : contacts_) {
       add(equations, contact.traction, 1.0);
       if (contact.has_deviator) add(equations, contact.traction + 1, 1.0);
@@ -122,12 +139,16 @@ class Builder {
     program.equations.setFromTriplets(entries_.begin(), entries_.end());
     program.right_side = Eigen::VectorXd::Zero(equations);
     program.right_side.head(rows_.count) = loads.dead;
+    for (std::size_t i = 0; i < right_side.size(); ++i) {
+      program.right_side[rows_.count + static_cast<Eigen::Index>(i)] = right_side[i];
+    }
     if (problem_.most_multiplier) program.right_side[equations - 1] = *problem_.most_multiplier;
     program.objective = Eigen::VectorXd::Unit(multiplier + 1, multiplier);
     program.start = Eigen::VectorXd::Zero(multiplier + 1);
     for (std::size_t k = 0; k < cones_.size(); ++k) {
       program.start.segment<3>(3 * static_cast<Eigen::Index>(k)) = starts_[k];
     }
+    curves_.tell(program);
     program.cones = std::move(cones_);
     return program;
   }
@@ -140,8 +161,19 @@ class Builder {
     cones_.push_back(yield_cone(soil, load, 0.0));
     starts_.push_back(inner_point(cones_.back(), load));
     const int column = 3 * static_cast<int>(cones_.size() - 1);
-    if (soil.cuts_tension()) cuts_.emplace_back(column, tension_cone(soil, load, 0.0));
+    if (soil.cuts_tension()) {
+      problem::Soil cut = soil;
+      cut.tension = std::max(soil.tension, trace * soil.cohesion);
+      cuts_.emplace_back(column, tension_cone(cut, load, 0.0));
+    }
     return column;
+  }
+
+  int add_curved(const problem::Soil& soil, const CurvedPoint& point, const mesh::Point& place) {
+    const double load = overburden_.at(soil, place);
+    const double guess = load + soil.envelope.unconfined() / 2.0;
+    curves_.add(polygons_.lines(soil, point, guess, Polygon::tangents), point, load, 0.0);
+    return 3 * static_cast<int>(cones_.size() - 1);
   }
 
   // A normal traction (variable `traction`) that may not pull, as a variable of its own: the
@@ -165,12 +197,19 @@ class Builder {
     const double weight = shapes.area / 3.0;
     const problem::Soil soil = problem::soil_in(problem_, triangle, problem::Bound::upper);
     double sum = 0.0;
-    for (const int node : triangle.nodes) sum += soil.cohesion_at(node_at(mesh, node));
+    mesh::Point centre(0.0, 0.0);
+    for (const int node : triangle.nodes) {
+      sum += soil.cohesion_at(node_at(mesh, node));
+      centre += node_at(mesh, node) / 3.0;
+    }
     for (std::size_t corner = 0; corner < 3; ++corner) {
       // The integral of a linear cohesion times a linear rate.
       const mesh::Point& place = node_at(mesh, triangle.nodes[corner]);
       const double cohesion = (sum + soil.cohesion_at(place)) / 4.0;
-      const int column = add_cone(soil, place, cohesion);
+      const int column =
+          soil.is_curved()
+              ? add_curved(soil, {0, triangle.region, false, towards(place, centre)}, place)
+              : add_cone(soil, place, cohesion);
       for (std::size_t i = 0; i < 6; ++i) {
         const auto row = static_cast<int>(2 * (6 * t + i));
         const mesh::Point slope = weight * shapes.slopes[corner][i];
@@ -186,8 +225,8 @@ class Builder {
 
   // Power of the tractions at the control points of the jump across a side: of the neighbour's
   // velocity, the footing's or nothing, less that of the triangle. (p, t) is (normal, shear x
-  // cos(phi)); d stays out. Where tension is cut off, it is the stress of a thin layer, whose third
-  // component has no power: p + d is normal, t the shear.
+  // cos(phi)); d stays out. Where tension is cut off or the envelope curved, it is the stress of a
+  // thin layer, whose third component has no power: p + d is normal, t the shear.
   void add_side(const mesh::Edge& edge) {
     bool has_shear = true, may_open = false;
     if (edge.boundary >= 0) {
@@ -219,8 +258,13 @@ class Builder {
       const double share = 0.25 + 0.25 * static_cast<double>(c);
       const double cohesion =
           (1.0 - share) * soil.cohesion_at(at[0]) + share * soil.cohesion_at(at[2]);
-      const int column = add_cone(soil, at[c], cohesion);
-      const bool cut = soil.cuts_tension();
+      const int column =
+          soil.is_curved()
+              ? add_curved(soil,
+                           {0, problem::region_across(problem_, edge), true, towards(at[c], at[1])},
+                           at[c])
+              : add_cone(soil, at[c], cohesion);
+      const bool cut = soil.cuts_tension() || soil.is_curved();
       if (may_open) add_contact(column, cut);
       for (std::size_t i = 0; i < 3; ++i) {
         const double factor = control[c][i] * length / 3.0;
@@ -263,11 +307,13 @@ class Builder {
   }
 
   const problem::Problem& problem_;
+  const Polygons& polygons_;
   std::vector<mesh::Edge> edges_;
   Overburden overburden_;
   Rows rows_;
   std::vector<YieldCone> cones_;
   std::vector<Eigen::Vector3d> starts_;
+  PolygonCones curves_{cones_, starts_};
   struct Contact {
     int traction, variable;
     bool has_deviator;
@@ -279,8 +325,8 @@ class Builder {
 
 }  // namespace
 
-ConeProgram upper_bound_program(const problem::Problem& problem) {
-  return Builder(problem).program();
+ConeProgram upper_bound_program(const problem::Problem& problem, const Polygons& polygons) {
+  return Builder(problem, polygons).program();
 }
 
 problem::VelocityField velocity_field(const problem::Problem& problem,

@@ -6,6 +6,7 @@
 #include "limit/problem/fields.hpp"
 #include "limit/problem/problem.hpp"
 #include "limit/programme/cone_program.hpp"
+#include "limit/programme/polygons.hpp"
 
 namespace limit::programme {
 
@@ -17,7 +18,9 @@ namespace limit::programme {
 /// (Bernstein) is kept everywhere. The velocities are the multipliers of the equations: 12 per
 /// triangle, then the footing's motions that are free; then the openings, at each control point
 /// where the footing may lift off.
-[[nodiscard]] ConeProgram upper_bound_program(const problem::Problem& problem);
+/// A curved envelope is replaced by polygons around it.
+[[nodiscard]] ConeProgram upper_bound_program(const problem::Problem& problem,
+                                              const Polygons& polygons = {});
 
 /// The velocity field of such a program's multipliers, scaled to unit power of the live load.
 [[nodiscard]] problem::VelocityField velocity_field(const problem::Problem& problem,

@@ -63,9 +63,16 @@ YieldCone yield_cone(const problem::Soil& soil, double overburden, double reserv
 }
 
 YieldCone tension_cone(const problem::Soil& soil, double overburden, double reserve) {
-  constexpr double least = 1e-6;
-  const double strength = soil.tension * (1.0 - 2.0 * reserve), slope = 1.0 - reserve;
-  return {strength, slope, std::max(strength + slope * overburden, least)};
+  // At a free face there is no pressure, and next to no tension is no stress typical of the place.
+  constexpr double least = 0.1;
+  const double slope = 1.0 - reserve;
+  const double scale = std::max(soil.tension + slope * overburden,
+                                least * yield_cone(soil, overburden, reserve).scale);
+  // Without tension, a share of the pressure is none where there is no pressure.
+  constexpr double of_scale = 0.1;
+  const double strength =
+      soil.tension > 0.0 ? soil.tension * (1.0 - 2.0 * reserve) : -of_scale * reserve * scale;
+  return {strength, slope, scale};
 }
 
 YieldCone half_line_cone(double scale) {
