@@ -309,7 +309,8 @@ void check_way(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis) 
   const Course course = scene_of_stage(scene, s).course;
   const bool moves = course.load_begin != course.load_end ||
                      course.reduction_begin != course.reduction_end || changes_besides(stage);
-  if (moves) return;
+  const bool fades_on = s > 0 && scene.stage[s - 1].fades < 1.0;
+  if (moves || fades_on) return;
   diagnosis.error(fmt::format("stage.{}", s), fmt::format("nothing happens in \"{}\"", stage.name),
                   "give it a way to go (to, reduction) or something to change");
 }

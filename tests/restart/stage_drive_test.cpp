@@ -28,7 +28,7 @@ name = "soil"
 model = "drucker_prager"
 youngs_modulus = 2e6
 poissons_ratio = 0.3
-cohesion = 5e3
+cohesion = 20e3
 friction_angle = 20.0
 dilation_angle = 5.0
 unit_weight = 18e3
@@ -63,7 +63,7 @@ kind = "load"
 scales = ["gravity"]
 [re_search]
 enabled = true
-trigger = 0.02
+trigger = 0.005
 [[stage]]
 name = "weigh"
 to = 1.0
