@@ -50,8 +50,6 @@ void print_entry(std::string& out, const SceneTable& table, std::size_t index, c
   if (!table.name.empty()) out += fmt::format("\n{}\n", table.title());
   for (const tables::Field<Scene>& field : table.fields) {
     const auto value = field.read(scene, index);
-    // Of a table within that is not there.
-    if (!value && field.key.find('.') != std::string::npos) continue;
     const std::string assignment =
         value ? fmt::format("{} = {}", field.key, tables::value_text(*value, field.kind))
               : fmt::format("# {} =", field.key);
