@@ -8,6 +8,7 @@
 #include "equilibrium/local_response.hpp"
 #include "equilibrium/tangent_layout.hpp"
 #include "fpm/consistency.hpp"
+#include "model/penalty_targets.hpp"
 
 namespace equilibrium {
 namespace {
@@ -303,10 +304,11 @@ void Equilibrium<Dim>::add_boundary_terms(const Eigen::VectorXd& increment) {
   if (!interfaces_.add_force(state_, evaluation_.displacement, rigid_load_, force)) {
     failure_.plate = true;
   }
-  for (const auto& support : model_.penalty_supports) {
-    fpm::add_penalty_force<Dim>(support.op, support.points, support.options, support.target,
-                                evaluation_.displacement, force);
-  }
+  model::for_each_penalty(model_, state_,
+                          [&](const auto& support, const fpm::FieldView<Dim>& target) {
+                            fpm::add_penalty_force<Dim>(support.op, support.points, support.options,
+                                                        target, evaluation_.displacement, force);
+                          });
   if (model_.following_pressures.empty()) return;
   Eigen::Map<fpm::Field<Dim>> following(evaluation_.following.data(), n, Dim);
   following.setZero();

@@ -58,9 +58,9 @@ class Equilibrium {
   /// @param changed  those rows, ascending
   void follow_re_search(const std::vector<fpm::Index>& changed);
 
-  /// Prepares a step that ends at load parameter `load`, at a share of the way through its stage
-  /// and with strength divided by a factor.
-  void begin_step(double load, double progress = 1.0, double reduction = 1.0);
+  /// Prepares a step that ends at load parameter `load`, when a share of what the stage's changes
+  /// have left unbalanced has faded, and with strength divided by a factor.
+  void begin_step(double load, double faded = 1.0, double reduction = 1.0);
 
   /// The forces that the converged state leaves unbalanced at a load parameter and a reduction:
   /// none, but where the ground has changed. None at prescribed unknowns.

@@ -21,15 +21,15 @@ void Equilibrium<Dim>::reduce_strength(double factor) {
 }
 
 template <int Dim>
-void Equilibrium<Dim>::begin_step(double load, double progress, double reduction) {
+void Equilibrium<Dim>::begin_step(double load, double faded, double reduction) {
   step_.load = rigid_load_ = load;
   reduce_strength(reduction);
   interfaces_.begin_step(state_);
   step_.external = model_.constant_load + load * model_.scaled_load;
   if (balance_.load.size() > 0) step_.external += balance_.load;
-  if (state_.unbalanced.size() > 0 && progress < 1.0) {
-    step_.external += (1.0 - progress) * Eigen::Map<const Eigen::VectorXd>(
-                                             state_.unbalanced.data(), state_.unbalanced.size());
+  if (state_.unbalanced.size() > 0 && faded < 1.0) {
+    step_.external += (1.0 - faded) * Eigen::Map<const Eigen::VectorXd>(state_.unbalanced.data(),
+                                                                        state_.unbalanced.size());
   }
   external_norm_ = step_.external.norm();
   step_.start_position = model_.particles.position + state_.displacement;
@@ -38,6 +38,9 @@ void Equilibrium<Dim>::begin_step(double load, double progress, double reduction
     const double start = state_.programme.load;
     const fpm::Field<Dim> motion = model_.ghosts.of_motion(model_.plane_drive);
     add_to_images(start * motion, step_.position);
+    if (!model_.plane_held.empty()) {
+      add_to_images(model_.ghosts.of_motion(model_.plane_held), step_.position);
+    }
     step_.image_motion = (load - start) * motion;
   }
   if (!model_.channels.pair && !model_.channels.second) return;
@@ -128,7 +131,10 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
     const model::Interface<Dim>& interface = model_.interfaces[i];
     const fpm::Vector<Dim>& held = interfaces_.rigid_force()[i];
     forces.reaction += interface.measure.dot(held);
-    if (interface.plate) forces.reaction += step_.load * interface.plate->force.norm();
+    if (interface.plate && interface.plate->reported) {
+      forces.reaction +=
+          step_.load * interface.plate->force.norm() + interface.plate->held_force.norm();
+    }
     forces.external_work += (step_.load - state_.programme.load) * interface.drive.dot(held);
   }
   forces.external_work += interfaces_.work_of_plates(step_.load);

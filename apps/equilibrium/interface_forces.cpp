@@ -65,7 +65,7 @@ template <int Dim>
 fpm::Vector<Dim> InterfaceForces<Dim>::motion_of(std::size_t interface, fpm::Index point,
                                                  double load) const {
   const model::Interface<Dim>& of = model_.interfaces[interface];
-  if (!of.plate) return load * of.drive;
+  if (!of.plate) return load * of.drive + of.held;
   const fpm::Vector<Dim> place = of.faces.points.position.row(point).transpose();
   return of.plate->modes(place) * motion_[interface];
 }
@@ -149,7 +149,8 @@ double InterfaceForces<Dim>::work_of_plates(double load) const {
   for (std::size_t i = 0; i < model_.interfaces.size(); ++i) {
     if (!model_.interfaces[i].plate) continue;
     const Motion moved = motion_[i] - start_motion_[i];
-    work += load * model_.interfaces[i].plate->force.dot(moved.template head<Dim>());
+    const model::Plate<Dim>& plate = *model_.interfaces[i].plate;
+    work += (load * plate.force + plate.held_force).dot(moved.template head<Dim>());
   }
   return work;
 }
@@ -158,8 +159,9 @@ template <int Dim>
 double InterfaceForces<Dim>::settlement() const {
   for (std::size_t i = 0; i < model_.interfaces.size(); ++i) {
     const auto& plate = model_.interfaces[i].plate;
-    if (!plate || plate->force.isZero(0.0)) continue;
-    return plate->force.normalized().dot(motion_[i].template head<Dim>());
+    if (!plate || !plate->reported) continue;
+    const fpm::Vector<Dim> along = plate->force + plate->held_force;
+    if (!along.isZero(0.0)) return along.normalized().dot(motion_[i].template head<Dim>());
   }
   return 0.0;
 }

@@ -49,7 +49,8 @@ class InterfaceForces {
   /// Work [J/m or J] of the loads of plates since the step's start, at a load parameter.
   double work_of_plates(double load) const;
 
-  /// Displacement [m] of the loaded plate along its load, where that acts; 0 without one.
+  /// Displacement [m] of the loaded plate that the curve reports along its load, where that acts; 0
+  /// without one.
   double settlement() const;
 
   std::size_t bytes() const;

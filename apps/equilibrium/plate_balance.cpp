@@ -51,8 +51,9 @@ Balance<Dim> balance_at(const PlatePoints<Dim>& points, const Motion<Dim>& motio
   const model::Interface<Dim>& interface = points.interface;
   const model::Plate<Dim>& plate = *interface.plate;
   Balance<Dim> balance;
-  balance.unbalanced.template head<Dim>() = points.load * plate.force;
-  balance.size = points.load * plate.force.norm();
+  const fpm::Vector<Dim> load = points.load * plate.force + plate.held_force;
+  balance.unbalanced.template head<Dim>() = load;
+  balance.size = load.norm();
   for (Eigen::Index c = 0; c < points.normal.cols(); ++c) {
     const auto modes = plate.modes(place_of(interface, c));
     const fpm::Vector<Dim> gap = interface.faces.gap(
@@ -88,7 +89,7 @@ template <int Dim>
 Motion<Dim> following(const PlatePoints<Dim>& points, const Square<Dim>& compliance) {
   const model::Interface<Dim>& interface = points.interface;
   Motion<Dim> motion = Motion<Dim>::Zero();
-  motion.template head<Dim>() = points.load * interface.drive;
+  motion.template head<Dim>() = points.load * interface.drive + interface.held;
   Motion<Dim> pull = Motion<Dim>::Zero();
   for (Eigen::Index c = 0; c < points.normal.cols(); ++c) {
     const auto modes = interface.plate->modes(place_of(interface, c));

@@ -175,6 +175,38 @@ void choose_integration(const scene::Scene& scene, Model<Dim>& model) {
   model.row_options.second = model.channels.second;
 }
 
+// The particles of a drive's side, or its images.
+template <int Dim>
+void displace(const scene::Scene& scene, const scene::ActingDrive& acting, Model<Dim>& model) {
+  const Eigen::Index n = model.size();
+  const scene::Drive& drive = *acting.drive;
+  const fpm::Vector<Dim> direction = to_vector<Dim>(drive.direction).normalized();
+  const double moved = acting.moves ? drive.target : 0.0;
+  const double measured = acting.reported ? 1.0 : 0.0;
+  if (scene::resolve_drive_method(scene, drive) == scene::DriveMethod::ghosts) {
+    const std::size_t count = model.ghosts.planes().size();
+    model.plane_drive.assign(count, fpm::Vector<Dim>::Zero());
+    model.plane_measure.assign(count, fpm::Vector<Dim>::Zero());
+    model.plane_drive[driven_plane] = moved * direction;
+    model.plane_measure[driven_plane] = measured * direction;
+    if (!acting.moves) {
+      model.plane_held.assign(count, fpm::Vector<Dim>::Zero());
+      model.plane_held[driven_plane] = acting.held * drive.target * direction;
+    }
+    if (scene.geometry.layout == scene::Layout::cell) return;  // else particles are on its face
+  }
+  for (const Eigen::Index a : driven_particles(scene, drive, model)) {
+    model.driven_particle[static_cast<std::size_t>(a)] = 1;
+    for (int i = 0; i < Dim; ++i) {
+      if (drive.lateral == scene::Lateral::free && direction[i] == 0.0) continue;
+      const Eigen::Index k = i * n + a;
+      model.prescribed[static_cast<std::size_t>(k)] = 1;
+      model.drive[k] = direction[i] * moved;
+      model.measure[k] = direction[i] * measured;
+    }
+  }
+}
+
 // Departure: rows are prescribed directly unless a penalty is asked for
 // (share/doc/decisions/prescribed-rows.md).
 template <int Dim>
@@ -200,32 +232,12 @@ void constrain(const scene::Scene& scene, Model<Dim>& model) {
       for (const scene::Axis axis : support.directions) prescribe(a, static_cast<int>(axis));
     }
   }
-  if (scene.drive.kind != scene::DriveKind::displacement ||
-      scene.drive.method == scene::DriveMethod::contact) {
-    return;
-  }
-  const fpm::Vector<Dim> direction = to_vector<Dim>(scene.drive.direction).normalized();
-  const bool ghosts = scene::resolve_drive_method(scene) == scene::DriveMethod::ghosts;
-  if (ghosts) {
-    const std::size_t count = model.ghosts.planes().size();
-    model.plane_drive.assign(count, fpm::Vector<Dim>::Zero());
-    model.plane_measure.assign(count, fpm::Vector<Dim>::Zero());
-    model.plane_drive[driven_plane] = scene.drive.target * direction;
-    model.plane_measure[driven_plane] = direction;
-    if (!on_face) return;
-  }
-  for (Eigen::Index a = 0; a < n; ++a) {
-    if (!on_side(scene, model, scene.drive.side, a) ||
-        !in_side_range(scene, model, scene.drive.side, scene.drive.range_min, scene.drive.range_max,
-                       a)) {
-      continue;
-    }
-    model.driven_particle[static_cast<std::size_t>(a)] = 1;
-    for (int i = 0; i < Dim; ++i) {
-      if (scene.drive.lateral == scene::Lateral::free && direction[i] == 0.0) continue;
-      prescribe(a, i);
-      model.drive[i * n + a] = direction[i] * scene.drive.target;
-      model.measure[i * n + a] = direction[i];
+  const auto acting = scene::acting_drives(scene);
+  // What the one in force moves none of the others holds: it comes last.
+  for (auto drive = acting.rbegin(); drive != acting.rend(); ++drive) {
+    if (drive->drive->kind == scene::DriveKind::displacement &&
+        drive->drive->method != scene::DriveMethod::contact) {
+      displace(scene, *drive, model);
     }
   }
 }
@@ -311,7 +323,7 @@ template <int Dim>
 State<Dim> initial_state(const Model<Dim>& model) {
   State<Dim> state;
   state.layout = model.layout;
-  state.resize(model.size(), model.interface_points());
+  state.resize(model.size(), model.interface_points(), model.penalty_points());
   state.rows = fpm::Rows<Dim>(model.particles, model.ghosts, model.row_options);
   if (model.initial_stress.size() > 0) state.stress = model.initial_stress;
   if (model.layout.subpoints) {

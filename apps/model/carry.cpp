@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "model/search_again.hpp"
+
 namespace model {
 namespace {
 
@@ -18,7 +20,8 @@ using FaceKey = std::pair<std::string, std::array<double, 2 * Dim>>;
 template <int Dim>
 FaceKey<Dim> key_of(const Interface<Dim>& interface, Eigen::Index c) {
   FaceKey<Dim> key;
-  key.first = interface.is_rigid() ? "rigid " + interface.support : "";
+  if (interface.is_rigid()) key.first = "rigid " + interface.support;
+  if (!interface.of_drive.empty()) key.first = "plate " + interface.of_drive;
   for (int i = 0; i < Dim; ++i) {
     key.second[static_cast<std::size_t>(i)] = interface.faces.points.position(c, i);
     key.second[static_cast<std::size_t>(Dim + i)] = interface.faces.points.normal(c, i);
@@ -72,24 +75,29 @@ void carry_particles(State<Dim>& before, const std::vector<fpm::Index>& source, 
   });
 }
 
-// New particles lie on the ground as it is. A row that sees them has no memory of a shape that they
-// were no part of.
+// New particles lie on the ground as it is.
 template <int Dim>
 void settle_new_particles(const Model<Dim>& before, const State<Dim>& state,
                           const Model<Dim>& after, const std::vector<fpm::Index>& source,
                           State<Dim>& carried) {
+  for (fpm::Index a = 0; a < static_cast<fpm::Index>(source.size()); ++a) {
+    if (source[static_cast<std::size_t>(a)] >= 0) continue;
+    Eigen::Index nearest = 0;
+    (before.particles.position.rowwise() - after.particles.position.row(a))
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&nearest);
+    carried.displacement.row(a) = state.displacement.row(nearest);
+  }
+}
+
+// A row that sees new particles has no memory of a shape that they were no part of.
+template <int Dim>
+void forget_shapes(const std::vector<fpm::Index>& source, State<Dim>& carried) {
   const auto is_new = [&](fpm::Index a) {
     return a < static_cast<fpm::Index>(source.size()) && source[static_cast<std::size_t>(a)] < 0;
   };
   for (fpm::Index a = 0; a < static_cast<fpm::Index>(source.size()); ++a) {
-    if (is_new(a)) {
-      Eigen::Index nearest = 0;
-      (before.particles.position.rowwise() - after.particles.position.row(a))
-          .rowwise()
-          .squaredNorm()
-          .minCoeff(&nearest);
-      carried.displacement.row(a) = state.displacement.row(nearest);
-    }
     const bool sees_new = is_new(a) || std::ranges::any_of(carried.rows.neighbours(a), is_new);
     if (sees_new && carried.released.size() > 0) carried.released[a] = 1.0;
   }
@@ -97,7 +105,7 @@ void settle_new_particles(const Model<Dim>& before, const State<Dim>& state,
 
 template <int Dim>
 void carry_faces(const Model<Dim>& before, const State<Dim>& state, const Model<Dim>& after,
-                 State<Dim>& carried) {
+                 double load, State<Dim>& carried) {
   const auto known = faces_of(before);
   for_each_point(after, [&](const Interface<Dim>& interface, Eigen::Index c, Eigen::Index k) {
     const auto found = known.find(key_of(interface, c));
@@ -106,9 +114,40 @@ void carry_faces(const Model<Dim>& before, const State<Dim>& state, const Model<
       carried.interface_traction.col(k) = state.interface_traction.col(found->second.second[1]);
       return;
     }
-    const fpm::Vector<Dim> motion = carried.programme.load * interface.drive;
+    const fpm::Vector<Dim> motion = interface.held + load * interface.drive;
     carried.interface_slip.col(k) =
         interface.faces.gap(static_cast<fpm::Index>(c), carried.displacement, motion);
+  });
+}
+
+// What is known by its place stays; what begins holds where the ground is.
+template <int Dim>
+void carry_penalties(const Model<Dim>& before, const State<Dim>& state, const Model<Dim>& after,
+                     State<Dim>& carried) {
+  using Place = std::pair<std::string, std::array<double, static_cast<std::size_t>(Dim)>>;
+  const auto visit_points = [](const Model<Dim>& model, auto&& visit) {
+    Eigen::Index k = 0;
+    for (const PenaltySupport<Dim>& support : model.penalty_supports) {
+      for (Eigen::Index c = 0; c < support.points.weight.size(); ++c, ++k) {
+        Place place{support.name, {}};
+        for (int i = 0; i < Dim; ++i) {
+          place.second[static_cast<std::size_t>(i)] = support.points.position(c, i);
+        }
+        visit(support, static_cast<fpm::Index>(c), k, place);
+      }
+    }
+  };
+  std::map<Place, Eigen::Index> known;
+  visit_points(before, [&](const auto&, fpm::Index, Eigen::Index k, const Place& place) {
+    known.emplace(place, k);
+  });
+  visit_points(after, [&](const auto& support, fpm::Index c, Eigen::Index k, const Place& place) {
+    const auto found = known.find(place);
+    if (found != known.end()) {
+      carried.penalty_target.row(k) = state.penalty_target.row(found->second);
+    } else {
+      carried.penalty_target.row(k) = support.op.value(c, carried.displacement).transpose();
+    }
   });
 }
 
@@ -165,17 +204,22 @@ void carry_initial_tractions(const Model<Dim>& before, Model<Dim>& after) {
 
 template <int Dim>
 State<Dim> carry_state(const Model<Dim>& before, State<Dim>& state, const Model<Dim>& after,
-                       bool keeps_rows) {
+                       bool keeps_rows, double load) {
   State<Dim> carried;
   carried.layout = after.layout;
-  carried.resize(after.size(), after.interface_points());
+  carried.resize(after.size(), after.interface_points(), after.penalty_points());
   carried.programme = state.programme;
   const std::vector<fpm::Index> source = same_particles(after, before);
   carry_particles(state, source, carried);
   carried.rows =
       keeps_rows ? state.rows : fpm::Rows<Dim>(after.particles, after.ghosts, after.row_options);
   settle_new_particles(before, state, after, source, carried);
-  carry_faces(before, state, after, carried);
+  if (!keeps_rows) {
+    search_again(state, source, after, load, carried);
+    forget_shapes(source, carried);
+  }
+  carry_faces(before, state, after, load, carried);
+  carry_penalties(before, state, after, carried);
   return carried;
 }
 
@@ -183,7 +227,7 @@ template std::vector<fpm::Index> same_particles<2>(const Model<2>&, const Model<
 template std::vector<fpm::Index> same_particles<3>(const Model<3>&, const Model<3>&);
 template void carry_initial_tractions<2>(const Model<2>&, Model<2>&);
 template void carry_initial_tractions<3>(const Model<3>&, Model<3>&);
-template State<2> carry_state<2>(const Model<2>&, State<2>&, const Model<2>&, bool);
-template State<3> carry_state<3>(const Model<3>&, State<3>&, const Model<3>&, bool);
+template State<2> carry_state<2>(const Model<2>&, State<2>&, const Model<2>&, bool, double);
+template State<3> carry_state<3>(const Model<3>&, State<3>&, const Model<3>&, bool, double);
 
 }  // namespace model

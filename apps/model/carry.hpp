@@ -21,8 +21,9 @@ void carry_initial_tractions(const Model<Dim>& before, Model<Dim>& after);
 /// put on, with which they and those around remember no shape. Faces that stay keep slip and
 /// traction; new ones bear nothing where they are.
 /// @param keeps_rows  no particle and no support is another one
+/// @param load  load parameter at which it goes on: rigid bodies are where they are then
 template <int Dim>
 State<Dim> carry_state(const Model<Dim>& before, State<Dim>& state, const Model<Dim>& after,
-                       bool keeps_rows);
+                       bool keeps_rows, double load);
 
 }  // namespace model

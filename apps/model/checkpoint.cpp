@@ -17,6 +17,7 @@
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
+#include "scene/stages.hpp"
 
 namespace model {
 
@@ -148,9 +149,12 @@ bool adapt_programme(const scene::Scene& former, const scene::Scene& scene,
     programme.next_increment = 0.0;  // the nominal one
     programme.easy_steps = 0;
   }
-  const bool displaced = scene.drive.kind == scene::DriveKind::displacement;
-  if (!displaced || former.drive.target == scene.drive.target) return true;
-  const double ratio = former.drive.target / scene.drive.target;
+  // Of the drive in force.
+  const auto stage = static_cast<std::size_t>(programme.stage);
+  const scene::Drive now = scene::scene_of_stage(scene, stage).drive;
+  const scene::Drive then = scene::scene_of_stage(former, stage).drive;
+  if (now.kind != scene::DriveKind::displacement || then.target == now.target) return true;
+  const double ratio = then.target / now.target;
   programme.load *= ratio;
   if (!scene.stage.empty()) return true;  // their progress is of the way of each
   programme.next_increment *= ratio;

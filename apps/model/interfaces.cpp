@@ -212,13 +212,22 @@ fpm::Face face_of(scene::Side side) {
 // A plate that is loaded sinks in, one that has a point at which it is pushed or loaded turns about
 // it, and `lateral` lets it move along its side, if its face sticks.
 template <int Dim>
-Plate<Dim> plate_of(const scene::Drive& drive, const Interface<Dim>& interface) {
+Plate<Dim> plate_of(const scene::ActingDrive& acting, const Interface<Dim>& interface) {
+  const scene::Drive& drive = *acting.drive;
   Plate<Dim> plate;
   const int across = scene::axis_of(drive.side);
   const fpm::Field<Dim>& places = interface.faces.points.position;
   plate.at = places.colwise().mean().transpose();
   plate.arm = 0.5 * (places.colwise().maxCoeff() - places.colwise().minCoeff()).maxCoeff();
-  if (!drive.force.empty()) plate.force = Eigen::Map<const fpm::Vector<Dim>>(drive.force.data());
+  plate.reported = acting.reported;
+  if (!drive.force.empty()) {
+    const Eigen::Map<const fpm::Vector<Dim>> whole(drive.force.data());
+    if (acting.moves) {
+      plate.force = whole;
+    } else {
+      plate.held_force = acting.held * whole;
+    }
+  }
   const bool sticks = constitutive::sticks(interface.law);
   std::size_t k = 0;
   for (int i = 0; i < Dim; ++i) {
@@ -240,8 +249,8 @@ Plate<Dim> plate_of(const scene::Drive& drive, const Interface<Dim>& interface) 
 }
 
 template <int Dim>
-fpm::CommonFaces<Dim> faces_under_plate(const scene::Scene& scene, const Model<Dim>& model) {
-  const scene::Drive& drive = scene.drive;
+fpm::CommonFaces<Dim> faces_under_plate(const scene::Scene& scene, const scene::Drive& drive,
+                                        const Model<Dim>& model) {
   if (drive.level) return surface_faces(model, SurfacePart::of_side(*scene::footing_of(scene)));
   const auto faces = outer_faces(model, face_of<Dim>(drive.side));
   return part_of<Dim>(faces, [&](Eigen::Index c) {
@@ -250,12 +259,40 @@ fpm::CommonFaces<Dim> faces_under_plate(const scene::Scene& scene, const Model<D
   });
 }
 
-// A rough footing of a solid body holds on to it as nothing else does that is a contact.
-bool is_tied(const scene::Scene& scene) {
+// A rough footing of a solid body, or one that comes later, holds on to it as nothing else does
+// that is a contact.
+bool is_tied(const scene::Scene& scene, const scene::Drive& drive) {
   const auto footing = scene::footing_of(scene);
-  if (!scene::is_solid(scene) || !footing) return false;
+  if (!footing || !drive.on_footing || !(scene::is_solid(scene) || drive.later)) return false;
   const scene::OutlineSide& side = scene.side[*footing];
   return side.base == scene::Base::rough && side.tension;
+}
+
+// The rigid plate of a drive that only touches.
+template <int Dim>
+void add_plate(const scene::Scene& scene, const scene::ActingDrive& acting, Model<Dim>& model) {
+  const scene::Drive& drive = *acting.drive;
+  const bool pushes = drive.kind == scene::DriveKind::displacement;
+  const auto under = faces_under_plate(scene, drive, model);
+  const bool is_free = !pushes || !drive.at.empty();
+  scene::Contact contact = drive.contact;
+  if (is_free && model.layout.plastic && !contact.stiffness_factor) {
+    contact.stiffness_factor = free_plates_stiffness;
+  }
+  const auto law = is_tied(scene, drive) ? constitutive::InterfaceLaw{} : law_of(contact);
+  Interface<Dim> plate = interface_at(scene, model, under, contact, law);
+  // The plate bears nothing at first, whatever lies under it.
+  plate.initial_traction.setZero();
+  plate.of_drive = scene::name_of_drive(drive);
+  if (pushes) {
+    const fpm::Vector<Dim> along =
+        Eigen::Map<const fpm::Vector<Dim>>(drive.direction.data()).normalized();
+    if (acting.reported) plate.measure = along;
+    (acting.moves ? plate.drive : plate.held) =
+        (acting.moves ? 1.0 : acting.held) * drive.target * along;
+  }
+  if (is_free) plate.plate = plate_of(acting, plate);
+  model.interfaces.push_back(std::move(plate));
 }
 
 template <int Dim>
@@ -267,27 +304,9 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
         interface_at(scene, model, faces, support.contact, law_of(support.contact)));
     model.interfaces.back().support = support.name;
   }
-  const scene::Drive& drive = scene.drive;
-  const bool pushes = drive.kind == scene::DriveKind::displacement;
-  if ((!pushes && !scene::loads_plate(drive)) || drive.method != scene::DriveMethod::contact) {
-    return;
+  for (const scene::ActingDrive& acting : scene::acting_drives(scene)) {
+    if (acting.drive->method == scene::DriveMethod::contact) add_plate(scene, acting, model);
   }
-  const auto under = faces_under_plate(scene, model);
-  const bool is_free = !pushes || !drive.at.empty();
-  scene::Contact contact = drive.contact;
-  if (is_free && model.layout.plastic && !contact.stiffness_factor) {
-    contact.stiffness_factor = free_plates_stiffness;
-  }
-  const auto law = is_tied(scene) ? constitutive::InterfaceLaw{} : law_of(contact);
-  Interface<Dim> plate = interface_at(scene, model, under, contact, law);
-  // The plate bears nothing at first, whatever lies under it.
-  plate.initial_traction.setZero();
-  if (pushes) {
-    plate.measure = Eigen::Map<const fpm::Vector<Dim>>(drive.direction.data()).normalized();
-    plate.drive = drive.target * plate.measure;
-  }
-  if (is_free) plate.plate = plate_of(drive, plate);
-  model.interfaces.push_back(std::move(plate));
 }
 
 SurfacePart held_part(const scene::Scene& scene, std::size_t side) {

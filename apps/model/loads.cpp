@@ -15,40 +15,47 @@
 namespace model {
 namespace {
 
-bool scales_with(const scene::Scene& scene, scene::LoadKind kind) {
-  const auto& scales = scene.drive.scales;
-  return scene.drive.kind == scene::DriveKind::load &&
-         std::find(scales.begin(), scales.end(), kind) != scales.end();
+// Where a load is added, and how much of it.
+struct LoadTarget {
+  Eigen::VectorXd& load;
+  double factor;
+};
+
+template <int Dim>
+LoadTarget target_of(const scene::LoadShare& share, Model<Dim>& model) {
+  if (share.growing != 0.0) return {model.scaled_load, share.growing};
+  return {model.constant_load, share.constant};
 }
 
 // Departure: weight is lumped to the particles, not spread by N^T (share/doc/decisions/gravity.md).
 template <int Dim>
 void add_gravity(const scene::Scene& scene, Model<Dim>& model) {
   if (scene.gravity.acceleration.empty()) return;
-  auto& load =
-      scales_with(scene, scene::LoadKind::gravity) ? model.scaled_load : model.constant_load;
+  const auto [load, factor] = target_of(scene::share_of(scene, scene::LoadKind::gravity), model);
   const Eigen::Index n = model.size();
   for (int i = 0; i < Dim; ++i) {
-    load.segment(i * n, n) += model.mass * scene.gravity.acceleration[static_cast<std::size_t>(i)];
+    const double acceleration = factor * scene.gravity.acceleration[static_cast<std::size_t>(i)];
+    load.segment(i * n, n) += model.mass * acceleration;
   }
-  if (model.water_load.size() > 0) load += model.water_load;
+  if (model.water_load.size() > 0) load += factor * model.water_load;
 }
 
 template <int Dim>
 void add_tractions(const scene::Scene& scene, Model<Dim>& model) {
-  const bool scaled = scales_with(scene, scene::LoadKind::traction);
-  Eigen::Map<fpm::Field<Dim>> load((scaled ? model.scaled_load : model.constant_load).data(),
-                                   model.size(), Dim);
   for (const scene::Traction& traction : scene.traction) {
+    const scene::LoadShare share = scene::share_of(scene, scene::LoadKind::traction, traction.name);
+    const auto [load, factor] = target_of(share, model);
     auto side = side_points(scene, model, traction.side, traction.range_min, traction.range_max);
-    const Eigen::Map<const fpm::Vector<Dim>> value(traction.value.data());
+    const fpm::Vector<Dim> value =
+        factor * Eigen::Map<const fpm::Vector<Dim>>(traction.value.data());
     if (traction.follower) {
       const double outward = scene::is_upper(traction.side) ? 1.0 : -1.0;
       model.following_pressures.push_back({std::move(side.op), std::move(side.points),
                                            -outward * value[scene::axis_of(traction.side)],
-                                           scaled});
+                                           share.growing != 0.0});
     } else {
-      fpm::add_uniform_traction<Dim>(side.op, side.points, value, load);
+      Eigen::Map<fpm::Field<Dim>> field(load.data(), model.size(), Dim);
+      fpm::add_uniform_traction<Dim>(side.op, side.points, value, field);
     }
   }
 }
@@ -56,8 +63,11 @@ void add_tractions(const scene::Scene& scene, Model<Dim>& model) {
 // A pressure, and a shear along the surface that has the body to its left.
 template <int Dim>
 void add_surface_load(const SurfacePoints<Dim>& surface, double pressure, double shear,
-                      Eigen::VectorXd& load) {
+                      const scene::LoadShare& share, Model<Dim>& model) {
   if (pressure == 0.0 && shear == 0.0) return;
+  const auto [load, factor] = target_of(share, model);
+  pressure *= factor;
+  shear *= factor;
   fpm::Field<Dim> traction = -pressure * surface.points.normal;
   // The normal turned to the left.
   traction.col(0) -= shear * surface.points.normal.col(1);
@@ -69,20 +79,20 @@ void add_surface_load(const SurfacePoints<Dim>& surface, double pressure, double
 // What presses on the surfaces that cutouts leave, and on the scene's sides.
 template <int Dim>
 void add_surface_loads(const scene::Scene& scene, Model<Dim>& model) {
-  auto& growing =
-      scales_with(scene, scene::LoadKind::traction) ? model.scaled_load : model.constant_load;
   for (std::size_t i = 0; i < scene.cutout.size(); ++i) {
     const scene::Cutout& cutout = scene.cutout[i];
     if (cutout.pressure == 0.0 && cutout.shear == 0.0) continue;
     add_surface_load(surface_points(model, SurfacePart::of_cutout(i)), cutout.pressure,
-                     cutout.shear, growing);
+                     cutout.shear, scene::share_of(scene, scene::LoadKind::traction, cutout.name),
+                     model);
   }
   for (std::size_t i = 0; i < scene.side.size(); ++i) {
     const scene::OutlineSide& side = scene.side[i];
     if (side.kind != scene::OutlineKind::loaded) continue;
     const SurfacePoints<Dim> surface = surface_points(model, SurfacePart::of_side(i));
-    add_surface_load(surface, side.pressure, side.shear, model.constant_load);
-    add_surface_load(surface, side.live_pressure, side.live_shear, model.scaled_load);
+    add_surface_load(surface, side.pressure, side.shear, {}, model);
+    add_surface_load(surface, side.live_pressure, side.live_shear,
+                     scene::share_of(scene, scene::LoadKind::traction, side.name), model);
   }
 }
 
@@ -148,7 +158,8 @@ void add_penalty_supports(const scene::Scene& scene, Model<Dim>& model) {
     // One penalty per support: the weights carry the ratio of the moduli.
     side.points.weight.array() *= moduli.array() / largest;
     const fpm::Field<Dim> target = fpm::Field<Dim>::Zero(side.points.size(), Dim);
-    model.penalty_supports.push_back({std::move(side.op), std::move(side.points), options, target});
+    model.penalty_supports.push_back(
+        {std::move(side.op), std::move(side.points), options, target, support.name});
   }
 }
 
@@ -215,7 +226,9 @@ fpm::Field<Dim> cut_area_vectors(const scene::Scene& scene, const Model<Dim>& mo
       under.to[static_cast<std::size_t>(i)] = plate.range_max[i];
     }
     // Of planes the drive's alone has a range.
-    if (scene.drive.level) under = SurfacePart::of_side(*scene::footing_of(scene));
+    if (scene::drive_by_images(scene)->drive->level) {
+      under = SurfacePart::of_side(*scene::footing_of(scene));
+    }
     add(under, -1.0);
   }
   return area;

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string_view>
 
-#include "model/planes.hpp"
+#include "model/penalty_targets.hpp"
 #include "model/selection.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
@@ -43,14 +44,13 @@ double size_of(const scene::Scene& scene, const scene::Traction& traction) {
 template <int Dim>
 Measures<Dim>::Measures(const scene::Scene& scene, const Model<Dim>& model)
     : model_(model),
+      holders_(scene, model),
       course_(scene.course),
       has_stages_(!scene.stage.empty()),
-      reduces_strength_(scene::reduces_strength(scene)),
-      loads_grow_(scene.drive.kind == scene::DriveKind::load &&
-                  std::ranges::find(scene.drive.scales, scene::LoadKind::traction) !=
-                      scene.drive.scales.end()) {
+      reduces_strength_(scene::reduces_strength(scene)) {
   if (has_stages_) columns_.emplace_back(stage_column);
   if (reduces_strength_) columns_.emplace_back("strength_reduction");
+  if (scene::has_stage_drives(scene)) name_drives(scene);
   for (const scene::Measure& asked : scene::resolve_measures(scene)) {
     Measure& measure = measures_.emplace_back();
     measure.kind = asked.kind;
@@ -58,6 +58,25 @@ Measures<Dim>::Measures(const scene::Scene& scene, const Model<Dim>& model)
     if (asked.support) find_support(scene, *asked.support, measure);
     if (asked.side) find_side(scene, *asked.side, measure);
     name_columns(asked);
+  }
+}
+
+// In the order of the scene, whichever is in force.
+template <int Dim>
+void Measures<Dim>::name_drives(const scene::Scene& scene) {
+  std::map<std::size_t, std::pair<const scene::Drive*, Place>> all;
+  const auto add = [&](const scene::Drive& drive, bool moves, double held) {
+    if (drive.kind == scene::DriveKind::none) return;
+    const bool displaces = drive.kind == scene::DriveKind::displacement;
+    all[drive.number] = {&drive, {moves, held, displaces ? drive.target : 1.0}};
+  };
+  add(scene.drive, true, 0.0);
+  for (const scene::OtherDrive& other : scene.other_drives) add(other.drive, false, other.load);
+  for (const auto& [number, drive] : all) {
+    const bool displaces = drive.first->kind == scene::DriveKind::displacement;
+    columns_.push_back(scene::column_name(scene::name_of_drive(*drive.first)) +
+                       (displaces ? "_moved_m" : "_load_parameter"));
+    drives_.push_back(drive.second);
   }
 }
 
@@ -74,42 +93,25 @@ void Measures<Dim>::locate(const scene::Scene& scene, const scene::Measure& aske
 template <int Dim>
 void Measures<Dim>::find_support(const scene::Scene& scene, const std::string& name,
                                  Measure& measure) const {
+  measure.unknowns = holders_.of(name);
   std::size_t penalties = 0;
-  for (std::size_t i = 0; i < scene.support.size(); ++i) {
-    const bool penalty = scene.support[i].method == scene::SupportMethod::penalty;
-    if (scene.support[i].name == name) {
-      if (penalty) {
-        measure.penalties.push_back(penalties);
-        return;
-      }
-      if (scene.support[i].method == scene::SupportMethod::contact) {
-        add_contacts(scene.support[i].name, measure);
-        return;
-      }
-      if (scene::resolve_method(scene, scene.support[i]) == scene::SupportMethod::ghosts) {
-        const scene::Side side = *scene.support[i].side;
-        measure.unknowns = borne_by_planes(model_, scene::axis_of(side),
-                                           scene::side_position(scene.geometry, side));
-        return;
-      }
-      for (const Eigen::Index a : supported_particles(scene, scene.support[i], model_)) {
-        for (const scene::Axis axis : scene.support[i].directions) {
-          measure.unknowns.push_back(static_cast<int>(axis) * model_.size() + a);
-        }
-      }
-      return;
-    }
-    penalties += penalty ? 1 : 0;
+  for (const scene::Support& support : scene.support) {
+    if (support.method != scene::SupportMethod::penalty) continue;
+    if (support.name == name) measure.penalties.push_back(penalties);
+    ++penalties;
   }
-  add_contacts(name, measure);  // of a cutout's surface
+  // Of supports and the surfaces of cutouts, and of plates.
+  add_contacts(&Interface<Dim>::support, name, measure);
+  if (scene::has_stage_drives(scene)) add_contacts(&Interface<Dim>::of_drive, name, measure);
 }
 
 template <int Dim>
-void Measures<Dim>::add_contacts(const std::string& support, Measure& measure) const {
+void Measures<Dim>::add_contacts(std::string Interface<Dim>::*of, const std::string& name,
+                                 Measure& measure) const {
   Eigen::Index first = 0;
   for (const Interface<Dim>& interface : model_.interfaces) {
     const Eigen::Index count = interface.faces.points.size();
-    if (interface.is_rigid() && interface.support == support) {
+    if (interface.is_rigid() && interface.*of == name) {
       for (Eigen::Index c = 0; c < count; ++c) {
         measure.contacts.emplace_back(first + c, interface.faces.points.weight[c]);
       }
@@ -120,14 +122,7 @@ void Measures<Dim>::add_contacts(const std::string& support, Measure& measure) c
 
 template <int Dim>
 void Measures<Dim>::find_side(const scene::Scene& scene, scene::Side side, Measure& measure) const {
-  const Eigen::Index n = model_.size();
-  measure.unknowns =
-      borne_by_planes(model_, scene::axis_of(side), scene::side_position(scene.geometry, side));
-  const bool by_planes = !measure.unknowns.empty();
-  for (Eigen::Index a = 0; a < n && !by_planes; ++a) {
-    if (!on_side(scene, model_, side, a)) continue;
-    for (int i = 0; i < Dim; ++i) measure.unknowns.push_back(i * n + a);
-  }
+  measure.unknowns = holders_.on(scene, model_, side);
   std::size_t penalties = 0;
   for (const scene::Support& support : scene.support) {
     if (support.method != scene::SupportMethod::penalty) continue;
@@ -136,18 +131,22 @@ void Measures<Dim>::find_side(const scene::Scene& scene, scene::Side side, Measu
   }
   for (const scene::Support& support : scene.support) {
     if (support.method == scene::SupportMethod::contact && support.side == side) {
-      add_contacts(support.name, measure);
+      add_contacts(&Interface<Dim>::support, support.name, measure);
     }
   }
-  if (scene.drive.method == scene::DriveMethod::contact && scene.drive.side == side &&
-      !scene.drive.level) {
-    add_contacts("", measure);
+  for (const scene::ActingDrive& acting : scene::acting_drives(scene)) {
+    const scene::Drive& drive = *acting.drive;
+    if (drive.method == scene::DriveMethod::contact && drive.side == side && !drive.level) {
+      add_contacts(&Interface<Dim>::of_drive, scene::name_of_drive(drive), measure);
+    }
   }
   std::size_t following = 0;
   for (const scene::Traction& traction : scene.traction) {
     if (traction.side == side) {
       Load load{
-          Eigen::Map<const fpm::Vector<Dim>>(traction.value.data()) * size_of(scene, traction), {}};
+          Eigen::Map<const fpm::Vector<Dim>>(traction.value.data()) * size_of(scene, traction),
+          scene::share_of(scene, scene::LoadKind::traction, traction.name),
+          {}};
       if (traction.follower) load.following = following;
       measure.loads.push_back(load);
     }
@@ -186,20 +185,21 @@ void Measures<Dim>::name_columns(const scene::Measure& asked) {
 template <int Dim>
 fpm::Vector<Dim> Measures<Dim>::force(const Measure& measure, const State<Dim>& state) const {
   fpm::Vector<Dim> sum = fpm::Vector<Dim>::Zero();
-  for (const Eigen::Index k : measure.unknowns) {
-    sum[k / model_.size()] += state.reaction.data()[k];
+  for (const auto& [k, part] : measure.unknowns) {
+    sum[k / model_.size()] += part * state.reaction.data()[k];
   }
   for (const auto& [point, weight] : measure.contacts) {
     sum += weight * state.interface_traction.col(point);
   }
   fpm::Field<Dim> nodal = fpm::Field<Dim>::Zero(model_.size(), Dim);
-  for (const std::size_t penalty : measure.penalties) {
-    const PenaltySupport<Dim>& support = model_.penalty_supports[penalty];
-    sum += fpm::add_penalty_force<Dim>(support.op, support.points, support.options, support.target,
+  std::size_t penalty = 0;
+  for_each_penalty(model_, state, [&](const auto& support, const fpm::FieldView<Dim>& target) {
+    if (std::ranges::count(measure.penalties, penalty++) == 0) return;
+    sum += fpm::add_penalty_force<Dim>(support.op, support.points, support.options, target,
                                        state.displacement, nodal);
-  }
-  const double grown = loads_grow_ ? state.programme.load : 1.0;
+  });
   for (const Load& load : measure.loads) {
+    const double grown = load.share.constant + load.share.growing * state.programme.load;
     if (!load.following) {
       sum += grown * load.force;
       continue;
@@ -207,8 +207,10 @@ fpm::Vector<Dim> Measures<Dim>::force(const Measure& measure, const State<Dim>& 
     const FollowingPressure<Dim>& pressure = model_.following_pressures[*load.following];
     nodal.setZero();
     // A point that is inside out ends the run before its state is measured.
-    (void)fpm::add_following_pressure<Dim>(pressure.op, pressure.points, grown * pressure.pressure,
-                                           state.displacement, nodal);
+    (void)fpm::add_following_pressure<Dim>(
+        pressure.op, pressure.points,
+        pressure.pressure * (pressure.scaled ? state.programme.load : 1.0), state.displacement,
+        nodal);
     sum += nodal.colwise().sum().transpose();
   }
   return sum;
@@ -221,6 +223,9 @@ std::vector<double> Measures<Dim>::of(const State<Dim>& state) const {
   if (has_stages_) values.push_back(static_cast<double>(state.programme.stage) + 1.0);
   if (reduces_strength_) {
     values.push_back(scene::reduction_at(course_, state.programme.progress));
+  }
+  for (const Place& place : drives_) {
+    values.push_back(place.scale * (place.moves ? state.programme.load : place.held));
   }
   const auto add = [&](const auto& vector) {
     for (Eigen::Index i = 0; i < vector.size(); ++i) values.push_back(vector[i]);

@@ -5,10 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "model/holders.hpp"
 #include "model/model.hpp"
 #include "model/state.hpp"
 #include "record/curve.hpp"
 #include "scene/choices.hpp"
+#include "scene/drives.hpp"
 #include "scene/scene.hpp"
 
 namespace scene {
@@ -28,7 +30,8 @@ class Measures {
   Measures(const scene::Scene& scene, const Model<Dim>& model);
 
   /// Names of the columns, each with its unit: first the stage, from 1, and what strength is
-  /// divided by, in a run that has several and that divides it.
+  /// divided by, in a run that has several and that divides it; then where each drive stands, if
+  /// there are several.
   [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
   /// Their values, in the same order.
   [[nodiscard]] std::vector<double> of(const State<Dim>& state) const;
@@ -37,30 +40,41 @@ class Measures {
   /// A traction on a side.
   struct Load {
     fpm::Vector<Dim> force;                // [N/m or N] of a dead load, whole
+    scene::LoadShare share;                // of it, what stays and what grows
     std::optional<std::size_t> following;  // the model's, of one that follows the boundary
   };
   struct Measure {
     scene::MeasureKind kind;
-    fpm::PointOperator<Dim> point;       // of a displacement
-    Eigen::Index particle = 0;           // of a stress or plastic strain
-    std::vector<Eigen::Index> unknowns;  // of a reaction or resultant
-    std::vector<std::size_t> penalties;  // the model's, of a reaction or resultant
-    std::vector<Load> loads;             // of a resultant
+    fpm::PointOperator<Dim> point;           // of a displacement
+    Eigen::Index particle = 0;               // of a stress or plastic strain
+    typename Holders<Dim>::Shares unknowns;  // of a reaction or resultant
+    std::vector<std::size_t> penalties;      // the model's, of a reaction or resultant
+    std::vector<Load> loads;                 // of a resultant
     // Points of interfaces, and the area of each, of a reaction or resultant.
     std::vector<std::pair<Eigen::Index, double>> contacts;
   };
 
   void locate(const scene::Scene& scene, const scene::Measure& asked, Measure& measure) const;
   void find_support(const scene::Scene& scene, const std::string& name, Measure& measure) const;
-  void add_contacts(const std::string& support, Measure& measure) const;
+  void add_contacts(std::string Interface<Dim>::*of, const std::string& name,
+                    Measure& measure) const;
+  void name_drives(const scene::Scene& scene);
   void find_side(const scene::Scene& scene, scene::Side side, Measure& measure) const;
   void name_columns(const scene::Measure& asked);
   fpm::Vector<Dim> force(const Measure& measure, const State<Dim>& state) const;
 
   const Model<Dim>& model_;
+  Holders<Dim> holders_;
+  /// Where a drive stands.
+  struct Place {
+    bool moves;    // with the load parameter
+    double held;   // load parameter, if it does not
+    double scale;  // [m] of a displacement, else 1
+  };
+
   scene::Course course_;
   bool has_stages_ = false, reduces_strength_ = false;
-  bool loads_grow_ = false;  // the tractions, with the load parameter
+  std::vector<Place> drives_;  // of a run with several
   std::vector<Measure> measures_;
   std::vector<std::string> columns_;
 };

@@ -38,6 +38,7 @@ struct PenaltySupport {
   fpm::BoundaryPoints<Dim> points;
   fpm::PenaltyOptions<Dim> options;
   fpm::Field<Dim> target;  // [m] prescribed displacement of the points
+  std::string name;        // of the support
 };
 
 /// A rigid plate that moves as the body lets it, in some ways at least. Its motions are the
@@ -47,9 +48,11 @@ struct Plate {
   static constexpr int motions = Dim == 2 ? 3 : 6;
   using Motion = Eigen::Matrix<double, motions, 1>;
 
-  fpm::Vector<Dim> at = fpm::Vector<Dim>::Zero();     // [m]
-  fpm::Vector<Dim> force = fpm::Vector<Dim>::Zero();  // [N/m or N] at load parameter 1
-  double arm = 1.0;                                   // [m] rotations count as displacements there
+  fpm::Vector<Dim> at = fpm::Vector<Dim>::Zero();          // [m]
+  fpm::Vector<Dim> force = fpm::Vector<Dim>::Zero();       // [N/m or N] at load parameter 1
+  fpm::Vector<Dim> held_force = fpm::Vector<Dim>::Zero();  // [N/m or N] that stays besides
+  bool reported = false;                                   // by the curve
+  double arm = 1.0;  // [m] rotations count as displacements there
   std::array<bool, motions> free{};
 
   /// Displacement of a place of the plate by each of its motions, a rotation by 1 m at its arm.
@@ -74,8 +77,10 @@ struct Interface {
   Eigen::VectorXd stiffness;                            // [Pa/m] of each point
   fpm::Field<Dim> initial_traction;                     // [Pa] on the first body, of each point
   fpm::Vector<Dim> drive = fpm::Vector<Dim>::Zero();    // [m] of a rigid body, at load parameter 1
+  fpm::Vector<Dim> held = fpm::Vector<Dim>::Zero();     // [m] of it, whatever the load parameter
   fpm::Vector<Dim> measure = fpm::Vector<Dim>::Zero();  // weight of its force in the reported load
-  std::string support;              // whose the rigid body is; empty: the drive's, or none
+  std::string support;              // whose the rigid body is; empty: a drive's, or none
+  std::string of_drive;             // whose plate it is; empty: none
   std::optional<Plate<Dim>> plate;  // a rigid body that is not driven in every way
 
   // Whether these points, not those of a finer rule, are the body's boundary to the consistency
@@ -191,6 +196,7 @@ struct Model {
   double spacing = 0.0;      // [m] the finest
   // Of each plane of the ghosts; empty if none moves.
   std::vector<fpm::Vector<Dim>> plane_drive;    // [m] displacement at load parameter 1
+  std::vector<fpm::Vector<Dim>> plane_held;     // [m] displacement whatever the load parameter
   std::vector<fpm::Vector<Dim>> plane_measure;  // weight of its reaction in the reported load
   std::vector<FollowingPressure<Dim>> following_pressures;
   std::vector<PenaltySupport<Dim>> penalty_supports;
@@ -202,6 +208,9 @@ struct Model {
   double youngs_modulus_of(Eigen::Index particle) const {
     return youngs_modulus[law[static_cast<std::size_t>(particle)]];
   }
+
+  /// Number of points of supports by penalty whose targets are part of the state.
+  Eigen::Index penalty_points() const;
 
   /// Number of points of all interfaces.
   Eigen::Index interface_points() const;
@@ -223,6 +232,16 @@ template <int Dim>
 Eigen::Index Model<Dim>::interface_points() const {
   Eigen::Index count = 0;
   for (const Interface<Dim>& interface : interfaces) count += interface.faces.points.size();
+  return count;
+}
+
+// Where stages change the ground one may begin when the ground has moved.
+template <int Dim>
+Eigen::Index Model<Dim>::penalty_points() const {
+  Eigen::Index count = 0;
+  for (const PenaltySupport<Dim>& support : penalty_supports) {
+    if (layout.staged) count += support.points.weight.size();
+  }
   return count;
 }
 

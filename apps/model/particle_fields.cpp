@@ -8,6 +8,7 @@
 #include "constitutive/utilisation.hpp"
 #include "fpm/boundary_loads.hpp"
 #include "fpm/recovery.hpp"
+#include "model/penalty_targets.hpp"
 
 namespace model {
 
@@ -95,10 +96,10 @@ Eigen::VectorXd recovered_mean_stress(const Model<Dim>& model, const State<Dim>&
 template <int Dim>
 fpm::Field<Dim> holding_force(const Model<Dim>& model, const State<Dim>& state) {
   fpm::Field<Dim> by_body = fpm::Field<Dim>::Zero(model.size(), Dim);
-  for (const PenaltySupport<Dim>& support : model.penalty_supports) {
-    (void)fpm::add_penalty_force<Dim>(support.op, support.points, support.options, support.target,
+  for_each_penalty(model, state, [&](const auto& support, const fpm::FieldView<Dim>& target) {
+    (void)fpm::add_penalty_force<Dim>(support.op, support.points, support.options, target,
                                       state.displacement, by_body);
-  }
+  });
   Eigen::Index first = 0;
   for (const Interface<Dim>& interface : model.interfaces) {
     const Eigen::Index count = interface.faces.points.size();

@@ -1,7 +1,6 @@
 #include "model/planes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 #include "scene/derived.hpp"
@@ -19,10 +18,9 @@ fpm::GhostPlane<Dim> plane_at(const scene::Scene& scene, scene::Side side) {
 }
 
 template <int Dim>
-fpm::GhostPlane<Dim> driven(const scene::Scene& scene) {
-  const scene::Drive& drive = scene.drive;
+fpm::GhostPlane<Dim> driven(const scene::Scene& scene, const scene::Drive& drive) {
   fpm::GhostPlane<Dim> plane = plane_at<Dim>(scene, drive.side);
-  plane.position = scene::plate_position(scene);
+  plane.position = scene::plate_position(scene.geometry, drive);
   const double slack = scene::same_place(scene.geometry);
   std::size_t k = 0;
   for (int i = 0; i < Dim; ++i) {
@@ -41,9 +39,8 @@ fpm::GhostPlane<Dim> driven(const scene::Scene& scene) {
 template <int Dim>
 std::vector<fpm::GhostPlane<Dim>> ghost_planes(const scene::Scene& scene) {
   std::vector<fpm::GhostPlane<Dim>> planes;
-  if (scene.drive.kind == scene::DriveKind::displacement &&
-      scene::resolve_drive_method(scene) == scene::DriveMethod::ghosts) {
-    planes.push_back(driven<Dim>(scene));
+  if (const auto drive = scene::drive_by_images(scene)) {
+    planes.push_back(driven<Dim>(scene, *drive->drive));
   }
   const auto first_support = static_cast<std::ptrdiff_t>(planes.size());
   for (const scene::Support& support : scene.support) {
@@ -64,30 +61,19 @@ std::vector<fpm::GhostPlane<Dim>> ghost_planes(const scene::Scene& scene) {
 }
 
 template <int Dim>
-std::vector<Eigen::Index> borne_by_planes(const Model<Dim>& model, int axis, double position) {
+std::vector<Eigen::Index> sources_of_planes(const Model<Dim>& model, int axis, double position) {
   const auto& planes = model.ghosts.planes();
-  std::array<std::set<fpm::Index>, static_cast<std::size_t>(Dim)> held_across;
-  for (std::size_t p = 0; p < planes.size(); ++p) {
-    if (planes[p].symmetry) continue;
-    const auto sources = model.ghosts.sources_of(p);
-    held_across[static_cast<std::size_t>(planes[p].axis)].insert(sources.begin(), sources.end());
-  }
-  std::set<Eigen::Index> unknowns;
+  std::set<Eigen::Index> sources;
   for (std::size_t p = 0; p < planes.size(); ++p) {
     if (planes[p].symmetry || planes[p].axis != axis || planes[p].position != position) continue;
-    for (const fpm::Index a : model.ghosts.sources_of(p)) {
-      for (int i = 0; i < Dim; ++i) {
-        const auto direction = static_cast<std::size_t>(i);
-        const bool other = i != axis && held_across[direction].contains(a);
-        if (planes[p].held[direction] && !other) unknowns.insert(i * model.size() + a);
-      }
-    }
+    const auto of_plane = model.ghosts.sources_of(p);
+    sources.insert(of_plane.begin(), of_plane.end());
   }
-  return {unknowns.begin(), unknowns.end()};
+  return {sources.begin(), sources.end()};
 }
 
-template std::vector<Eigen::Index> borne_by_planes<2>(const Model<2>&, int, double);
-template std::vector<Eigen::Index> borne_by_planes<3>(const Model<3>&, int, double);
+template std::vector<Eigen::Index> sources_of_planes<2>(const Model<2>&, int, double);
+template std::vector<Eigen::Index> sources_of_planes<3>(const Model<3>&, int, double);
 template std::vector<fpm::GhostPlane<2>> ghost_planes<2>(const scene::Scene&);
 template std::vector<fpm::GhostPlane<3>> ghost_planes<3>(const scene::Scene&);
 

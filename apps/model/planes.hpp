@@ -17,10 +17,9 @@ namespace model {
 template <int Dim>
 std::vector<fpm::GhostPlane<Dim>> ghost_planes(const scene::Scene& scene);
 
-/// Where in a field over unknowns stand the reactions of the planes on a side, in the directions
-/// they hold. Where two sides meet, a direction across one of them counts for that one alone.
+/// The particles that have images by the planes at a place which are no mirrors, ascending.
 template <int Dim>
-std::vector<Eigen::Index> borne_by_planes(const Model<Dim>& model, int axis, double position);
+std::vector<Eigen::Index> sources_of_planes(const Model<Dim>& model, int axis, double position);
 
 /// Place of the driven side among them, if it is driven by ghosts.
 inline constexpr std::size_t driven_plane = 0;

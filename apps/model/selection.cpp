@@ -56,6 +56,19 @@ Eigen::Index nearest_particle(const scene::Scene& scene, const scene::Point& at,
 }
 
 template <int Dim>
+std::vector<Eigen::Index> driven_particles(const scene::Scene& scene, const scene::Drive& drive,
+                                           const Model<Dim>& model) {
+  std::vector<Eigen::Index> chosen;
+  for (Eigen::Index a = 0; a < model.size(); ++a) {
+    if (on_side(scene, model, drive.side, a) &&
+        in_side_range(scene, model, drive.side, drive.range_min, drive.range_max, a)) {
+      chosen.push_back(a);
+    }
+  }
+  return chosen;
+}
+
+template <int Dim>
 std::vector<Eigen::Index> supported_particles(const scene::Scene& scene,
                                               const scene::Support& support,
                                               const Model<Dim>& model) {
@@ -71,6 +84,10 @@ std::vector<Eigen::Index> supported_particles(const scene::Scene& scene,
   return chosen;
 }
 
+template std::vector<Eigen::Index> driven_particles<2>(const scene::Scene&, const scene::Drive&,
+                                                       const Model<2>&);
+template std::vector<Eigen::Index> driven_particles<3>(const scene::Scene&, const scene::Drive&,
+                                                       const Model<3>&);
 template bool on_side<2>(const scene::Scene&, const Model<2>&, scene::Side, Eigen::Index);
 template bool in_side_range<2>(const scene::Scene&, const Model<2>&, scene::Side,
                                const std::vector<double>&, const std::vector<double>&,

@@ -5,6 +5,7 @@
 #include "model/model.hpp"
 
 namespace scene {
+struct Drive;
 struct Scene;
 struct Support;
 }  // namespace scene
@@ -24,6 +25,11 @@ bool in_side_range(const scene::Scene& scene, const Model<Dim>& model, scene::Si
 template <int Dim>
 Eigen::Index nearest_particle(const scene::Scene& scene, const std::vector<double>& at,
                               const Model<Dim>& model);
+
+/// The particles next to the part of a side that a drive moves.
+template <int Dim>
+std::vector<Eigen::Index> driven_particles(const scene::Scene& scene, const scene::Drive& drive,
+                                           const Model<Dim>& model);
 
 /// The particles that a support holds.
 template <int Dim>

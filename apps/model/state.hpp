@@ -78,12 +78,15 @@ struct State {
   fpm::Field<Dim> unbalanced;       // forces left at the stage's beginning; they fade in it
   Columns<Dim> interface_slip;      // of each point of the interfaces
   Columns<Dim> interface_traction;  // there, on the first body
+  // Of each point of supports by penalty, where stages change the ground: at which it is held.
+  fpm::Field<Dim> penalty_target;
   fpm::Rows<Dim> rows;
   ProgrammeState programme;
 
   /// @param n  particles
   /// @param points  of the interfaces
-  void resize(Eigen::Index n, Eigen::Index points) {
+  /// @param penalty_points  of the supports by penalty whose targets are kept
+  void resize(Eigen::Index n, Eigen::Index points, Eigen::Index penalty_points) {
     const auto count = [n](bool needed) { return needed ? n : 0; };
     displacement.setZero(n, Dim);
     increment.setZero(n, Dim);
@@ -101,6 +104,7 @@ struct State {
     unbalanced.setZero(count(layout.staged), Dim);
     interface_slip.setZero(Dim, points);
     interface_traction.setZero(Dim, points);
+    penalty_target.setZero(penalty_points, Dim);
   }
 
   /// Visits every particle field, visit(name, unit, matrix); fields a scene does not need are
@@ -127,6 +131,12 @@ struct State {
   void for_each_interface_field(Visitor&& visit) {
     visit("slip", "m", interface_slip);
     visit("traction", "Pa", interface_traction);
+  }
+
+  /// Likewise for the points of the supports by penalty; a scene that needs none has no such field.
+  template <class Visitor>
+  void for_each_penalty_field(Visitor&& visit) {
+    if (penalty_target.rows() > 0) visit("target", "m", penalty_target);
   }
 };
 

@@ -14,6 +14,7 @@ namespace {
 const std::string particle_group = "/state/particles/";
 const std::string row_group = "/state/rows/";
 const std::string interface_group = "/state/interfaces/";
+const std::string penalty_group = "/state/penalties/";
 const std::string programme_group = "/state/programme/";
 
 // The reactions were no part of the state before this schema.
@@ -172,6 +173,9 @@ void write_state(files::Hdf5File& file, State<Dim>& state, files::ContentDigest&
   state.for_each_interface_field([&](const char* name, const char* unit, const auto& field) {
     writer.write_columns(interface_group + name, unit, field);
   });
+  state.for_each_penalty_field([&](const char* name, const char* unit, const auto& field) {
+    writer.write_columns(penalty_group + name, unit, field);
+  });
   state.rows.for_each_field([&](const char* name, const char* unit, const auto& list) {
     using T = typename std::remove_cvref_t<decltype(list)>::value_type;
     writer.template write<T>(row_group + name, span_of(list),
@@ -187,7 +191,7 @@ template <int Dim>
 State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model, std::int64_t schema) {
   State<Dim> state;
   state.layout = model.layout;
-  state.resize(model.size(), model.interface_points());
+  state.resize(model.size(), model.interface_points(), model.penalty_points());
   const FieldReader reader(file);
   const bool has_reactions = schema >= schema_of_reactions;
   const bool has_stages = schema >= schema_of_stages;
@@ -200,6 +204,10 @@ State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model, std:
   const bool has_corrections = schema >= schema_of_corrections;
   state.for_each_interface_field([&](const char* name, const char* /*unit*/, auto& field) {
     if (has_corrections) reader.read_columns(interface_group + name, field);
+  });
+  state.for_each_penalty_field([&](const char* name, const char* /*unit*/, auto& field) {
+    // Runs of before held at none.
+    if (file.has(penalty_group + name)) reader.read_columns(penalty_group + name, field);
   });
   state.rows.for_each_field([&](std::string_view name, const char* /*unit*/, auto& list) {
     if (has_corrections || (name != "corrected_row" && name != "correction")) {
@@ -233,6 +241,7 @@ std::size_t bytes_of(State<Dim>& state) {
   };
   state.for_each_particle_field(add);
   state.for_each_interface_field(add);
+  state.for_each_penalty_field(add);
   state.rows.for_each_field(add);
   return bytes;
 }

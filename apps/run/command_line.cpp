@@ -304,8 +304,15 @@ std::string scene_summary(const scene::Scene& scene) {
   line("hourglass",
        fmt::format("{}, stiffness ratio {}", scene::name_of(scene::resolve_control(scene)),
                    scene::resolve_stiffness_ratio(scene)));
-  line("drive",
-       fmt::format("{}, {} steps", scene::name_of(scene.drive.kind), scene::planned_steps(scene)));
+  std::string drives;
+  for (const scene::NamedDrive& drive : scene::drives_of(scene)) {
+    const bool unused = drive.drive->kind == scene::DriveKind::none;
+    if (unused && scene::has_stage_drives(scene)) continue;
+    if (!drives.empty()) drives += ", ";
+    drives += scene::name_of(drive.drive->kind);
+    if (scene::has_stage_drives(scene)) drives += fmt::format(" \"{}\"", drive.name);
+  }
+  line("drive", fmt::format("{}, {} steps", drives, scene::planned_steps(scene)));
   const scene::SolverSettings solver = scene::resolve_solver(scene);
   line("solver", fmt::format("{}, {} Jacobian, {} preconditioner, tolerance {}",
                              scene::name_of(solver.method), scene::name_of(solver.jacobian),

@@ -186,13 +186,13 @@ class Drawing {
   }
 
   void add_drive() {
-    const scene::Drive& drive = scene_.drive;
-    if (drive.kind == scene::DriveKind::displacement) {
-      on_face(drive.side, scene::plate_position(scene_), drive.range_min, drive.range_max, moved,
-              fmt::format("moved by {:g} m", drive.target));
-    } else if (scene::loads_plate(drive)) {
-      on_face(drive.side, scene::plate_position(scene_), drive.range_min, drive.range_max, moved,
-              "loaded plate");
+    for (const scene::NamedDrive& named : scene::drives_of(scene_)) {
+      const scene::Drive& drive = *named.drive;
+      const bool displaces = drive.kind == scene::DriveKind::displacement;
+      if (!displaces && !scene::loads_plate(drive)) continue;
+      on_face(drive.side, scene::plate_position(scene_.geometry, drive), drive.range_min,
+              drive.range_max, moved,
+              displaces ? fmt::format("moved by {:g} m", drive.target) : "loaded plate");
     }
   }
 

@@ -8,6 +8,7 @@
 #include "program/version.hpp"
 #include "record/checkpoint_folder.hpp"
 #include "record/checkpoint_name.hpp"
+#include "scene/drives.hpp"
 #include "scene/scene.hpp"
 #include "scene/stages.hpp"
 #include "stepping/failure_report.hpp"
@@ -166,9 +167,11 @@ program::ProgressStatus Recorder<Dim>::status() const {
   status.step = row.step;
   status.fraction = (static_cast<double>(state_.programme.stage) + state_.programme.progress) /
                     static_cast<double>(scene::stage_count(scene_));
-  const bool displaced = scene_.drive.kind == scene::DriveKind::displacement;
-  if (displaced && scene_.drive.reference_length) status.settlement_over_B = row.settlement_over_B;
-  if (displaced && scene_.drive.width) status.mean_pressure = row.mean_pressure;
+  for (const scene::Drive* drive : scene::all_drives(scene_)) {
+    if (drive->kind != scene::DriveKind::displacement) continue;
+    if (drive->reference_length) status.settlement_over_B = row.settlement_over_B;
+    if (drive->width) status.mean_pressure = row.mean_pressure;
+  }
   status.newton_iterations = row.newton_iterations;
   status.evaluations = row.evaluations;
   status.residual_ratio = row.residual_ratio;

@@ -299,8 +299,8 @@ class Run {
 
   void report(Recorder<Dim>& recorder, const record::RunFolder& folder,
               bounds::LimitCheck& limit) const {
-    recorder.say(end_report(scene_, measures_->columns(), recorder.history(), recorder.elapsed(),
-                            folder, recorder.last_checkpoint()));
+    recorder.say(end_report(stages_.scene(), measures_->columns(), recorder.history(),
+                            recorder.elapsed(), folder, recorder.last_checkpoint()));
     const std::string accuracy = bounds::accuracy_note(folder.path(), scene_);
     if (!accuracy.empty()) recorder.say(fmt::format("  {:<12} {}", "accuracy", accuracy));
     if (limit.pending()) recorder.say("waiting for fpm-limit; it may be interrupted and resumed");

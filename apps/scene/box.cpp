@@ -12,8 +12,8 @@ bool loads_plate(const Drive& drive) {
   return drive.kind == DriveKind::load && std::ranges::count(drive.scales, LoadKind::plate) > 0;
 }
 
-double plate_position(const Scene& scene) {
-  return scene.drive.level.value_or(side_position(scene.geometry, scene.drive.side));
+double plate_position(const Geometry& geometry, const Drive& drive) {
+  return drive.level.value_or(side_position(geometry, drive.side));
 }
 
 bool is_mirror(const Scene& scene, Side side) {

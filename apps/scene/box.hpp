@@ -18,8 +18,8 @@ struct Scene;
 /// Whether a drive is a plate whose load grows.
 [[nodiscard]] bool loads_plate(const Drive& drive);
 
-/// Coordinate of the driven plate across its side [m].
-[[nodiscard]] double plate_position(const Scene& scene);
+/// Coordinate of a drive's plate across its side [m].
+[[nodiscard]] double plate_position(const Geometry& geometry, const Drive& drive);
 
 /// Whether there is a plane of symmetry at a side.
 [[nodiscard]] bool is_mirror(const Scene& scene, Side side);

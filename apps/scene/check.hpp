@@ -33,11 +33,15 @@ void check_loads(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_water(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_drive(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_reduction(const Scene& scene, tables::Diagnosis& diagnosis);
+void check_drives(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_stages(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_plate(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_places(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_measures(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_run(const Scene& scene, tables::Diagnosis& diagnosis);
+
+/// The part of check_places that is about the drive.
+void check_drive_in_place(const Scene& scene, tables::Diagnosis& diagnosis);
 
 /// Whether `point` has one entry per dimension; reports otherwise. An empty (absent) point passes.
 bool check_length(const Point& point, std::size_t wanted, const std::string& key,

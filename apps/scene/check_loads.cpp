@@ -425,6 +425,7 @@ void check_scene(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_water(scene, diagnosis);
   check_loads(scene, diagnosis);
   check_drive(scene, diagnosis);
+  check_drives(scene, diagnosis);
   check_stages(scene, diagnosis);
   check_places(scene, diagnosis);
   check_measures(scene, diagnosis);

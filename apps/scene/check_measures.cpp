@@ -50,6 +50,10 @@ void check_support_name(const Scene& scene, const std::string& name, const std::
   std::vector<std::string> names;
   for (const Support& support : scene.support) names.push_back(support.name);
   for (const std::string& tied : tied_surfaces(scene)) names.push_back(tied);
+  for (const NamedDrive& drive : drives_of(scene)) {
+    const bool pushes = drive.drive->kind == DriveKind::displacement || loads_plate(*drive.drive);
+    if (pushes && has_stage_drives(scene)) names.push_back(drive.name);
+  }
   if (std::ranges::find(names, name) != names.end() || !diagnosis.good({key})) return;
   diagnosis.error(key, fmt::format("found \"{}\"", name),
                   names.empty() ? "the scene has no support"

@@ -80,9 +80,12 @@ void check_mirrors(const Scene& scene, tables::Diagnosis& diagnosis) {
                     fmt::format("found {}, which is a mirror", name_of(traction.side)),
                     "a normal traction on a mirror does nothing: the other half bears it");
   }
+}
+
+void check_not_through_mirror(const Scene& scene, tables::Diagnosis& diagnosis) {
   const Drive& drive = scene.drive;
   const bool moves = drive.kind == DriveKind::displacement &&
-                     diagnosis.good({"drive.side", "drive.direction"}) &&
+                     diagnosis.good({"symmetry", "drive.side", "drive.direction"}) &&
                      is_mirror(scene, drive.side) &&
                      drive.direction[static_cast<std::size_t>(axis_of(drive.side))] != 0.0;
   if (moves) {
@@ -126,9 +129,16 @@ void check_places(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (!box_is_good(scene, diagnosis)) return;
   if (!diagnosis.good({"geometry.spacing", "geometry.layout", "geometry.jitter"})) return;
   check_regions(scene, diagnosis);
-  check_held_and_moved(scene, diagnosis);
+  check_drive_in_place(scene, diagnosis);
   check_mirrors(scene, diagnosis);
   check_images(scene, diagnosis);
+}
+
+void check_drive_in_place(const Scene& scene, tables::Diagnosis& diagnosis) {
+  if (!box_is_good(scene, diagnosis)) return;
+  if (!diagnosis.good({"geometry.spacing", "geometry.layout", "geometry.jitter"})) return;
+  check_held_and_moved(scene, diagnosis);
+  check_not_through_mirror(scene, diagnosis);
 }
 
 }  // namespace scene

@@ -8,6 +8,7 @@
 #include "constitutive/parameters.hpp"
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
+#include "scene/drives.hpp"
 #include "scene/ground.hpp"
 #include "scene/names.hpp"
 #include "scene/outline_faces.hpp"
@@ -116,42 +117,72 @@ void check_names_of_regions(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
 }
 
-// What carries the plate of the drive cannot be taken from under it, nor be put there later.
+// Whether the drive of the footing acts in a stage.
+bool footing_acts(const Scene& scene, const StageDrives& course) {
+  const auto drives = drives_of(scene);
+  for (std::size_t d = 0; d < drives.size(); ++d) {
+    if (course.acts[d] && drives[d].drive->on_footing) return true;
+  }
+  return false;
+}
+
+// What carries the plate of a drive is there while it acts.
 void check_plate_stays(const Scene& scene, tables::Diagnosis& diagnosis) {
   const auto footing = footing_of(scene);
   if (!footing || !diagnosis.errors().empty()) return;
+  const auto courses = courses_of_drives(scene);
   for (const std::size_t region : regions_at(scene, *footing)) {
     const std::string& name = scene.region[region].name;
     for (std::size_t s = 0; s < scene.stage.size(); ++s) {
-      for (const auto& [list, key] :
-           {std::pair(&Stage::remove, "remove"), std::pair(&Stage::place, "place")}) {
-        if (std::ranges::count(scene.stage[s].*list, name) == 0) continue;
-        diagnosis.error(key_of(s, key), fmt::format("found \"{}\"", name),
-                        fmt::format("it carries the plate \"{}\", from first to last",
-                                    scene.side[*footing].name));
-        return;
+      if (!footing_acts(scene, courses[s]) || scene_of_stage(scene, s).region[region].present) {
+        continue;
       }
+      const auto takes = [&](std::size_t k) {
+        return std::ranges::count(scene.stage[k].remove, name) > 0;
+      };
+      std::size_t taken = s;
+      while (taken > 0 && !takes(taken)) --taken;
+      const auto puts = [&](const Stage& stage) {
+        return std::ranges::count(stage.place, name) > 0;
+      };
+      const auto put = std::ranges::find_if(scene.stage, puts) - scene.stage.begin();
+      const std::string key =
+          takes(taken) ? key_of(taken, "remove") : key_of(static_cast<std::size_t>(put), "place");
+      diagnosis.error(key, fmt::format("found \"{}\"", name),
+                      fmt::format("it carries the plate \"{}\" in {}: be it there as long as that "
+                                  "is driven or held, which release ends",
+                                  scene.side[*footing].name, stage_title(scene, s)));
+      return;
     }
   }
 }
 
-// Springs cannot come and go, and images cannot come.
+// Images cannot come.
 void check_method(const Scene& scene, const Support& support, tables::Diagnosis& diagnosis) {
-  const bool springs =
-      support.method == SupportMethod::penalty || support.method == SupportMethod::contact;
+  if (support.method != SupportMethod::ghosts) return;
   for (std::size_t s = 0; s < scene.stage.size(); ++s) {
-    const bool begins = std::ranges::count(scene.stage[s].hold, support.name) > 0;
-    const bool ends = std::ranges::count(scene.stage[s].release, support.name) > 0;
-    const std::string key = key_of(s, begins ? "hold" : "release");
-    if (springs && (begins || ends) && diagnosis.good({key})) {
-      diagnosis.error(key, fmt::format("found \"{}\"", support.name),
-                      fmt::format("a support by {} stays as it is: auto or direct may change",
-                                  name_of(support.method)));
-      return;
+    const std::string key = key_of(s, "hold");
+    if (std::ranges::count(scene.stage[s].hold, support.name) == 0 || !diagnosis.good({key})) {
+      continue;
     }
-    if (begins && support.method == SupportMethod::ghosts && diagnosis.good({key})) {
-      diagnosis.error(key, fmt::format("found \"{}\", by ghosts", support.name),
-                      "a support that begins holds the particles where they are: auto or direct");
+    diagnosis.error(key, fmt::format("found \"{}\", by ghosts", support.name),
+                    "images would be where they were before anything moved: auto, which then holds "
+                    "particles where they are, direct, penalty or contact");
+    return;
+  }
+}
+
+// That a drive acts when it is released.
+void check_released_drives(const Scene& scene, const std::vector<NamedDrive>& drives,
+                           tables::Diagnosis& diagnosis) {
+  const auto courses = courses_of_drives(scene);
+  for (std::size_t s = 0; s < scene.stage.size(); ++s) {
+    const std::string key = key_of(s, "release");
+    for (std::size_t d = 0; d < drives.size(); ++d) {
+      if (std::ranges::count(scene.stage[s].release, drives[d].name) == 0) continue;
+      if ((s > 0 && courses[s - 1].acts[d]) || !diagnosis.good({key})) continue;
+      diagnosis.error(key, fmt::format("found \"{}\"", drives[d].name),
+                      "that drive does not act when the stage begins");
       return;
     }
   }
@@ -159,10 +190,17 @@ void check_method(const Scene& scene, const Support& support, tables::Diagnosis&
 
 void check_supports(const Scene& scene, tables::Diagnosis& diagnosis) {
   const auto known = names_of_all(scene.support);
+  // Drives are released by their names as well.
+  std::vector<std::string_view> released = known;
+  const auto drives = drives_of(scene);
+  for (const NamedDrive& drive : drives) {
+    if (drive.drive->kind != DriveKind::none) released.push_back(drive.name);
+  }
   bool all = true;
   for (std::size_t s = 0; s < scene.stage.size(); ++s) {
     const Stage& stage = scene.stage[s];
-    all = check_known(stage.release, known, key_of(s, "release"), "support", diagnosis) && all;
+    const char* what = released.size() > known.size() ? "supports' and drives' name" : "support";
+    all = check_known(stage.release, released, key_of(s, "release"), what, diagnosis) && all;
     all = check_known(stage.hold, known, key_of(s, "hold"), "support", diagnosis) && all;
   }
   if (!all) return;
@@ -170,6 +208,7 @@ void check_supports(const Scene& scene, tables::Diagnosis& diagnosis) {
     check_order(scene, support.name, "release", "hold", &Stage::release, &Stage::hold, diagnosis);
     check_method(scene, support, diagnosis);
   }
+  check_released_drives(scene, drives, diagnosis);
 }
 
 void check_list(const Point& list, const Stage& stage, const std::string& key, double least,
@@ -241,25 +280,26 @@ bool puts_down(const Scene& scene) {
   return std::ranges::any_of(scene.stage, [](const Stage& s) { return !s.place.empty(); });
 }
 
-bool changes_body(const Scene& scene) {
-  return puts_down(scene) || std::ranges::any_of(scene.stage, [](const Stage& stage) {
-           return !stage.remove.empty() || !stage.release.empty() || !stage.hold.empty();
-         });
-}
-
-bool drives(const Scene& scene) {
-  return scene.drive.kind == DriveKind::displacement || scene.drive.kind == DriveKind::load;
+// Whether it changes anything but which drive is in force.
+bool changes_besides(Stage stage) {
+  stage.drive.reset();
+  return changes_ground(stage);
 }
 
 void check_way(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis) {
   const Stage& stage = scene.stage[s];
   const std::string to = key_of(s, "to");
-  if (stage.to && !drives(scene) && diagnosis.good({to, "drive.kind"})) {
+  const auto in_force = courses_of_drives(scene)[s].in_force;
+  const auto drives = drives_of(scene);
+  const DriveKind kind = in_force ? drives[*in_force].drive->kind : DriveKind::none;
+  const bool drives_on = kind == DriveKind::displacement || kind == DriveKind::load;
+  if (stage.to && !drives_on && diagnosis.good({to, "drive.kind", key_of(s, "drive")})) {
     diagnosis.error(to, fmt::format("found {}, and no drive", *stage.to),
                     "what moves or grows is a [drive] of kind displacement or load");
     return;
   }
-  const bool displaced = stage.to && scene.drive.kind == DriveKind::displacement;
+  const bool begins = in_force && drives[*in_force].stage == s && *in_force > 0;
+  const bool displaced = (stage.to || begins) && kind == DriveKind::displacement;
   const bool has_steps = stage.steps || scene.programme.steps.value_or(0) > 0;
   if (!displaced && !has_steps && diagnosis.good({key_of(s, "steps")})) {
     diagnosis.error(key_of(s, "steps"), "is missing",
@@ -268,8 +308,9 @@ void check_way(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis) 
   if (!diagnosis.errors().empty()) return;
   const Course course = scene_of_stage(scene, s).course;
   const bool moves = course.load_begin != course.load_end ||
-                     course.reduction_begin != course.reduction_end || changes_ground(stage);
-  if (moves) return;
+                     course.reduction_begin != course.reduction_end || changes_besides(stage);
+  const bool fades_on = s > 0 && scene.stage[s - 1].fades < 1.0;
+  if (moves || fades_on) return;
   diagnosis.error(fmt::format("stage.{}", s), fmt::format("nothing happens in \"{}\"", stage.name),
                   "give it a way to go (to, reduction) or something to change");
 }
@@ -324,10 +365,6 @@ void check_reduction(const Scene& scene, tables::Diagnosis& diagnosis) {
 
 void check_stages(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (scene.stage.empty()) return;
-  if (scene.re_search.enabled && changes_body(scene) && diagnosis.good({"re_search.enabled"})) {
-    diagnosis.error("re_search.enabled", "found true, and stages that change regions or supports",
-                    "a row that was searched anew does not know what it was before: leave one out");
-  }
   const HourglassControl control = scene.hourglass.control;
   if (puts_down(scene) && diagnosis.good({"hourglass.control"}) &&
       (control == HourglassControl::stiffness || control == HourglassControl::viscosity ||

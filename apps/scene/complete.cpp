@@ -11,6 +11,7 @@
 #include "scene/box.hpp"
 #include "scene/complete_elements.hpp"
 #include "scene/derived.hpp"
+#include "scene/drives.hpp"
 #include "scene/element_body.hpp"
 #include "scene/ground.hpp"
 #include "scene/names.hpp"
@@ -173,8 +174,7 @@ void check_sides(const Scene& scene, tables::Diagnosis& diagnosis) {
     if (side.along.size() == 1) {
       diagnosis.error(key("along"), "found one point", "allowed are 2 or more");
     }
-    const bool grows = scene.drive.kind == DriveKind::load &&
-                       std::ranges::count(scene.drive.scales, LoadKind::traction) > 0;
+    const bool grows = scene::grows(scene, LoadKind::traction, side.name);
     for (const auto& [name, value] : {std::pair("live_pressure", side.live_pressure),
                                       std::pair("live_shear", side.live_shear)}) {
       if (value == 0.0 || grows || !diagnosis.good({key(name), "drive.kind", "drive.scales"}))
@@ -294,7 +294,7 @@ std::optional<BasePlace> base_of(const shape::Outline& outline, std::size_t side
 }
 
 // Whether there is at most one footing, which something moves or loads.
-bool check_footing(const Scene& scene, tables::Diagnosis& diagnosis) {
+bool check_footing(Scene& scene, tables::Diagnosis& diagnosis) {
   const auto s = footing_of(scene);
   if (!s) return true;
   const std::string key = fmt::format("side.{}.kind", *s);
@@ -302,7 +302,7 @@ bool check_footing(const Scene& scene, tables::Diagnosis& diagnosis) {
     diagnosis.error(key, "a footing among several", "one footing at most");
     return false;
   }
-  if (scene.drive.kind == DriveKind::displacement || loads_plate(scene.drive)) return true;
+  if (drive_of_footing(scene) != nullptr) return true;
   diagnosis.error(key, "found a footing that nothing moves or loads",
                   "a footing wants [drive] kind = \"displacement\", or \"load\" with plate among "
                   "its scales");
@@ -313,9 +313,10 @@ bool check_footing(const Scene& scene, tables::Diagnosis& diagnosis) {
 void complete_drive(Scene& scene, const shape::Outline& outline, tables::Diagnosis& diagnosis) {
   const auto s = footing_of(scene);
   if (!s) return;
-  Drive& drive = scene.drive;
+  Drive& drive = *drive_of_footing(scene);
   const auto base = base_of(outline, *s, diagnosis);
   if (!base) return;
+  drive.on_footing = true;
   const OutlineSide& footing = scene.side[*s];
   const int across = axis_of(base->face);
   const auto along = [&](const PlanePoint& place) { return across == 1 ? place.x() : place.y(); };
@@ -337,12 +338,13 @@ void complete_drive(Scene& scene, const shape::Outline& outline, tables::Diagnos
   }
   if (!drive.width) drive.width = (along(high) - along(low)) * depth;
   drive.lateral = footing.base == Base::rough ? Lateral::fixed : Lateral::free;
-  if (!footing.tension && drive.method == DriveMethod::automatic) {
+  const bool later = &drive != &scene.drive;  // images cannot begin later
+  if ((!footing.tension || later) && drive.method == DriveMethod::automatic) {
     drive.method = DriveMethod::contact;
-    drive.contact.tension = false;
+    drive.contact.tension = footing.tension;
   }
   if (drive.level && drive.kind == DriveKind::displacement &&
-      resolve_drive_method(scene) == DriveMethod::direct) {
+      resolve_drive_method(scene, drive) == DriveMethod::direct) {
     diagnosis.error("drive.method", "found direct, with a footing on no face of the box",
                     "allowed are ghosts, which hold it across its base, and contact");
   }
@@ -350,11 +352,24 @@ void complete_drive(Scene& scene, const shape::Outline& outline, tables::Diagnos
 
 // The measure of a displacement in stages is its largest one.
 void complete_course(Scene& scene) {
-  Drive& drive = scene.drive;
-  if (drive.kind == DriveKind::strength) scene.course.reduction_end = drive.target;
-  if (drive.kind != DriveKind::displacement || drive.target > 0.0) return;
-  for (const Stage& stage : scene.stage) {
-    drive.target = std::max(drive.target, std::abs(stage.to.value_or(0.0)));
+  if (scene.drive.kind == DriveKind::strength) scene.course.reduction_end = scene.drive.target;
+  const auto drives = drives_of(scene);
+  std::vector<double> farthest(drives.size(), 0.0);
+  const auto courses = courses_of_drives(scene);
+  for (std::size_t s = 0; s < courses.size(); ++s) {
+    if (!courses[s].in_force) continue;
+    double& far = farthest[*courses[s].in_force];
+    far = std::max(far, std::abs(scene.stage[s].to.value_or(0.0)));
+  }
+  const auto complete = [&](Drive& drive) {
+    for (std::size_t d = 0; d < drives.size(); ++d) {
+      const bool open = drive.kind == DriveKind::displacement && drive.target == 0.0;
+      if (drives[d].drive == &drive && open) drive.target = farthest[d];
+    }
+  };
+  complete(scene.drive);
+  for (Stage& stage : scene.stage) {
+    if (stage.drive) complete(*stage.drive);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/box.hpp"
+#include "scene/drives.hpp"
 #include "scene/element_body.hpp"
 #include "scene/ground.hpp"
 #include "scene/scene.hpp"
@@ -97,7 +98,8 @@ void complete_drive_of_solid(Scene& scene, const ElementBody& body, tables::Diag
   const auto base = base_of(scene, body, *footing, diagnosis);
   if (!base) return;
   const OutlineSide& side = scene.side[*footing];
-  Drive& drive = scene.drive;
+  Drive& drive = *drive_of_footing(scene);
+  drive.on_footing = true;
   drive.side = base->face;
   drive.level = base->position;
   if (drive.kind == DriveKind::displacement && drive.direction.empty()) {

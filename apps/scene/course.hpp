@@ -15,8 +15,8 @@ struct Stage;
 /// `stage 2 of 5, "unload"`.
 [[nodiscard]] std::string stage_title(const Scene& scene, std::size_t stage);
 
-/// Whether a stage begins with a change of the body, of values or of supports, rather than that its
-/// drive merely goes on.
+/// Whether a stage begins with a change of the body, of values, of supports or of the drive, rather
+/// than that its drive merely goes on.
 [[nodiscard]] bool changes_ground(const Stage& stage);
 
 /// Whether some stage does.

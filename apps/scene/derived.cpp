@@ -77,7 +77,9 @@ namespace {
 
 // Whether more and more is asked of the ground, and no plate keeps it from giving way.
 bool ends_in_collapse(const Scene& scene) {
-  return scene.drive.kind == DriveKind::load || reduces_strength(scene);
+  return reduces_strength(scene) || std::ranges::any_of(all_drives(scene), [](const Drive* drive) {
+           return drive->kind == DriveKind::load;
+         });
 }
 
 bool puts_down(const Scene& scene) {
@@ -136,9 +138,7 @@ bool moves(const Drive& drive, Side side) {
 }
 
 bool holds_by_images(const Scene& scene) {
-  return (scene.drive.kind == DriveKind::displacement &&
-          resolve_drive_method(scene) == DriveMethod::ghosts) ||
-         std::ranges::any_of(scene.support, [&](const Support& support) {
+  return drive_by_images(scene) || std::ranges::any_of(scene.support, [&](const Support& support) {
            return resolve_method(scene, support) == SupportMethod::ghosts;
          });
 }
@@ -147,8 +147,10 @@ bool holds_by_images(const Scene& scene) {
 
 SupportMethod resolve_method(const Scene& scene, const Support& support) {
   if (support.method != SupportMethod::automatic) return support.method;
-  const bool free_side = support.side && may_have_images(scene) &&
-                         !is_mirror(scene, *support.side) && !moves(scene.drive, *support.side);
+  const bool free_side =
+      support.side && may_have_images(scene) && !is_mirror(scene, *support.side) &&
+      std::ranges::none_of(all_drives(scene),
+                           [&](const Drive* drive) { return moves(*drive, *support.side); });
   if (!free_side) return SupportMethod::direct;
   const auto across = static_cast<Axis>(axis_of(*support.side));
   const auto holds_across = [&](const Support& other) {
@@ -161,7 +163,20 @@ SupportMethod resolve_method(const Scene& scene, const Support& support) {
 }
 
 DriveMethod resolve_drive_method(const Scene& scene) {
-  const Drive& drive = scene.drive;
+  return resolve_drive_method(scene, scene.drive);
+}
+
+std::optional<ActingDrive> drive_by_images(const Scene& scene) {
+  for (const ActingDrive& acting : acting_drives(scene)) {
+    if (acting.drive->kind == DriveKind::displacement &&
+        resolve_drive_method(scene, *acting.drive) == DriveMethod::ghosts) {
+      return acting;
+    }
+  }
+  return std::nullopt;
+}
+
+DriveMethod resolve_drive_method(const Scene& scene, const Drive& drive) {
   if (drive.method != DriveMethod::automatic) return drive.method;
   const auto across = static_cast<std::size_t>(axis_of(drive.side));
   const bool held_across = drive.lateral == Lateral::fixed ||
@@ -233,18 +248,29 @@ std::int64_t nominal_steps(const Scene& scene) {
                                 static_cast<std::int64_t>(std::ceil(way / increment - round_off)));
 }
 
+std::string column_name(const std::string& name) {
+  std::string column = name;
+  for (char& c : column) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  }
+  return column;
+}
+
 std::vector<Measure> resolve_measures(const Scene& scene) {
-  if (!scene.measure.empty() || scene.drive.kind == DriveKind::displacement) return scene.measure;
+  const bool several = has_stage_drives(scene);
+  if (!scene.measure.empty() || (scene.drive.kind == DriveKind::displacement && !several)) {
+    return scene.measure;
+  }
   std::vector<Measure> all{{.name = "body", .kind = MeasureKind::max_displacement}};
   std::vector<std::string> supports;
+  for (const NamedDrive& drive : drives_of(scene)) {
+    const bool pushes = drive.drive->kind == DriveKind::displacement || loads_plate(*drive.drive);
+    if (several && pushes) supports.push_back(drive.name);
+  }
   for (const Support& support : scene.support) supports.push_back(support.name);
   for (const std::string& tied : tied_surfaces(scene)) supports.push_back(tied);
   for (std::size_t i = 0; i < supports.size(); ++i) {
-    std::string name = supports[i];
-    // The name of a column: neither commas nor spaces, and no other one's.
-    for (char& c : name) {
-      if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-    }
+    std::string name = column_name(supports[i]);
     const auto taken = [&](const Measure& other) { return other.name == name; };
     if (std::ranges::any_of(all, taken)) name.append(1, '_').append(std::to_string(i));
     all.push_back({.name = name, .kind = MeasureKind::reaction, .support = supports[i]});

@@ -2,12 +2,15 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "scene/box.hpp"
 #include "scene/choices.hpp"
+#include "scene/drives.hpp"
 
 namespace constitutive {
 struct MaterialParameters;
@@ -17,7 +20,6 @@ struct ModelInfo;
 namespace scene {
 
 struct Contact;
-struct Drive;
 struct Geometry;
 struct Interface;
 struct Material;
@@ -59,6 +61,14 @@ struct Support;
 
 /// How a displacement is imposed: likewise.
 [[nodiscard]] DriveMethod resolve_drive_method(const Scene& scene);
+/// The same of one of several drives.
+[[nodiscard]] DriveMethod resolve_drive_method(const Scene& scene, const Drive& drive);
+
+/// The drive that moves or holds its side by images: one at most, as none begins with them later.
+[[nodiscard]] std::optional<ActingDrive> drive_by_images(const Scene& scene);
+
+/// A name as that of a column of the curve: neither commas nor spaces.
+[[nodiscard]] std::string column_name(const std::string& name);
 
 /// Whether the body is not the whole box: it has cutouts or is one of regions.
 [[nodiscard]] bool is_cut(const Scene& scene);

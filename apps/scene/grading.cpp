@@ -92,11 +92,12 @@ bool cuts(const Point& region_min, const Point& region_max, double slack,
 
 std::vector<FinePlace> fine_places(const Scene& scene) {
   std::vector<FinePlace> places;
-  const Drive& drive = scene.drive;
-  if (drive.kind == DriveKind::displacement) {
+  // Of all stages, whose particles are the same.
+  for (const Drive* drive : all_drives(scene)) {
+    if (drive->kind != DriveKind::displacement) continue;
     const bool moves = scene.approximation.kinematics == KinematicsKind::finite_strain;
-    add_ends(scene, drive.side, plate_position(scene), drive.range_min, drive.range_max,
-             moves ? drive.target : 0.0, places);
+    add_ends(scene, drive->side, plate_position(scene.geometry, *drive), drive->range_min,
+             drive->range_max, moves ? drive->target : 0.0, places);
   }
   for (const Traction& traction : scene.traction) {
     add_ends(scene, traction.side, side_position(scene.geometry, traction.side), traction.range_min,
@@ -126,7 +127,10 @@ std::vector<FinePlace> fine_places(const Scene& scene) {
 
 double resolve_grading_length(const Scene& scene) {
   if (scene.grading.length) return *scene.grading.length;
-  return scene.drive.reference_length.value_or(shortest_extent(scene.geometry));
+  for (const Drive* drive : all_drives(scene)) {
+    if (drive->reference_length) return *drive->reference_length;
+  }
+  return shortest_extent(scene.geometry);
 }
 
 double resolve_coarsest(const Scene& scene) {

@@ -240,6 +240,7 @@ struct InitialStress {
 
 /// What is moved or loaded, and how far.
 struct Drive {
+  std::string name;  // empty: `drive`, or that of its stage
   DriveKind kind = DriveKind::none;
   Side side = Side::top;
   Point range_min;  // [m] dimension - 1 entries, or empty: the whole side
@@ -251,12 +252,16 @@ struct Drive {
   Point at;  // [m] along the side, where a plate that turns is pushed or loaded; empty: it does not
   Point force;          // [N/m or N] on a loaded plate
   double target = 0.0;  // [m] length of the prescribed displacement; of a strength drive the factor
-  std::vector<std::string> weakened;       // materials whose strength is divided; empty: all
-  std::vector<LoadKind> scales;            // what grows from 0 to 1 in a load drive
+  std::vector<std::string> weakened;  // materials whose strength is divided; empty: all
+  std::vector<LoadKind> scales;       // what grows from 0 to 1 in a load drive
+  std::vector<std::string> loads;  // tractions, sides, cutouts of those; empty: all no other names
   std::optional<double> reference_length;  // B [m]
   std::optional<double> width;             // [m] over which the mean pressure is taken
   // [m] across its side, of a plate whose [[side]] is on no face of the box; no key.
   std::optional<double> level;
+  bool on_footing = false;  // it is the one that the [[side]] of a footing is for; no key
+  bool later = false;       // it begins when the ground has moved already; no key
+  std::size_t number = 0;   // among all of a run; no key
   bool operator==(const Drive&) const = default;
 };
 
@@ -265,10 +270,12 @@ struct Stage {
   std::string name;
   std::optional<double> to;  // of the drive at its end: [m] displacement, or factor of a load
   std::optional<double> reduction;  // what strength is divided by at its end
+  std::optional<Drive> drive;       // in force from it on; absent: that of before
   std::optional<std::int64_t> steps;
+  double fades = 1.0;                   // share of what its changes leave unbalanced
   std::vector<std::string> remove;      // regions
   std::vector<std::string> place;       // regions
-  std::vector<std::string> release;     // supports
+  std::vector<std::string> release;     // supports and drives
   std::vector<std::string> hold;        // supports
   std::vector<PlanePoint> water_table;  // [m]
   std::vector<std::string> materials;   // whose values change, to one of each list:
@@ -285,7 +292,17 @@ struct Course {
   double load_end = 1.0;
   double reduction_begin = 1.0;  // what strength is divided by
   double reduction_end = 1.0;
+  double fades = 1.0;  // share of what is left unbalanced at its beginning
   bool operator==(const Course&) const = default;
+};
+
+/// A drive that is not in force in the stage at hand: it was, or is yet to come; no keys.
+struct OtherDrive {
+  Drive drive;
+  bool acts = false;     // its side stays where it is, its loads stay what they are
+  double load = 0.0;     // its load parameter
+  std::size_t last = 0;  // the latest stage in which it was in force
+  bool operator==(const OtherDrive&) const = default;
 };
 
 /// Columns of the curve beside those of the drive.
@@ -377,6 +394,7 @@ struct Scene {
   InitialStress initial_stress;
   Drive drive;
   std::vector<Stage> stage;
+  std::vector<OtherDrive> other_drives;  // of a scene of a stage; no keys
   Course course;
   std::vector<Measure> measure;
   Programme programme;

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "scene/derived.hpp"
+#include "scene/drives.hpp"
+#include "scene/grading.hpp"
 #include "scene/ground.hpp"
 #include "scene/outline_faces.hpp"
 #include "scene/scene.hpp"
@@ -71,7 +73,10 @@ void take_changes(const Scene& whole, std::size_t stages, Scene& scene) {
     if (is_there(whole, stages, support.name, &Stage::release, &Stage::hold)) {
       holding.push_back(support);
       // Images would be where they were before anything moved; particles are held where they are.
-      if (begins_later(whole, support.name)) holding.back().method = SupportMethod::direct;
+      SupportMethod& method = holding.back().method;
+      if (begins_later(whole, support.name) && method == SupportMethod::automatic) {
+        method = SupportMethod::direct;
+      }
     } else {
       free_sides_of(support, scene);
     }
@@ -83,15 +88,29 @@ void take_changes(const Scene& whole, std::size_t stages, Scene& scene) {
   }
 }
 
-// The load parameter of a stage's end: that of its drive's measure, the target of a displacement.
-double load_at_end(const Scene& whole, std::size_t stages) {
-  double load = 0.0;
-  for (std::size_t s = 0; s < stages; ++s) {
-    const auto& to = whole.stage[s].to;
-    if (!to) continue;
-    load = whole.drive.kind == DriveKind::displacement ? *to / whole.drive.target : *to;
+// The drives as a stage finds them: the one in force, and the others, with what they have come to.
+void take_drives(const Scene& whole, const StageDrives& course, Scene& scene) {
+  const auto drives = drives_of(whole);
+  const auto as_then = [&](std::size_t d) {
+    Drive drive = *drives[d].drive;
+    drive.name = drives[d].name;
+    drive.number = d;
+    drive.later = course.since[d] > 0;
+    // Images would be where they were before anything moved; particles are moved where they are.
+    const bool moves_sides = drive.kind == DriveKind::displacement;
+    if (moves_sides && drive.later && drive.method == DriveMethod::automatic) {
+      drive.method = DriveMethod::direct;
+    }
+    return drive;
+  };
+  const std::vector<std::string> weakened = whole.drive.weakened;
+  scene.drive = {};
+  if (course.in_force) scene.drive = as_then(*course.in_force);
+  scene.drive.weakened = weakened;
+  for (std::size_t d = 0; d < drives.size(); ++d) {
+    if (course.in_force == d || drives[d].drive->kind == DriveKind::none) continue;
+    scene.other_drives.push_back({as_then(d), course.acts[d], course.load[d], course.last[d]});
   }
-  return load;
 }
 
 double reduction_at_end(const Scene& whole, std::size_t stages) {
@@ -104,6 +123,7 @@ double reduction_at_end(const Scene& whole, std::size_t stages) {
 
 Scene after_changes(const Scene& whole, std::size_t stages) {
   Scene scene = whole;
+  if (has_stage_drives(whole)) scene.grading.length = resolve_grading_length(whole);
   // Every stage measures the same, be a support there or not.
   scene.measure = resolve_measures(whole);
   // As the whole run has it: stages differ in what is there, not in how it is computed.
@@ -112,6 +132,10 @@ Scene after_changes(const Scene& whole, std::size_t stages) {
     scene.hourglass.stiffness_ratio = resolve_stiffness_ratio(whole);
   }
   take_changes(whole, stages, scene);
+  // Before the first stage its drive is there, and has not moved.
+  StageDrives drives = courses_of_drives(whole)[std::max<std::size_t>(stages, 1) - 1];
+  if (stages == 0) std::ranges::fill(drives.load, 0.0);
+  take_drives(whole, drives, scene);
   return scene;
 }
 
@@ -120,11 +144,18 @@ Scene after_changes(const Scene& whole, std::size_t stages) {
 Scene scene_of_stage(const Scene& whole, std::size_t stage) {
   if (whole.stage.empty()) return whole;
   Scene scene = after_changes(whole, stage + 1);
-  scene.course = {stage, load_at_end(whole, stage), load_at_end(whole, stage + 1),
+  const StageDrives drives = courses_of_drives(whole)[stage];
+  const std::optional<std::size_t> in_force = drives.in_force;
+  scene.course = {stage, in_force ? drives.begin : 0.0, in_force ? drives.load[*in_force] : 0.0,
                   reduction_at_end(whole, stage), reduction_at_end(whole, stage + 1)};
   const Stage& now = whole.stage[stage];
+  scene.course.fades = now.fades;
   if (now.steps) scene.programme.steps = now.steps;
   return scene;
+}
+
+bool holds_in_stage(const Scene& whole, std::size_t stage, const std::string& support) {
+  return is_there(whole, stage + 1, support, &Stage::release, &Stage::hold);
 }
 
 std::int64_t planned_steps(const Scene& whole) {

@@ -6,8 +6,8 @@
 namespace scene {
 
 /// Adds the keys of a contact to the table of what has one.
-template <class Struct>
-tables::TableBuilder<Scene, Struct>& with_contact(tables::TableBuilder<Scene, Struct>& table) {
+template <class Root, class Struct>
+tables::TableBuilder<Root, Struct>& with_contact(tables::TableBuilder<Root, Struct>& table) {
   return table
       .key("friction_angle", [](auto& of) -> auto& { return of.contact.friction_angle; },
            {.unit = "deg",

@@ -1,6 +1,7 @@
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
 #include "scene/tables.hpp"
+#include "scene/tables_drive.hpp"
 #include "tables/builder.hpp"
 
 namespace scene {
@@ -22,7 +23,9 @@ tables::TableBuilder<Scene, Stage>& with_changes(tables::TableBuilder<Scene, Sta
             .absent = "none"})
       .key("release", &Stage::release,
            {.need = tables::Need::optional,
-            .doc = "Names of supports that end; what they bore fades in the stage's steps.",
+            .doc =
+                "Names of supports and drives that end; what they bore, or the load they had come "
+                "to, fades in the stage's steps.",
             .absent = "none"})
       .key("hold", &Stage::hold,
            {.need = tables::Need::optional,
@@ -69,7 +72,7 @@ SceneTable stage() {
             .unit = "m, or factor",
             .doc = "Where the drive is at the stage's end: the displacement along its direction, "
                    "or what the loads that grow are multiplied by. Less than before is unloading.",
-            .absent = "where it was"})
+            .absent = "where it was; a drive that begins goes to its target, or to 1"})
       .key("reduction", &Stage::reduction,
            {.need = tables::Need::optional,
             .range = tables::positive(),
@@ -80,8 +83,19 @@ SceneTable stage() {
            {.need = tables::Need::optional,
             .range = tables::at_least(1),
             .doc = "Nominal number of equal steps.",
-            .absent = "programme.steps, or for a displacement increment_over_spacing"});
-  return with_changes(table).build();
+            .absent = "programme.steps, or for a displacement increment_over_spacing"})
+      .key("fades", &Stage::fades,
+           {.range = tables::between(0.0, 1.0),
+            .doc = "Share of what the changes leave unbalanced, as on the face of an excavation, "
+                   "that has faded at the stage's end; the rest goes on to the next one, which may "
+                   "begin with a lining."});
+  tables::TableBuilder<Drive, Drive> drive("");
+  with_changes(table).within(
+      "drive", &Stage::drive, with_drive(drive).build(),
+      "As in [drive], from this stage on. The one before stays where it is, unless it is released. "
+      "A name alone goes on with the drive of that name.",
+      "as in [drive]");
+  return table.build();
 }
 
 }  // namespace

@@ -28,15 +28,17 @@ scene::Scene settling(const scene::Scene& scene) {
     ground.refine.push_back(refine);
   }
   ground.grading.length = scene::resolve_grading_length(scene);
-  if (scene.drive.kind == scene::DriveKind::load) {
-    // What grows later is not there yet.
-    for (scene::OutlineSide& side : ground.side) side.live_pressure = side.live_shear = 0.0;
-    if (std::ranges::count(scene.drive.scales, scene::LoadKind::traction) > 0) {
-      ground.traction.clear();
-      for (scene::Cutout& cutout : ground.cutout) cutout.pressure = cutout.shear = 0.0;
-    }
+  // What grows later is not there yet.
+  const auto grows = [&](const std::string& name) {
+    return scene::grows(scene, scene::LoadKind::traction, name);
+  };
+  for (scene::OutlineSide& side : ground.side) side.live_pressure = side.live_shear = 0.0;
+  std::erase_if(ground.traction, [&](const auto& traction) { return grows(traction.name); });
+  for (scene::Cutout& cutout : ground.cutout) {
+    if (grows(cutout.name)) cutout.pressure = cutout.shear = 0.0;
   }
   ground.drive = {};
+  ground.other_drives.clear();
   ground.drive.kind = scene::DriveKind::load;
   ground.drive.scales = {scene::LoadKind::gravity};
   ground.hourglass.control = scene::resolve_control(scene);
@@ -55,7 +57,7 @@ void take_stress(const model::Model<Dim>& ground, const model::State<Dim>& rest,
   Eigen::Index point = 0;
   std::size_t k = 0;
   for (model::Interface<Dim>& interface : model.interfaces) {
-    if (interface.is_rigid() && interface.support.empty()) continue;
+    if (!interface.of_drive.empty()) continue;
     const Eigen::Index count = ground.interfaces.at(k++).faces.points.size();
     interface.initial_traction = rest.interface_traction.middleCols(point, count).transpose();
     point += count;

@@ -8,6 +8,27 @@
 
 namespace stepping {
 
+namespace {
+
+// Where something bears a reaction, by particles or by their images.
+template <int Dim>
+std::vector<char> held_unknowns(const model::Model<Dim>& model) {
+  std::vector<char> held = model.prescribed;
+  const auto& planes = model.ghosts.planes();
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    if (planes[p].symmetry) continue;
+    for (const fpm::Index a : model.ghosts.sources_of(p)) {
+      for (int i = 0; i < Dim; ++i) {
+        const bool holds = planes[p].held[static_cast<std::size_t>(i)];
+        if (holds) held[static_cast<std::size_t>(i * model.size() + a)] = 1;
+      }
+    }
+  }
+  return held;
+}
+
+}  // namespace
+
 template <int Dim>
 StagedModel<Dim>::StagedModel(const scene::Scene& whole, std::size_t stage)
     : whole_(whole), first_(model_at_rest<Dim>(scene::scene_before_stages(whole))) {
@@ -34,7 +55,8 @@ bool StagedModel<Dim>::is_last() const {
 template <int Dim>
 model::State<Dim> StagedModel<Dim>::initial_state() const {
   model::State<Dim> state = model::initial_state(first_);
-  return changed_ ? model::carry_state(first_, state, *changed_, false) : state;
+  return changed_ ? model::carry_state(first_, state, *changed_, false, scene_.course.load_begin)
+                  : state;
 }
 
 // By particle as the model at hand has them.
@@ -49,11 +71,15 @@ std::optional<equilibrium::InitialBalance<Dim>> StagedModel<Dim>::rest() const {
   here.plane_force = rest_.plane_force;
   here.plane_force.resize(changed_->plane_drive.size(), fpm::Vector<Dim>::Zero());
   const auto source = model::same_particles(*changed_, first_);
+  const std::vector<char> held = held_unknowns(*changed_);
   for (Eigen::Index a = 0; a < n; ++a) {
     const fpm::Index b = source[static_cast<std::size_t>(a)];
     if (b < 0) continue;
-    for (int i = 0; i < Dim; ++i) here.load[i * n + a] = rest_.load[i * first + b];
-    here.reaction.row(a) = rest_.reaction.row(b);
+    for (int i = 0; i < Dim; ++i) {
+      here.load[i * n + a] = rest_.load[i * first + b];
+      if (held[static_cast<std::size_t>(i * n + a)] != 0)
+        here.reaction(a, i) = rest_.reaction(b, i);
+    }
   }
   return here;
 }
@@ -74,7 +100,7 @@ void StagedModel<Dim>::go_on(model::State<Dim>& state) {
   const scene::Stage& next = whole_.stage[scene_.course.stage];
   const bool keeps_rows =
       next.remove.empty() && next.place.empty() && next.release.empty() && next.hold.empty();
-  state = model::carry_state(before, state, *changed_, keeps_rows);
+  state = model::carry_state(before, state, *changed_, keeps_rows, scene_.course.load_begin);
 }
 
 template class StagedModel<2>;

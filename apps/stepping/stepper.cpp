@@ -250,7 +250,7 @@ StepResult LoadStepper<Dim>::attempt(const Watch& watch) {
     double increment = std::min(programme.next_increment, left);
     if (left - increment < end_slack) increment = left;
     const double progress = increment == left ? 1.0 : programme.progress + increment;
-    equilibrium_->begin_step(load_at(progress), progress,
+    equilibrium_->begin_step(load_at(progress), scene_.course.fades * progress,
                              scene::reduction_at(scene_.course, progress));
 
     // Predictor: the last increment. Moving the prescribed unknowns alone would tear the body.
@@ -300,8 +300,12 @@ template <int Dim>
 void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
   model::ProgrammeState& programme = state_.programme;
   const equilibrium::StepForces forces = equilibrium_->commit(increment_);
-  const bool displaced = scene_.drive.kind == scene::DriveKind::displacement;
-  const double length = displaced ? scene_.drive.target : 1.0;
+  // What the curve reports: the side that moves, or else the one that was moved last and is held.
+  const std::optional<scene::ActingDrive> reported = scene::reported_drive(scene_);
+  const scene::Drive& drive = reported ? *reported->drive : scene_.drive;
+  const bool displaced = drive.kind == scene::DriveKind::displacement;
+  const double length = displaced ? drive.target : 1.0;
+  const bool held = reported && !reported->moves;
 
   ++programme.step;
   const double former_load = programme.load;
@@ -316,14 +320,16 @@ void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
 
   record.step = programme.step;
   record.load_parameter = programme.load;
-  record.settlement = displaced ? length * programme.load : forces.settlement;
-  const double reference = scene_.drive.reference_length.value_or(0.0);
+  const double place = held ? reported->held : programme.load;
+  record.settlement = displaced ? length * place : forces.settlement;
+  const double reference = drive.reference_length.value_or(0.0);
   record.settlement_over_B = reference > 0.0 ? record.settlement / reference : 0.0;
   // Without stages the increment itself, to the last bit.
   const bool whole = scene_.course.load_begin == 0.0 && scene_.course.load_end == 1.0;
   record.increment = length * (whole ? increment : programme.load - former_load);
+  if (displaced && held) record.increment = 0.0;
   record.reaction = forces.reaction;
-  if (const double width = scene_.drive.width.value_or(0.0); width > 0.0) {
+  if (const double width = drive.width.value_or(0.0); width > 0.0) {
     record.mean_pressure = forces.reaction / width;
     if (displaced) {
       const double taken = record.increment != 0.0 ? forces.hourglass_work / record.increment : 0.0;
@@ -364,6 +370,8 @@ Eigen::Index LoadStepper<Dim>::re_search() {
   const fpm::Field<Dim> position = model_.particles.position + state_.displacement;
   std::vector<fpm::Vector<Dim>> plane_motion = model_.plane_drive;
   for (fpm::Vector<Dim>& motion : plane_motion) motion *= state_.programme.load;
+  for (std::size_t p = 0; p < model_.plane_held.size(); ++p)
+    plane_motion[p] += model_.plane_held[p];
   const auto rebuilt =
       state_.rows.research(rows, position, volume, model_.driven_particle, plane_motion);
   std::vector<fpm::Index> changed = rebuilt;

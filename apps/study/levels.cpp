@@ -68,8 +68,10 @@ class WholeNumbers {
 
 WholeNumbers whole_numbers_of(const scene::Scene& scene) {
   WholeNumbers numbers(scene.geometry);
-  numbers.range(scene.drive.range_min, scene.drive.side);
-  numbers.range(scene.drive.range_max, scene.drive.side);
+  for (const scene::Drive* drive : scene::all_drives(scene)) {
+    numbers.range(drive->range_min, drive->side);
+    numbers.range(drive->range_max, drive->side);
+  }
   for (const scene::Traction& traction : scene.traction) {
     numbers.range(traction.range_min, traction.side);
     numbers.range(traction.range_max, traction.side);
@@ -127,8 +129,10 @@ std::vector<scene::Side> parse_far(const std::string& text, const scene::Scene& 
     const auto side = static_cast<scene::Side>(at - names.begin());
     const auto axis = static_cast<std::size_t>(scene::axis_of(side));
     if (axis >= scene.geometry.min.size()) refuse(word, "the body has no such side");
-    if (scene.drive.kind == scene::DriveKind::displacement && scene.drive.side == side) {
-      refuse(word, "it is the side that is moved");
+    for (const scene::Drive* drive : scene::all_drives(scene)) {
+      if (drive->kind == scene::DriveKind::displacement && drive->side == side) {
+        refuse(word, "it is the side that is moved");
+      }
     }
     if (scene::is_mirror(scene, side)) refuse(word, "it is a mirror");
     far.push_back(side);

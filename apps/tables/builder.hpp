@@ -3,7 +3,9 @@
 #include <concepts>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -67,6 +69,29 @@ class ScaledAccess final : public Access<Root> {
   double unit_;
 };
 
+/// A key of a table that an entry may hold or not.
+template <class Root, class Struct, class Part>
+class WithinAccess final : public Access<Root> {
+ public:
+  WithinAccess(Holder<Root, Struct> holder, std::optional<Part> Struct::*part,
+               std::shared_ptr<const Access<Part>> access)
+      : holder_(holder), part_(part), access_(std::move(access)) {}
+  [[nodiscard]] std::optional<Value> read(const Root& root, std::size_t entry) const override {
+    const std::optional<Part>& part = holder_.at(root, entry).*part_;
+    return part ? access_->read(*part, 0) : std::nullopt;
+  }
+  void write(Root& root, std::size_t entry, const Value& value) const override {
+    std::optional<Part>& part = holder_.at(root, entry).*part_;
+    if (!part) part.emplace();
+    access_->write(*part, 0, value);
+  }
+
+ private:
+  Holder<Root, Struct> holder_;
+  std::optional<Part> Struct::*part_;
+  std::shared_ptr<const Access<Part>> access_;
+};
+
 template <class Root, class Struct>
 class ListEntries final : public Entries<Root> {
  public:
@@ -111,6 +136,26 @@ class TableBuilder {
     field.choices = choices_of<Member>();
     field.notes = notes;
     field.access = std::make_shared<detail::MemberAccess<Root, Struct, Place>>(holder_, place);
+    return *this;
+  }
+
+  /// Adds the keys of a table that an entry may hold: `name.key` each.
+  /// @param keys  of that table, by itself
+  /// @param doc  in place of theirs
+  template <class Part>
+  TableBuilder& within(std::string_view name, std::optional<Part> Struct::*part,
+                       const Table<Part>& keys, std::string_view doc, std::string_view absent) {
+    for (const Field<Part>& key : keys.fields) {
+      Field<Root>& field = table_.fields.emplace_back();
+      static_cast<FieldInfo&>(field) = key;
+      field.key = std::string(name) + "." + key.key;
+      field.notes.need = Need::optional;
+      field.notes.source = "";
+      field.notes.doc = doc;
+      field.notes.absent = absent;
+      field.access =
+          std::make_shared<detail::WithinAccess<Root, Struct, Part>>(holder_, part, key.access);
+    }
     return *this;
   }
 

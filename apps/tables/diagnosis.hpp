@@ -38,6 +38,12 @@ class Diagnosis {
              std::string nearest = "");
   /// Adds a warning: the scene remains usable.
   void warning(const std::string& key, std::string found, std::string allowed);
+  /// This one without its complaints, for rules on a table that speak of another one: what was
+  /// given for `table` counts as given for `as`, and nothing else of that.
+  [[nodiscard]] Diagnosis with_table_as(const std::string& table, const std::string& as) const;
+  /// Adds the complaints of such a one, about its keys where they are.
+  void take(const Diagnosis& other, const std::string& table, const std::string& as);
+
   /// Whether none of these keys has an error, so that a rule joining them can be judged.
   [[nodiscard]] bool good(const std::vector<std::string>& keys) const;
 

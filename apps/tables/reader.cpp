@@ -33,6 +33,18 @@ void rename_tables(toml::table& tree, const std::vector<TableInfo>& tables, Diag
   }
 }
 
+}  // namespace
+
+const toml::node* node_at(const toml::table& table, std::string_view key) {
+  const std::size_t dot = key.find('.');
+  const toml::node* node = table.get(key.substr(0, dot));
+  if (dot == std::string_view::npos || node == nullptr) return node;
+  const toml::table* within = node->as_table();
+  return within == nullptr ? nullptr : node_at(*within, key.substr(dot + 1));
+}
+
+namespace {
+
 /// Walks the tree along the list of tables.
 class Walker {
  public:
@@ -115,7 +127,7 @@ class Walker {
     for (std::size_t number = 0; number < info.fields.size(); ++number) {
       const FieldInfo& field = info.fields[number];
       const std::string path = info.path(index, field.key);
-      const toml::node* node = table.get(field.key);
+      const toml::node* node = node_at(table, field.key);
       if (node != nullptr) {
         place(path, *node);
         if (const auto value = convert(*node, field, path, diagnosis_)) {
@@ -125,18 +137,29 @@ class Walker {
         diagnosis_.error(path, "is missing", "needed is " + field.allowed_text());
       }
     }
-    if (!info.name.empty()) refuse_unknown_keys(info, index, table);
+    if (!info.name.empty()) refuse_unknown_keys(info, index, "", table);
   }
 
-  void refuse_unknown_keys(const TableInfo& info, std::size_t index, const toml::table& table) {
+  // @param within  the dotted name of a table within the entry, with a dot at its end; else ""
+  void refuse_unknown_keys(const TableInfo& info, std::size_t index, const std::string& within,
+                           const toml::table& table) {
     std::vector<std::string_view> all;
     for (const FieldInfo& field : info.fields) all.push_back(field.key);
     for (const auto& entry : table) {
       const toml::key& key = entry.first;
-      const std::string name(key.str());
+      const std::string name = within + std::string(key.str());
       if (info.find(name) != nullptr) continue;
       const std::string path = info.path(index, name);
       place(path, key);
+      if (info.has_within(name)) {
+        if (const toml::table* inner = entry.second.as_table()) {
+          refuse_unknown_keys(info, index, name + ".", *inner);
+        } else {
+          diagnosis_.error(path, "found " + describe(entry.second),
+                           fmt::format("this is a table within {}", info.title()));
+        }
+        continue;
+      }
       std::string nearest = nearest_name(name, all);
       if (nearest.empty()) nearest = in_another_table(name);
       diagnosis_.error(path, "no such key",
@@ -167,7 +190,7 @@ std::optional<Complaint> read_tables(std::string_view text, std::span<const std:
                                      Diagnosis& diagnosis) {
   if (const std::size_t line = line_of_endless_key(text); line != 0) {
     return Complaint{fmt::format("{}:{}", diagnosis.source(), line), "", "a key of too many parts",
-                     "the deepest key has three, as in material.0.cohesion", ""};
+                     "the deepest key has four, as in stage.0.drive.kind", ""};
   }
   toml::table tree;
   try {

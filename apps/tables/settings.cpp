@@ -52,9 +52,14 @@ class Setter {
                          fmt::format("write {}.{}", info->name, segments.back()));
     }
     const std::size_t wanted = info->name.empty() ? 1 : info->repeated ? 3 : 2;
-    if (segments.size() != wanted) return wrong_depth(*info);
-    const FieldInfo* field = info->find(segments.back());
-    if (field == nullptr) return unknown_key(*info, segments.back());
+    if (segments.size() < wanted) return wrong_depth(*info);
+    std::string key = segments[wanted - 1];  // dotted, of a table within the table
+    for (std::size_t k = wanted; k < segments.size(); ++k) key += "." + segments[k];
+    const FieldInfo* field = info->find(key);
+    if (field == nullptr && segments.size() > wanted && !info->has_within(segments[wanted - 1])) {
+      return wrong_depth(*info);
+    }
+    if (field == nullptr) return unknown_key(*info, key);
 
     std::size_t index = 0;
     toml::table* table = &tree_;
@@ -135,16 +140,33 @@ class Setter {
     diagnosis_.place(info.path(index, field.key), "--set " + setting_.text);
     toml::table parsed = parse_value(field);
     const bool one = parsed.size() == 1 && parsed.contains("value");
+    const auto [within, key] = place_within(table, field.key);
+    if (within == nullptr) return;  // reported when the tree is read
     if (!one) {
       diagnosis_.error(info.path(index, field.key),
                        fmt::format("found `{}`, which is no TOML value", setting_.value),
                        "allowed is " + field.allowed_text());
-      table.erase(field.key);
+      within->erase(key);
       return;
     }
+    toml::table* const target = within;
+    const std::string name(key);
     std::move(*parsed.get("value")).visit([&](auto&& node) {
-      table.insert_or_assign(field.key, std::forward<decltype(node)>(node));
+      target->insert_or_assign(name, std::forward<decltype(node)>(node));
     });
+  }
+
+  // The table in which a dotted key stands, made if it is not there, and what is left of the key;
+  // no table where something else has its name.
+  static std::pair<toml::table*, std::string_view> place_within(toml::table& table,
+                                                                std::string_view key) {
+    const std::size_t dot = key.find('.');
+    if (dot == std::string_view::npos) return {&table, key};
+    const std::string_view name = key.substr(0, dot);
+    if (!table.contains(name)) table.insert(name, toml::table{});
+    toml::table* within = table.get(name)->as_table();
+    if (within == nullptr) return {nullptr, key};
+    return place_within(*within, key.substr(dot + 1));
   }
 
   /// `value = ...` as a TOML document, empty if it is none; a bare word counts as a text where the

@@ -72,7 +72,7 @@ struct FieldNotes {
 
 /// One key of one table, as it is described.
 struct FieldInfo {
-  std::string_view key;
+  std::string key;  // dotted in a table within the table: drive.kind
   ValueKind kind = ValueKind::text;
   std::vector<std::string_view> choices;  // allowed names, for choice and choices
   FieldNotes notes;
@@ -104,6 +104,14 @@ struct TableHead {
 template <class Key>
 struct TableOf : TableHead {
   std::vector<Key> fields;
+
+  /// Whether some keys are those of a table of this name within the table.
+  [[nodiscard]] bool has_within(std::string_view name) const {
+    return std::any_of(fields.begin(), fields.end(), [&](const Key& field) {
+      return field.key.size() > name.size() && field.key.starts_with(name) &&
+             field.key[name.size()] == '.';
+    });
+  }
 
   /// The field of that key, or nullptr.
   [[nodiscard]] const Key* find(std::string_view key) const {

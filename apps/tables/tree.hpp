@@ -21,6 +21,9 @@ namespace tables {
 [[nodiscard]] std::optional<Value> convert_varying(const toml::node& node, const FieldInfo& field,
                                                    const std::string& key, Diagnosis& diagnosis);
 
+/// The node of a key that may be dotted, one of a table within the table; none if it is not there.
+[[nodiscard]] const toml::node* node_at(const toml::table& table, std::string_view key);
+
 /// A short description of a value for messages: `the text "abc"`, `-0.01`, `a table`.
 [[nodiscard]] std::string describe(const toml::node& node);
 

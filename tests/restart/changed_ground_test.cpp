@@ -90,8 +90,15 @@ checkpoints_every = 1
 checkpoints_kept = 100
 )";
 
+// The same, rows being searched anew where it yields.
+const std::string searched_ground = changed_ground + R"(
+[re_search]
+enabled = true
+trigger = 0.0005
+)";
+
 // In a child process, which is killed when the checkpoint of a step is about to get its name.
-bool killed_at(const std::filesystem::path& run, int step,
+bool killed_at(const std::filesystem::path& run, const std::string& scene, int step,
                const std::vector<std::string>& arguments) {
   const std::string name = record::checkpoint_name(step);
   const pid_t child = ::fork();
@@ -100,7 +107,7 @@ bool killed_at(const std::filesystem::path& run, int step,
       if (call.name == "rename" && call.path.ends_with(name)) ::kill(::getpid(), SIGKILL);
       return Fault{};
     });
-    (void)fpm_run_in(run, changed_ground, arguments, system);
+    (void)fpm_run_in(run, scene, arguments, system);
     ::_exit(0);
   }
   int status = 0;
@@ -108,10 +115,10 @@ bool killed_at(const std::filesystem::path& run, int step,
   return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
 }
 
-TEST(StagesThatChangeTheGround, AreGoneOnWithBitByBitAfterAKillInsideEach) {
+void expect_the_same_after_kills(const std::string& scene) {
   const support::TemporaryFolder folder;
   const auto whole = folder / "whole", killed = folder / "killed";
-  const auto outcome = fpm_run_in(whole, changed_ground, {"--threads", "1"});
+  const auto outcome = fpm_run_in(whole, scene, {"--threads", "1"});
   ASSERT_EQ(outcome.code, program::ExitCode::done) << outcome.err;
   // Inside each stage: the last step but one is lost.
   const auto rows = record::read_curve(whole / "curve.csv");
@@ -124,13 +131,24 @@ TEST(StagesThatChangeTheGround, AreGoneOnWithBitByBitAfterAKillInsideEach) {
   ASSERT_EQ(lost.size(), 4U);
   std::vector<std::string> arguments{"--threads", "1"};
   for (const int step : lost) {
-    ASSERT_TRUE(killed_at(killed, step, arguments)) << "step " << step;
+    ASSERT_TRUE(killed_at(killed, scene, step, arguments)) << "step " << step;
     EXPECT_EQ(last_checkpoint(killed), checkpoint_of(killed, step - 1));
     arguments = {"--threads", "1", "--resume"};
   }
-  ASSERT_EQ(fpm_run_in(killed, changed_ground, arguments).code, program::ExitCode::done);
+  ASSERT_EQ(fpm_run_in(killed, scene, arguments).code, program::ExitCode::done);
   EXPECT_THAT(differing_fields(last_checkpoint(whole), last_checkpoint(killed)), IsEmpty());
   EXPECT_EQ(curve_without_wall(killed), curve_without_wall(whole));
+}
+
+TEST(StagesThatChangeTheGround, AreGoneOnWithBitByBitAfterAKillInsideEach) {
+  expect_the_same_after_kills(changed_ground);
+}
+
+TEST(StagesThatChangeTheGround, AreGoneOnWithBitByBitWithRowsSearchedAnew) {
+  expect_the_same_after_kills(searched_ground);
+  const support::TemporaryFolder folder;
+  ASSERT_EQ(fpm_run_in(folder / "run", searched_ground).code, program::ExitCode::done);
+  EXPECT_GT(column_sum_after(folder / "run", "researched_rows", 0), 0.0);
 }
 
 }  // namespace

@@ -221,7 +221,7 @@ TEST(GroundScene, HasFootingsOnNoFaceOfTheBox) {
   const Drive& drive = reading.scene->drive;
   EXPECT_EQ(drive.side, Side::top);
   EXPECT_EQ(drive.level, 1.0);
-  EXPECT_EQ(plate_position(*reading.scene), 1.0);
+  EXPECT_EQ(plate_position(reading.scene->geometry, reading.scene->drive), 1.0);
   EXPECT_EQ(resolve_drive_method(*reading.scene), DriveMethod::ghosts);
   const auto upright = parse_scene(
       scene_with("[[1, 2], [1, 1]]",

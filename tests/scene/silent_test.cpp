@@ -296,8 +296,8 @@ TEST(Keys, OfEndlessDepthAreRefused) {
   for (int i = 0; i < 50000; ++i) key += ".a";
   for (const std::string& text : {key + " = 1\n", "[" + key + "]\n", "b = {" + key + " = 1}\n"}) {
     EXPECT_THAT(texts(parse_scene("\n" + text, "s.toml").errors),
-                ElementsAre("s.toml:2: a key of too many parts; the deepest key has three, as in "
-                            "material.0.cohesion"));
+                ElementsAre("s.toml:2: a key of too many parts; the deepest key has four, as in "
+                            "stage.0.drive.kind"));
   }
   EXPECT_EQ(errors({"title={" + key + " = 1}"}).size(), 1U);
   EXPECT_THAT(errors({"title=\"" + std::string(100, '.') + "\""}), IsEmpty());
