@@ -82,7 +82,7 @@ template <int Dim>
 model::State<Dim> with_lateral_stress(const scene::Scene& scene, model::Model<Dim>& ground,
                                       const model::State<Dim>& rest) {
   constexpr int up = 1;
-  take_stress(model::Model<Dim>(ground), rest, ground);
+  take_stress(ground, rest, ground);
   for (Eigen::Index a = 0; a < ground.size(); ++a) {
     auto stress = ground.initial_stress.col(a);
     const double across = *scene.initial_stress.K0 * stress[up];

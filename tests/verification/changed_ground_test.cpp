@@ -87,6 +87,31 @@ release = ["prop"]
   EXPECT_GT(staged.state.displacement.col(0).maxCoeff(), 2.0 * propped);
 }
 
+// A stage may leave a part of what is unbalanced to the next one, which has nothing else to do: of
+// a linear body each moves it by its share.
+TEST(Release, MayFadeInTwoStages) {
+  const auto released = [](const std::string& more) {
+    return StagedRun(scene_of(block_of_stages +
+                              "[[stage]]\nname = \"weigh\"\nto = 1.0\n"
+                              "[[stage]]\nname = \"release\"\nrelease = [\"prop\"]\n" +
+                              more));
+  };
+  StagedRun whole = released("");
+  whole.complete();
+  StagedRun parted = released("fades = 0.4\n[[stage]]\nname = \"rest\"\nsteps = 2\n");
+  ASSERT_TRUE(parted.complete_stage());
+  const fpm::Field<2> propped = parted.state.displacement;
+  parted.stages.go_on(parted.state);
+  ASSERT_TRUE(parted.complete_stage());
+  const fpm::Field<2> gained = parted.state.displacement - propped;
+  const fpm::Field<2> to_gain = whole.state.displacement - propped;
+  EXPECT_LT((gained - 0.4 * to_gain).cwiseAbs().maxCoeff(),
+            of_linear_stages * whole.state.displacement.cwiseAbs().maxCoeff());
+  parted.stages.go_on(parted.state);
+  ASSERT_TRUE(parted.complete_stage());
+  expect_same_displacements(parted, whole);
+}
+
 // A prop that comes when all is over bears nothing, and the next load.
 TEST(Hold, BeginsWhereTheGroundIs) {
   StagedRun staged(scene_of(block_of_stages + R"(
