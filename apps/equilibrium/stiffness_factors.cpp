@@ -239,7 +239,12 @@ StiffnessFactors<Dim>::StiffnessFactors(const model::Model<Dim>& model,
   for (fpm::Index a = 0; a < model.size(); ++a) add_particle(model, op, a, stiffness);
   add_penalties(model, stiffness);
   add_interfaces(model, stiffness);
-  auto factor = std::make_shared<Eigen::SimplicialLLT<Sparse>>(stiffness.take());
+  Sparse matrix = stiffness.take();
+  // Of a body that is free to move in some way, as one that no load moves that way may be, the last
+  // pivots are round-off: this is more, and little beside the shape next to incompressibility.
+  constexpr double floor = 1e-12;
+  matrix.diagonal() *= 1.0 + floor;
+  auto factor = std::make_shared<Eigen::SimplicialLLT<Sparse>>(matrix);
   if (factor->info() != Eigen::Success) {
     throw std::runtime_error("the stiffness of the particles could not be factorised");
   }

@@ -65,14 +65,12 @@ void take_stress(const model::Model<Dim>& ground, const model::State<Dim>& rest,
 }
 
 template <int Dim>
-void finish(LoadStepper<Dim>& stepper, const model::State<Dim>& state, const char* what) {
+void finish(LoadStepper<Dim>& stepper, const model::State<Dim>& state, const char* failure) {
   while (!stepper.finished()) {
     const StepResult result = stepper.advance();
     if (result.outcome == StepOutcome::converged) continue;
-    throw DoesNotSettle(fmt::format(
-        "initial_stress.kind = \"gravity\": the ground does not stand under its own weight and "
-        "dead loads: no equilibrium beyond {:.3g} of {} ({})",
-        state.programme.progress, what, result.reason));
+    throw DoesNotSettle(fmt::format("{} beyond {:.3g} of it ({})", failure,
+                                    state.programme.progress, result.reason));
   }
 }
 
@@ -96,11 +94,12 @@ model::State<Dim> with_lateral_stress(const scene::Scene& scene, model::Model<Di
   scene::Scene fading = settling(scene);
   fading.course.load_begin = fading.course.load_end;
   LoadStepper<Dim> stepper(fading, ground, state);
-  constexpr const char* what = "the stress that K0 asks for";
   if (!stepper.begin_stage()) {
-    throw DoesNotSettle(fmt::format("initial_stress.K0: the ground cannot bear {}", what));
+    throw DoesNotSettle("initial_stress.K0: the stress that it asks for cannot be evaluated");
   }
-  finish(stepper, state, what);
+  finish(stepper, state,
+         "initial_stress.K0: what it leaves unbalanced where the surface or a joint is not level "
+         "cannot be taken away: no equilibrium");
   return state;
 }
 
@@ -114,7 +113,9 @@ model::Model<Dim> model_at_rest(const scene::Scene& scene) {
   model::Model<Dim> ground = model::build_model<Dim>(ground_scene);
   model::State<Dim> rest = model::initial_state(ground);
   LoadStepper<Dim> stepper(ground_scene, ground, rest);
-  finish(stepper, rest, "them");
+  finish(stepper, rest,
+         "initial_stress.kind = \"gravity\": the ground does not stand under its own weight and "
+         "dead loads: no equilibrium");
   if (scene.initial_stress.K0) rest = with_lateral_stress(scene, ground, rest);
   take_stress(ground, rest, model);
   return model;

@@ -42,13 +42,20 @@ ConsistencySolver::Solution ConsistencySolver::refine(const Eigen::VectorXd& rig
     gradients_->setTolerance(0.5 * target / norm);
     return gradients_->solve(residual);
   };
-  Solution best{Eigen::VectorXd::Zero(right_hand_side.size()), right_hand_side.norm(), false};
+  const SolutionMethod method =
+      by_factors ? SolutionMethod::factors : SolutionMethod::conjugate_gradients;
+  Solution best{Eigen::VectorXd::Zero(right_hand_side.size()), right_hand_side.norm(), false,
+                method};
+  if (best.residual <= target) {  // nothing to be done, and no norm to divide by
+    best.reached = true;
+    return best;
+  }
   Eigen::VectorXd x = improvement(right_hand_side, best.residual);
   for (int k = 0; k <= max_refinements; ++k) {
     const Eigen::VectorXd residual = right_hand_side - lower_.selfadjointView<Eigen::Lower>() * x;
     const double norm = residual.norm();
     if (!(norm < best.residual)) break;
-    best = {x, norm, norm <= target};
+    best = {x, norm, norm <= target, method};
     if (best.reached) break;
     x += improvement(residual, norm);
   }

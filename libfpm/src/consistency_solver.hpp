@@ -23,6 +23,7 @@ class ConsistencySolver {
     Eigen::VectorXd x;
     double residual = 0.0;  // norm
     bool reached = false;   // the tolerance
+    SolutionMethod method = SolutionMethod::factors;
   };
 
   /// @param round_off  residual below which the right-hand side means nothing

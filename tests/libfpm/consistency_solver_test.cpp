@@ -115,9 +115,21 @@ TEST_P(ConsistencySolvers, ReachTheToleranceInTheRange) {
   const Eigen::VectorXd b = lower.selfadjointView<Eigen::Lower>() * wanted;
   const auto solution = ConsistencySolver(lower, GetParam()).solve(b, 0.0);
   EXPECT_TRUE(solution.reached);
+  EXPECT_EQ(solution.method, GetParam());
   const Eigen::VectorXd left = b - lower.selfadjointView<Eigen::Lower>() * solution.x;
   EXPECT_LE(left.norm(), tolerance * b.norm());
   EXPECT_DOUBLE_EQ(left.norm(), solution.residual);
+}
+
+TEST_P(ConsistencySolvers, LeaveWhatIsRoundOffAlone) {
+  constexpr Index n = 60;
+  ConsistencySolver solver(squared_second_differences(n), GetParam());
+  for (const double size : {0.0, 1e-3}) {
+    const auto solution = solver.solve(Eigen::VectorXd::Unit(n, 7) * size, 1e-2);
+    EXPECT_TRUE(solution.reached);
+    EXPECT_EQ(solution.method, GetParam());
+    EXPECT_EQ(solution.residual, size);
+  }
 }
 
 TEST_P(ConsistencySolvers, SayWhatIsNotInTheRange) {

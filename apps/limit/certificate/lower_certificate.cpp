@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -19,6 +20,23 @@ namespace {
 
 const mesh::Point& node_at(const mesh::Mesh& mesh, int node) {
   return mesh.nodes[static_cast<std::size_t>(node)];
+}
+
+// Where soil without tension bears along a free face alone, or nothing, by the place of its stress.
+std::map<Eigen::Index, problem::BareCorner> bare_points(const problem::Problem& problem,
+                                                        const StressLayout& layout) {
+  std::map<Eigen::Index, problem::BareCorner> points;
+  const std::vector<problem::BareTriangle> bare = problem::bare_corners(problem);
+  for (std::size_t t = 0; t < bare.size(); ++t) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (bare[t][i].bears == problem::BareCorner::Bears::all) continue;
+      if (i >= 3 && layout.middles(t) < 0) continue;
+      const Eigen::Index at = i < 3 ? static_cast<Eigen::Index>(9 * t + 3 * i)
+                                    : layout.middles(t) + static_cast<Eigen::Index>(3 * i - 9);
+      points.emplace(at, bare[t][i]);
+    }
+  }
+  return points;
 }
 
 /// All the equations of equilibrium in the corners' (xx, yy, xy); the multiplier is given.
@@ -130,25 +148,17 @@ class BalanceEquations {
 
   // No equations of equilibrium, but without them rounding would make tensions of them.
   void leave_free_faces_bare() {
-    const std::vector<problem::BareTriangle> bare = problem::bare_corners(problem_);
-    for (std::size_t t = 0; t < bare.size(); ++t) {
-      for (std::size_t i = 0; i < 6; ++i) {
-        const problem::BareCorner& corner = bare[t][i];
-        if (corner.bears == problem::BareCorner::Bears::all) continue;
-        if (i >= 3 && layout_.middles(t) < 0) continue;
-        const Eigen::Index at = i < 3 ? static_cast<Eigen::Index>(9 * t + 3 * i)
-                                      : layout_.middles(t) + static_cast<Eigen::Index>(3 * i - 9);
-        if (corner.bears == problem::BareCorner::Bears::nothing) {
-          for (Eigen::Index row = 0; row < 3; ++row) {
-            equations_.begin(0.0);
-            equations_.add(at + row, 1.0);
-          }
-          continue;
-        }
-        for (const mesh::Point& direction : {mesh::Point(1, 0), mesh::Point(0, 1)}) {
+    for (const auto& [at, corner] : bare_points(problem_, layout_)) {
+      if (corner.bears == problem::BareCorner::Bears::nothing) {
+        for (Eigen::Index row = 0; row < 3; ++row) {
           equations_.begin(0.0);
-          add(at, corner.normal, direction, 1.0);
+          equations_.add(at + row, 1.0);
         }
+        continue;
+      }
+      for (const mesh::Point& direction : {mesh::Point(1, 0), mesh::Point(0, 1)}) {
+        equations_.begin(0.0);
+        add(at, corner.normal, direction, 1.0);
       }
     }
   }
@@ -218,15 +228,15 @@ class BalanceEquations {
   algebra::EquationBuilder equations_;
 };
 
-// What no stress may exceed: yield in each triangle's corner, tension where it is cut off, none
-// where a footing may lift off.
+// What no stress may exceed: yield in each triangle's corner, tension where it is cut off (along
+// the face alone where nothing else is borne), none where a footing may lift off.
 struct Ceiling {
-  enum class Kind { yield, tension, contact };
+  enum class Kind { yield, tension, along, contact };
   Eigen::Index point = 0;
   Kind kind = Kind::yield;
   double cohesive = 0.0, sine = 0.0;         // c cos(phi), linear as the stress between points is
   double tension = 0.0;                      // the soil's
-  mesh::Point normal{0.0, 0.0};              // of a contact
+  mesh::Point normal{0.0, 0.0};              // of a contact, of a face
   const problem::Envelope* curve = nullptr;  // of a yield that is not c and phi's
 };
 
@@ -242,6 +252,20 @@ void add_ceilings(Eigen::Index point, const problem::Soil& soil, const problem::
   if (!soil.cuts_tension()) return;
   ceiling.kind = Ceiling::Kind::tension;
   ceilings.push_back(ceiling);
+}
+
+// Where soil without tension bears along a face or nothing, traction on the face is a matter of
+// equilibrium, whose residual it is in: no stress there is strictly within the cone.
+void keep_to_bare_points(const problem::Problem& problem, const StressLayout& layout,
+                         std::vector<Ceiling>& ceilings) {
+  const std::map<Eigen::Index, problem::BareCorner> bare = bare_points(problem, layout);
+  std::erase_if(ceilings, [&](Ceiling& ceiling) {
+    const auto found = bare.find(ceiling.point);
+    if (ceiling.kind != Ceiling::Kind::tension || found == bare.end()) return false;
+    ceiling.kind = Ceiling::Kind::along;
+    ceiling.normal = found->second.normal;
+    return found->second.bears == problem::BareCorner::Bears::nothing;
+  });
 }
 
 std::vector<Ceiling> ceilings_of(const problem::Problem& problem) {
@@ -262,6 +286,7 @@ std::vector<Ceiling> ceilings_of(const problem::Problem& problem) {
                    ceilings);
     }
   }
+  keep_to_bare_points(problem, layout, ceilings);
   for (const mesh::Edge& edge : mesh::edges_of(mesh)) {
     if (edge.boundary < 0) continue;
     if (!problem.boundaries[static_cast<std::size_t>(edge.boundary)].may_open) continue;
@@ -289,16 +314,14 @@ double excess(const Ceiling& ceiling, const Eigen::VectorXd& field) {
     const mesh::Point& n = ceiling.normal;
     return n.x() * n.x() * stress[0] + n.y() * n.y() * stress[1] + 2.0 * n.x() * n.y() * stress[2];
   }
+  if (ceiling.kind == Ceiling::Kind::along) {
+    const mesh::Point& n = ceiling.normal;
+    return n.y() * n.y() * stress[0] + n.x() * n.x() * stress[1] - 2.0 * n.x() * n.y() * stress[2];
+  }
   const double mean = (stress[0] + stress[1]) / 2.0;
   const double radius = std::hypot((stress[0] - stress[1]) / 2.0, stress[2]);
   if (ceiling.kind == Ceiling::Kind::tension) {
-    const double excess = mean + radius - ceiling.tension;
-    // Without tension no stress at a free face is strictly within, and rounding decides. A pressure
-    // of that much more, equal in all directions, is within; it is out of equilibrium with the
-    // faces by less than what equilibrium is held to.
-    constexpr double rounding = 1e-12;
-    const double allowed = rounding * std::max(1.0, std::abs(mean));
-    return ceiling.tension == 0.0 && excess > 0.0 && excess <= allowed ? 0.0 : excess;
+    return mean + radius - ceiling.tension;
   }
   if (ceiling.curve != nullptr) {
     const double beyond = mean - ceiling.curve->apex();

@@ -433,7 +433,8 @@ UpperCertificate certify_upper(const problem::Problem& problem,
   certificate.multiplier = certificate.dissipation - value(flow.dead_power(), x);
   certificate.field = as_field(x);
   constexpr double rounding = 1e-11;
-  certificate.holds = holds && certificate.residual < rounding;
+  certificate.holds =
+      holds && certificate.residual < rounding && std::isfinite(certificate.multiplier);
   return certificate;
 }
 

@@ -90,8 +90,6 @@ class Reader {
     require(scene::yields(material), table + "model", "an elastic material never yields");
     require(material.match == "plane_strain", table + "match",
             "only strengths matched in plane strain are those of Mohr-Coulomb");
-    require(!material.curve.intact_strength && !material.curve.reference_stress, table + "model",
-            "strength of a curved envelope is for ground of [[region]]s");
     require(!material.tension_cutoff, table + "tension_cutoff",
             "the bounds are those of a soil without a tension cut-off");
     require(!material.residual_strain, table + "residual_strain",

@@ -44,6 +44,8 @@ class Reader {
            "fpm-limit bounds one ground: give it what is there at the stage in question");
     refuse(!scene_.drive.weakened.empty(), "drive.weakened", "only some materials are weakened",
            "fpm-limit divides the strength of all");
+    refuse(!scene_.drive.loads.empty(), "drive.loads", "only some loads grow",
+           "fpm-limit lets all live loads grow: give those that do not as pressure and shear");
     take_load();
     for (std::size_t m = 0; m < scene_.material.size(); ++m) take_material(m);
     for (std::size_t r = 0; r < scene_.region.size(); ++r) {
@@ -146,6 +148,9 @@ class Reader {
            "allowed is one angle, or that of friction_angle");
     soil.tension_cutoff = material.tension_cutoff;
     soil.curve = curve_of(material);
+    refuse(material.tension_cutoff.has_value() && soil.curve.model != StrengthModel::mohr_coulomb,
+           table + "tension_cutoff", "it is given for a curved envelope",
+           "the tension that such ground bears is that of its envelope");
     soil.unit_weight = material.density.scaled(weight_);
     if (material.saturated_unit_weight && material.unit_weight.value_or(0.0).value > 0.0) {
       soil.saturated_unit_weight = material.saturated_unit_weight->scaled(

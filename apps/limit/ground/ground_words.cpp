@@ -92,7 +92,7 @@ std::vector<std::string> assumptions_of(const GroundScene& scene, const problem:
   if (is_curved) {
     assumptions.emplace_back(
         "strength of a curved envelope flows by its normal, whatever its dilation; the bounds are "
-        "certified against the envelope itself, of whose tangents the programmes know");
+        "certified against the envelope itself, of which the programmes know chords and tangents");
   }
   if (scene.load.sought == Sought::strength) {
     assumptions.emplace_back(

@@ -180,6 +180,22 @@ TEST(SceneOfBoth, SaysWhatFpmLimitDoesNotBracket) {
   heavier += "[water]\ntable = [[0, 1], [3, 1]]\n";
   EXPECT_FALSE(ground_of(heavier, &errors));
   EXPECT_THAT(errors, ElementsAre(HasSubstr("drive.scales: found gravity, in ground under water")));
+  errors.clear();
+  std::string some = with("kind = \"displacement\"\ntarget = 0.01",
+                          "kind = \"load\"\nscales = [\"traction\"]\nloads = [\"slope\"]\n"
+                          "[programme]\nsteps = 2");
+  some.replace(some.find("kind = \"footing\"\nbase = \"smooth\""), 32, "kind = \"free\"");
+  some.replace(some.find("pressure = 100"), 14, "live_pressure = 100");
+  EXPECT_FALSE(ground_of(some, &errors));
+  EXPECT_THAT(errors, ElementsAre(HasSubstr("drive.loads: only some loads grow")));
+  errors.clear();
+  std::string rock = with("model = \"von_mises\"",
+                          "model = \"hoek_brown\"\nintact_strength = 20e6\nm_i = 10\ngsi = 45\n"
+                          "tension_cutoff = 1e3");
+  rock.erase(rock.find("cohesion = 5e3\n"), 15);
+  EXPECT_FALSE(ground_of(rock, &errors));
+  EXPECT_THAT(errors, ElementsAre(HasSubstr("material.0.tension_cutoff: it is given for a "
+                                            "curved envelope")));
 }
 
 }  // namespace

@@ -209,10 +209,10 @@ TEST(TensionCutOff, OfNothingHasAFactorOfSafety) {
   options.gap = 0.03;
   const bracket::Solution found = bracket::solution_of(problem->associated, options, {});
   ASSERT_TRUE(found.lower && found.upper);
-  // Between the spiral's 1.2519 of the soil with its tension and what the weight of 7.2 leaves of
-  // the multiplier 9.04 .. 10.00 found on the first mesh: more than 1.
-  EXPECT_GT(*found.lower, 1.0);
-  EXPECT_LT(*found.upper, 1.2519);
+  // The bracket of 1.55 % that limit-analysis.md has, 1.170 .. 1.188, with this one's gap besides;
+  // the spiral of the soil with its tension has 1.2519.
+  EXPECT_GT(*found.lower, 1.15);
+  EXPECT_LT(*found.upper, 1.21);
   EXPECT_LT(found.gap(), 0.05);
 }
 
