@@ -189,9 +189,10 @@ TEST(SceneOfBoth, SaysWhatFpmLimitDoesNotBracket) {
   EXPECT_FALSE(ground_of(some, &errors));
   EXPECT_THAT(errors, ElementsAre(HasSubstr("drive.loads: only some loads grow")));
   errors.clear();
-  std::string rock = with("model = \"von_mises\"",
-                          "model = \"hoek_brown\"\nintact_strength = 20e6\nm_i = 10\ngsi = 45\n"
-                          "tension_cutoff = 1e3");
+  std::string rock = with(
+      "model = \"von_mises\"",
+      "model = \"hoek_brown\"\nintact_strength = 20e6\nm_i = 10\ngsi = 45\ndilation_ratio = 1\n"
+      "tension_cutoff = 1e3");
   rock.erase(rock.find("cohesion = 5e3\n"), 15);
   EXPECT_FALSE(ground_of(rock, &errors));
   EXPECT_THAT(errors, ElementsAre(HasSubstr("material.0.tension_cutoff: it is given for a "
