@@ -391,6 +391,12 @@ void check_stages(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_plate_stays(scene, diagnosis);
   check_supports(scene, diagnosis);
   for (std::size_t s = 0; s < scene.stage.size(); ++s) check_stage(scene, s, diagnosis);
+  const std::string fades = key_of(scene.stage.size() - 1, "fades");
+  if (scene.stage.back().fades < 1.0 && diagnosis.good({fades})) {
+    diagnosis.warning(fades, fmt::format("found {} in the last stage", scene.stage.back().fades),
+                      "the rest of what changes leave unbalanced never fades: the run ends out of "
+                      "equilibrium");
+  }
 }
 
 }  // namespace scene
