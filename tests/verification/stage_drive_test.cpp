@@ -291,6 +291,27 @@ drive = { name = "a_b", kind = "load", scales = ["gravity"] }
   EXPECT_EQ(measures.columns()[2], "a_b_1_load_parameter");
 }
 
+// Without measures of its own the curve of a displacement has none, be it let go or not.
+TEST(StageDrives, MeasureTheSameInEveryStage) {
+  StagedRun run(scene_of(block + "[drive]" + plate + R"(
+[[stage]]
+name = "press"
+to = 0.002
+steps = 1
+[[stage]]
+name = "let go"
+release = ["drive"]
+steps = 1
+)"));
+  const auto columns = [&] {
+    return model::Measures<2>(run.stages.scene(), run.stages.model()).columns();
+  };
+  const auto pressed = columns();
+  ASSERT_TRUE(run.complete_stage());
+  run.stages.go_on(run.state);
+  EXPECT_EQ(columns(), pressed);
+}
+
 // A rough footing beside a slope, at the lower end of it or level with its top: on no face of the
 // box, or on one.
 std::string footing_on(double rise) {
