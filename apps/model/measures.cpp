@@ -74,8 +74,13 @@ void Measures<Dim>::name_drives(const scene::Scene& scene) {
   for (const scene::OtherDrive& other : scene.other_drives) add(other.drive, false, other.load);
   for (const auto& [number, drive] : all) {
     const bool displaces = drive.first->kind == scene::DriveKind::displacement;
-    columns_.push_back(scene::column_name(scene::name_of_drive(*drive.first)) +
-                       (displaces ? "_moved_m" : "_load_parameter"));
+    const std::string name = scene::column_name(scene::name_of_drive(*drive.first));
+    const std::string_view what = displaces ? "_moved_m" : "_load_parameter";
+    std::string column = fmt::format("{}{}", name, what);
+    if (std::ranges::count(columns_, column) > 0) {
+      column = fmt::format("{}_{}{}", name, number, what);
+    }
+    columns_.push_back(std::move(column));
     drives_.push_back(drive.second);
   }
 }

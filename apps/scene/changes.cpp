@@ -24,6 +24,16 @@ std::string text_at(const SceneTable& table, const tables::Field<Scene>& field, 
   return value ? tables::value_text(*value, field.kind) : "absent";
 }
 
+// Whether a key is the measure of a drive of which stages say how far it goes: it follows from all
+// of them, those to come among them.
+bool is_measure(const SceneTable& table, std::string_view key, const Scene& before,
+                const Scene& after, std::size_t index) {
+  const auto goes_to = [&](const Scene& scene) {
+    return index < scene.stage.size() && scene.stage[index].to;
+  };
+  return table.name == "stage" && key == "drive.target" && goes_to(before) && goes_to(after);
+}
+
 }  // namespace
 
 std::string SceneChange::text() const {
@@ -62,7 +72,8 @@ std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after, 
         SceneChange change{table.path(i, field.key), text_at(table, field, before, i),
                            text_at(table, field, after, i), false};
         if (change.before == change.after) continue;
-        change.allowed = may_change_on_resume(change.key) || (table.name == "stage" && i > stage);
+        change.allowed = may_change_on_resume(change.key) || (table.name == "stage" && i > stage) ||
+                         is_measure(table, field.key, before, after, i);
         changes.push_back(std::move(change));
       }
     }

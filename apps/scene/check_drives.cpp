@@ -73,11 +73,24 @@ void check_claims(const Scene& scene, const std::vector<NamedDrive>& drives, Loa
   }
 }
 
-void check_names_of_drives(const Scene& scene, const std::vector<NamedDrive>& drives,
-                           tables::Diagnosis& diagnosis) {
+std::string place_of_name(const NamedDrive& drive, const tables::Diagnosis& diagnosis) {
+  return diagnosis.given(drive.key + ".name") ? drive.key + ".name" : drive.key;
+}
+
+void check_not_a_support(const Scene& scene, const NamedDrive& named,
+                         tables::Diagnosis& diagnosis) {
+  const std::string where = place_of_name(named, diagnosis);
+  if (named.drive->kind == DriveKind::none || !diagnosis.good({where})) return;
+  if (std::ranges::count(scene.support, named.name, &Support::name) == 0) return;
+  diagnosis.error(where, fmt::format("is called \"{}\", as is a support", named.name),
+                  "stages release drives and supports, and measures know them, by their names: "
+                  "give another one");
+}
+
+void check_names_of_drives(const std::vector<NamedDrive>& drives, tables::Diagnosis& diagnosis) {
   for (std::size_t d = 0; d < drives.size(); ++d) {
-    const auto& [name, drive, key, stage] = drives[d];
-    const std::string where = diagnosis.given(key + ".name") ? key + ".name" : key;
+    const std::string where = place_of_name(drives[d], diagnosis);
+    const std::string& name = drives[d].name;
     if (!diagnosis.good({where})) continue;
     for (std::size_t other = 0; other < d; ++other) {
       const bool unused = drives[other].drive->kind == DriveKind::none;
@@ -85,10 +98,6 @@ void check_names_of_drives(const Scene& scene, const std::vector<NamedDrive>& dr
       diagnosis.error(
           where, fmt::format("is called \"{}\", as is {}", name, drives[other].key),
           "names of drives are unique; a name alone goes on with the drive of that name");
-    }
-    if (std::ranges::count(scene.support, name, &Support::name) > 0) {
-      diagnosis.error(where, fmt::format("is called \"{}\", as is a support", name),
-                      "stages release drives and supports by their names: give another one");
     }
   }
 }
@@ -178,8 +187,18 @@ void check_own(const Scene& scene, const NamedDrive& named, std::size_t number,
 void check_kind(const Scene& scene, const std::vector<NamedDrive>& drives, std::size_t s,
                 tables::Diagnosis& diagnosis) {
   const auto& own = scene.stage[s].drive;
-  if (!own || own->kind != DriveKind::none || *own == Drive() || is_reference(scene, s)) return;
   const std::string table = fmt::format("stage.{}.drive", s);
+  if (!own || *own == Drive()) {
+    const bool is_empty = diagnosis.given(table) && !diagnosis.given(table + ".kind");
+    const bool is_good = std::ranges::none_of(
+        diagnosis.errors(), [&](const auto& error) { return error.key.starts_with(table); });
+    if (!is_empty || !is_good) return;
+    diagnosis.error(table, "has neither kind nor name",
+                    "a new drive needs its kind, displacement or load, one that goes on its name; "
+                    "kind = \"none\" ends the one in force");
+    return;
+  }
+  if (own->kind != DriveKind::none || is_reference(scene, s)) return;
   if (!diagnosis.good({table, table + ".name", table + ".kind"})) return;
   std::vector<std::string_view> names;
   for (const NamedDrive& drive : drives) {
@@ -205,12 +224,18 @@ void check_kind(const Scene& scene, const std::vector<NamedDrive>& drives, std::
 
 void check_drives(const Scene& scene, tables::Diagnosis& diagnosis) {
   const auto drives = drives_of(scene);
-  for (const NamedDrive& drive : drives) check_loads_of(scene, drive, diagnosis);
-  if (!has_stage_drives(scene)) return;
+  for (const NamedDrive& drive : drives) {
+    check_loads_of(scene, drive, diagnosis);
+    check_not_a_support(scene, drive, diagnosis);
+  }
+  if (!scene.stage.empty()) {
+    check_drive_in_place(as_only_drive(scene, drives.front(), 0), diagnosis);
+  }
   for (std::size_t s = 0; s < scene.stage.size(); ++s) check_kind(scene, drives, s, diagnosis);
+  if (!has_stage_drives(scene)) return;
   for (std::size_t d = 1; d < drives.size(); ++d) check_own(scene, drives[d], d, diagnosis);
   if (!diagnosis.errors().empty()) return;
-  check_names_of_drives(scene, drives, diagnosis);
+  check_names_of_drives(drives, diagnosis);
   for (const std::string& name : names_of_loads(scene)) {
     check_claims(scene, drives, LoadKind::traction, name, diagnosis);
   }

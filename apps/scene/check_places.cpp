@@ -94,32 +94,43 @@ void check_not_through_mirror(const Scene& scene, tables::Diagnosis& diagnosis) 
   }
 }
 
+/// Whether a support holds its side by images, and is read.
+bool has_images(const Support& support, const std::string& table,
+                const tables::Diagnosis& diagnosis) {
+  return support.method == SupportMethod::ghosts && support.side &&
+         diagnosis.good({table + ".side", table + ".method"});
+}
+
 /// A side has images once: of a mirror, of the drive, or of its supports.
 void check_images(const Scene& scene, tables::Diagnosis& diagnosis) {
+  if (!diagnosis.good({"symmetry"})) return;
+  for (std::size_t i = 0; i < scene.support.size(); ++i) {
+    const std::string table = fmt::format("support.{}", i);
+    if (!has_images(scene.support[i], table, diagnosis)) continue;
+    if (!is_mirror(scene, *scene.support[i].side)) continue;
+    diagnosis.error(table + ".method", "found ghosts on a mirror",
+                    "it has images of its own, which hold the side across it: leave the support "
+                    "out, or use direct");
+  }
+}
+
+void check_images_of_drive(const Scene& scene, tables::Diagnosis& diagnosis) {
   const Drive& drive = scene.drive;
-  const bool driven = drive.kind == DriveKind::displacement && drive.method == DriveMethod::ghosts;
+  if (drive.kind != DriveKind::displacement || drive.method != DriveMethod::ghosts) return;
   if (!diagnosis.good({"symmetry", "drive.side", "drive.method"})) return;
-  if (driven && is_mirror(scene, drive.side)) {
+  if (is_mirror(scene, drive.side)) {
     diagnosis.error("drive.method", "found ghosts on a mirror",
                     "it has images of its own: drive another side, or by direct");
+    return;
   }
   for (std::size_t i = 0; i < scene.support.size(); ++i) {
     const Support& support = scene.support[i];
     const std::string table = fmt::format("support.{}", i);
-    if (support.method != SupportMethod::ghosts || !support.side ||
-        !diagnosis.good({table + ".side", table + ".method"})) {
-      continue;
-    }
-    if (is_mirror(scene, *support.side)) {
-      diagnosis.error(table + ".method", "found ghosts on a mirror",
-                      "it has images of its own, which hold the side across it: leave the support "
-                      "out, or use direct");
-    } else if (driven && drive.side == *support.side) {
-      diagnosis.error(
-          table + ".method", "found ghosts on the side that the drive moves by ghosts",
-          "a side has images once: let the drive hold it by lateral = \"fixed\", or use "
-          "direct");
-    }
+    const bool holds = !support.directions.empty();  // not of one that is gone while it is driven
+    if (!holds || !has_images(support, table, diagnosis) || drive.side != *support.side) continue;
+    diagnosis.error(table + ".method", "found ghosts on the side that the drive moves by ghosts",
+                    "a side has images once: let the drive hold it by lateral = \"fixed\", or use "
+                    "direct");
   }
 }
 
@@ -129,7 +140,8 @@ void check_places(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (!box_is_good(scene, diagnosis)) return;
   if (!diagnosis.good({"geometry.spacing", "geometry.layout", "geometry.jitter"})) return;
   check_regions(scene, diagnosis);
-  check_drive_in_place(scene, diagnosis);
+  // With stages each drive is judged beside the supports that hold while it acts (check_drives).
+  if (scene.stage.empty()) check_drive_in_place(scene, diagnosis);
   check_mirrors(scene, diagnosis);
   check_images(scene, diagnosis);
 }
@@ -139,6 +151,7 @@ void check_drive_in_place(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (!diagnosis.good({"geometry.spacing", "geometry.layout", "geometry.jitter"})) return;
   check_held_and_moved(scene, diagnosis);
   check_not_through_mirror(scene, diagnosis);
+  check_images_of_drive(scene, diagnosis);
 }
 
 }  // namespace scene

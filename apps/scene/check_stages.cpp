@@ -325,7 +325,6 @@ void check_stage(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis
                     "a table moves that is there from the first: give water.table, below the body "
                     "if it is dry");
   }
-  check_values(scene, s, diagnosis);
   check_flow(scene, s, diagnosis);
   check_way(scene, s, diagnosis);
 }
@@ -374,6 +373,10 @@ void check_stages(const Scene& scene, tables::Diagnosis& diagnosis) {
                     "allowed are auto, incremental and mixed, which forget where the ground was");
   }
   check_names(scene.stage, "stage", diagnosis);
+  // The scene of a stage takes them as they are.
+  const std::size_t complaints = diagnosis.errors().size();
+  for (std::size_t s = 0; s < scene.stage.size(); ++s) check_values(scene, s, diagnosis);
+  if (diagnosis.errors().size() > complaints) return;
   if (scene.drive.kind == DriveKind::strength && diagnosis.good({"drive.kind"})) {
     diagnosis.error("drive.kind", "found strength with stages",
                     "a stage says to which reduction it goes: leave the drive out");
@@ -388,6 +391,12 @@ void check_stages(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_plate_stays(scene, diagnosis);
   check_supports(scene, diagnosis);
   for (std::size_t s = 0; s < scene.stage.size(); ++s) check_stage(scene, s, diagnosis);
+  const std::string fades = key_of(scene.stage.size() - 1, "fades");
+  if (scene.stage.back().fades < 1.0 && diagnosis.good({fades})) {
+    diagnosis.warning(fades, fmt::format("found {} in the last stage", scene.stage.back().fades),
+                      "the rest of what changes leave unbalanced never fades: the run ends out of "
+                      "equilibrium");
+  }
 }
 
 }  // namespace scene

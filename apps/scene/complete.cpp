@@ -338,7 +338,7 @@ void complete_drive(Scene& scene, const shape::Outline& outline, tables::Diagnos
   }
   if (!drive.width) drive.width = (along(high) - along(low)) * depth;
   drive.lateral = footing.base == Base::rough ? Lateral::fixed : Lateral::free;
-  const bool later = &drive != &scene.drive;  // images cannot begin later
+  const bool later = comes_later(scene, drive);  // which images cannot
   if ((!footing.tension || later) && drive.method == DriveMethod::automatic) {
     drive.method = DriveMethod::contact;
     drive.contact.tension = footing.tension;

@@ -258,9 +258,10 @@ std::string column_name(const std::string& name) {
 
 std::vector<Measure> resolve_measures(const Scene& scene) {
   const bool several = has_stage_drives(scene);
-  if (!scene.measure.empty() || (scene.drive.kind == DriveKind::displacement && !several)) {
-    return scene.measure;
-  }
+  // Be it the one in force, or one that was let go: all stages measure the same.
+  const bool displaces = std::ranges::any_of(
+      all_drives(scene), [](const Drive* drive) { return drive->kind == DriveKind::displacement; });
+  if (!scene.measure.empty() || (displaces && !several)) return scene.measure;
   std::vector<Measure> all{{.name = "body", .kind = MeasureKind::max_displacement}};
   std::vector<std::string> supports;
   for (const NamedDrive& drive : drives_of(scene)) {

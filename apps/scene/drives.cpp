@@ -134,6 +134,16 @@ std::vector<StageDrives> courses_of_drives(const Scene& whole) {
   return courses;
 }
 
+bool comes_later(const Scene& whole, const Drive& drive) {
+  const auto drives = drives_of(whole);
+  const auto is_it = [&](const NamedDrive& named) { return named.drive == &drive; };
+  const auto d = static_cast<std::size_t>(std::ranges::find_if(drives, is_it) - drives.begin());
+  return d < drives.size() &&
+         std::ranges::any_of(courses_of_drives(whole), [&](const StageDrives& course) {
+           return course.acts[d] && course.since[d] > 0;
+         });
+}
+
 Drive* drive_of_footing(Scene& whole) {
   if (is_plate(whole.drive)) return &whole.drive;
   for (Stage& stage : whole.stage) {

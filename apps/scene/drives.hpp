@@ -47,6 +47,10 @@ struct StageDrives {
 /// Of each stage. Names that are not known are as if they were not there.
 [[nodiscard]] std::vector<StageDrives> courses_of_drives(const Scene& whole);
 
+/// Whether a drive begins after the first stage, or comes back after it was released: the ground
+/// has moved by then.
+[[nodiscard]] bool comes_later(const Scene& whole, const Drive& drive);
+
 /// The drive that the [[side]] of a footing is for: the first that moves or loads a plate; none if
 /// there is none.
 [[nodiscard]] Drive* drive_of_footing(Scene& whole);

@@ -260,7 +260,7 @@ struct Drive {
   // [m] across its side, of a plate whose [[side]] is on no face of the box; no key.
   std::optional<double> level;
   bool on_footing = false;  // it is the one that the [[side]] of a footing is for; no key
-  bool later = false;       // it begins when the ground has moved already; no key
+  bool later = false;       // it begins, or comes back, when the ground has moved; no key
   std::size_t number = 0;   // among all of a run; no key
   bool operator==(const Drive&) const = default;
 };

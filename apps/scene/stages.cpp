@@ -95,10 +95,11 @@ void take_drives(const Scene& whole, const StageDrives& course, Scene& scene) {
     Drive drive = *drives[d].drive;
     drive.name = drives[d].name;
     drive.number = d;
-    drive.later = course.since[d] > 0;
+    drive.later = comes_later(whole, *drives[d].drive);
     // Images would be where they were before anything moved; particles are moved where they are.
     const bool moves_sides = drive.kind == DriveKind::displacement;
-    if (moves_sides && drive.later && drive.method == DriveMethod::automatic) {
+    const bool has_moved = course.since[d] > 0;
+    if (moves_sides && has_moved && drive.method == DriveMethod::automatic) {
       drive.method = DriveMethod::direct;
     }
     return drive;

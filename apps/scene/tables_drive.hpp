@@ -37,7 +37,9 @@ tables::TableBuilder<Root, Drive>& with_drive(tables::TableBuilder<Root, Drive>&
       .key("kind", &Drive::kind,
            {.doc = "displacement: particles of a side are moved. load: tractions or gravity grow "
                    "from 0 to their value. strength: cohesion and tan(phi) are divided by a factor "
-                   "that grows from 1. none: constant loads, one step. [[stage]]s say how far."})
+                   "that grows from 1, in [drive] without stages. none: constant loads, one step; "
+                   "of a stage: what was in force stays where it is, and nothing moves or grows. "
+                   "[[stage]]s say how far."})
       .key("side", &Drive::side,
            {.doc = "displacement: the side that is moved; plate: the one it lies on."})
       .key("range_min", &Drive::range_min,

@@ -1,11 +1,14 @@
 #include <gmock/gmock.h>
 
+#include "scene/changes.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
 #include "support/sample_scene.hpp"
 
 namespace scene {
 namespace {
+
+using ::testing::ElementsAre;
 
 SceneReading with(const std::vector<std::string>& settings) {
   return parse_scene(support::sample_scene, "s.toml", settings);
@@ -132,6 +135,33 @@ TEST(SceneSettings, TakeTheFormerNameOfATableWithALineOfAdvice) {
 TEST(SceneSettings, CannotSmuggleFurtherKeysIn) {
   EXPECT_FALSE(with({"drive.target=0.02\ndirection = [1.0, 0.0]"}).scene);
   EXPECT_FALSE(with({"title=\"a\"\n[re_search]\nenabled = true"}).scene);
+}
+
+// The measure of a stage's drive follows from how far all stages go, those to come among them.
+TEST(SceneChanges, OfAStageToComeMayReachFarther) {
+  const std::string text = support::sample_with(
+      "kind = \"displacement\"\nrange_min = 0.0\nrange_max = 0.5\ndirection = [0.0, -1.0]\n"
+      "target = 0.05\nwidth = 0.5\n",
+      R"([[stage]]
+name = "there"
+to = 0.05
+drive = { kind = "displacement", range_max = 0.5, range_min = 0.0, direction = [0.0, -1.0], width = 0.5 }
+[[stage]]
+name = "on"
+to = 0.08
+)");
+  const auto changes = [&](const std::string& first, const std::string& setting) {
+    const auto before = parse_scene(text, "s.toml", std::vector<std::string>{first});
+    const auto after = parse_scene(text, "s.toml", std::vector<std::string>{first, setting});
+    EXPECT_TRUE(before.scene && after.scene);
+    return scene_changes(*before.scene, *after.scene, 0);
+  };
+  EXPECT_THAT(changes("title=a", "stage.1.to=0.1"),
+              ElementsAre(SceneChange{"stage.0.drive.target", "0.08", "0.1", true},
+                          SceneChange{"stage.1.to", "0.08", "0.1", true}));
+  // Of the stage that has begun nothing may change.
+  EXPECT_THAT(changes("title=a", "stage.0.to=0.04"),
+              ElementsAre(SceneChange{"stage.0.to", "0.05", "0.04", false}));
 }
 
 }  // namespace

@@ -155,6 +155,29 @@ TEST(Drive, OfEndlesslyManyStepsIsRefused) {
                           "allowed are at most 1000000000"));
 }
 
+// What holds where a plate was, once that is gone, is not there while it is driven.
+TEST(Drive, AndASupportMayTakeTurns) {
+  const std::string lid = support_of("lid", "side = \"top\"");
+  const std::string first = "[[stage]]\nname = \"a\"\nto = 0.05\n";
+  const std::string hold = "[[stage]]\nname = \"b\"\nsteps = 2\nhold = [\"lid\"]\n";
+  EXPECT_THAT(errors({}, lid + first + hold + "release = [\"drive\"]\n"), IsEmpty());
+  EXPECT_THAT(errors({}, lid + first + hold),
+              ElementsAre(HasSubstr("support.1.directions: found y, along which the drive moves")));
+}
+
+TEST(Stage, SaysThatWhatDoesNotFadeInTheLastOneNeverDoes) {
+  const std::string two =
+      "[[stage]]\nname = \"a\"\nto = 0.05\n[[stage]]\nname = \"b\"\nto = 0.06\n";
+  const auto warnings = [&](const std::string& setting) {
+    return texts(with({setting}, two).warnings);
+  };
+  EXPECT_THAT(warnings("stage.1.fades=0.2"),
+              Contains("--set stage.1.fades=0.2: stage.1.fades: found 0.2 in the last stage; the "
+                       "rest of what changes leave unbalanced never fades: the run ends out of "
+                       "equilibrium"));
+  EXPECT_THAT(warnings("stage.0.fades=0.2"), Not(Contains(HasSubstr("fades"))));
+}
+
 TEST(Traction, ThroughAMirrorIsRefused) {
   EXPECT_THAT(
       errors({}, "[[traction]]\nname = \"p\"\nside = \"left\"\nvalue = [1.0, 0.0]\n"),

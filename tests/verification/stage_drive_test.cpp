@@ -267,5 +267,49 @@ steps = 2
   EXPECT_EQ(measured(run, "one_Ry_N_per_m"), 0.0);
 }
 
+TEST(StageDrives, HaveColumnsOfTheirOwnWhateverTheyAreCalled) {
+  const StagedRun run(scene_of(block + R"(
+[gravity]
+acceleration = [0.0, -10.0]
+[drive]
+name = "a b"
+kind = "load"
+scales = ["traction"]
+[[stage]]
+name = "push"
+to = 1.0
+steps = 1
+[[stage]]
+name = "press"
+steps = 1
+drive = { name = "a_b", kind = "load", scales = ["gravity"] }
+)",
+                               {"material.0.density=2e3"}));
+  const model::Measures<2> measures(run.stages.scene(), run.stages.model());
+  EXPECT_EQ(measures.columns()[1], "a_b_load_parameter");
+  EXPECT_EQ(measures.columns()[2], "a_b_1_load_parameter");
+}
+
+// Without measures of its own the curve of a displacement has none, be it let go or not.
+TEST(StageDrives, MeasureTheSameInEveryStage) {
+  StagedRun run(scene_of(block + "[drive]" + plate + R"(
+[[stage]]
+name = "press"
+to = 0.002
+steps = 1
+[[stage]]
+name = "let go"
+release = ["drive"]
+steps = 1
+)"));
+  const auto columns = [&] {
+    return model::Measures<2>(run.stages.scene(), run.stages.model()).columns();
+  };
+  const auto pressed = columns();
+  ASSERT_TRUE(run.complete_stage());
+  run.stages.go_on(run.state);
+  EXPECT_EQ(columns(), pressed);
+}
+
 }  // namespace
 }  // namespace verification
