@@ -48,7 +48,9 @@ class Stiffness {
   /// What is left of it is an empty sum.
   Sparse take() {
     gather();
-    return std::move(sum_);
+    Sparse taken;
+    taken.swap(sum_);
+    return taken;
   }
 
  private:

@@ -28,7 +28,7 @@ std::vector<Eigen::Index> behind(const Model<Dim>& model, scene::Side side, doub
   std::vector<Eigen::Index> particles = sources_of_planes(model, scene::axis_of(side), position);
   particles.insert(particles.end(), on_face.begin(), on_face.end());
   std::ranges::sort(particles);
-  particles.erase(std::ranges::unique(particles).begin(), particles.end());
+  particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
   return particles;
 }
 
