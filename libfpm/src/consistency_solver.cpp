@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 namespace fpm::detail {
 
-ConsistencySolver::ConsistencySolver(Eigen::SparseMatrix<double> lower, SolutionMethod method)
-    : lower_(std::move(lower)) {
+ConsistencySolver::ConsistencySolver(const Matrix& lower, SolutionMethod method) : lower_(lower) {
   if (method == SolutionMethod::factors) {
     factorise();
     return;

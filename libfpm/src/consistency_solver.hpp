@@ -17,7 +17,9 @@ class ConsistencySolver {
  public:
   /// @param lower  triangle of S
   /// @throws std::runtime_error if factors are asked for and there are none
-  ConsistencySolver(Eigen::SparseMatrix<double> lower, SolutionMethod method);
+  ConsistencySolver(const Eigen::SparseMatrix<double>& lower, SolutionMethod method);
+  ConsistencySolver(const ConsistencySolver&) = delete;  // its iterations read its own matrix
+  ConsistencySolver& operator=(const ConsistencySolver&) = delete;
 
   struct Solution {
     Eigen::VectorXd x;
