@@ -164,7 +164,14 @@ class Climb {
       fineness.level = level;
       if (level >= first_levels) {
         const double ratio = wish_.spacings[level - 1] / wish_.spacings[level];
-        if (!within_budget(last_seconds * std::pow(ratio, wish_.growth))) return;
+        if (!within_budget(last_seconds * std::pow(ratio, wish_.growth))) {
+          if (answer_.bar <= wish_.accuracy * std::abs(answer_.value)) {
+            answer_.obstacle +=
+                "; the bar is as small as asked for, but of so few spacings that do "
+                "not settle it is not believed";
+          }
+          return;
+        }
       }
       const auto reply = ask_({fineness}).front();
       if (!reply) {

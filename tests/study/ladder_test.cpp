@@ -195,6 +195,8 @@ TEST(TheLadder, BelievesNoThreeSpacingsThatDoNotSettle) {
   });
   EXPECT_FALSE(cut.reached);
   EXPECT_EQ(cut.fineness.level, 2U);
+  EXPECT_LE(cut.bar, 0.05 * cut.value);
+  EXPECT_THAT(cut.obstacle, HasSubstr("the bar is as small as asked for, but"));
 }
 
 TEST(TheLadder, EndsWhereARunHasNoValue) {
