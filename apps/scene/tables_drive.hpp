@@ -27,19 +27,10 @@ tables::TableBuilder<Root, Drive>& with_plate(tables::TableBuilder<Root, Drive>&
             .absent = "only without a loaded plate"});
 }
 
-/// Adds the keys of a drive, be it [drive] or that of a stage.
+/// Adds the keys of how a side is moved.
 template <class Root>
-tables::TableBuilder<Root, Drive>& with_drive(tables::TableBuilder<Root, Drive>& table) {
-  table
-      .key("name", &Drive::name,
-           {.doc = "By which stages release it, or go on with it, and of its columns in the curve. "
-                   "Empty: drive, or the name of its stage."})
-      .key("kind", &Drive::kind,
-           {.doc = "displacement: particles of a side are moved. load: tractions or gravity grow "
-                   "from 0 to their value. strength: cohesion and tan(phi) are divided by a factor "
-                   "that grows from 1, in [drive] without stages. none: constant loads, one step; "
-                   "of a stage: what was in force stays where it is, and nothing moves or grows. "
-                   "[[stage]]s say how far."})
+tables::TableBuilder<Root, Drive>& with_motion(tables::TableBuilder<Root, Drive>& table) {
+  return table
       .key("side", &Drive::side,
            {.doc = "displacement: the side that is moved; plate: the one it lies on."})
       .key("range_min", &Drive::range_min,
@@ -73,7 +64,23 @@ tables::TableBuilder<Root, Drive>& with_drive(tables::TableBuilder<Root, Drive>&
             .range = tables::at_least(0.0),
             .doc = "displacement: how far; the direction has the sign; with stages the largest "
                    "displacement of all, unless given. strength: the factor at the end, without "
-                   "unit."})
+                   "unit."});
+}
+
+/// Adds the keys of a drive, be it [drive] or that of a stage.
+template <class Root>
+tables::TableBuilder<Root, Drive>& with_drive(tables::TableBuilder<Root, Drive>& table) {
+  table
+      .key("name", &Drive::name,
+           {.doc = "By which stages release it, or go on with it, and of its columns in the curve. "
+                   "Empty: drive, or the name of its stage."})
+      .key("kind", &Drive::kind,
+           {.doc = "displacement: particles of a side are moved. load: tractions or gravity grow "
+                   "from 0 to their value. strength: cohesion and tan(phi) are divided by a factor "
+                   "that grows from 1, in [drive] without stages. none: constant loads, one step; "
+                   "of a stage: what was in force stays where it is, and nothing moves or grows. "
+                   "[[stage]]s say how far."});
+  with_motion(table)
       .key("scales", &Drive::scales,
            {.need = tables::Need::optional,
             .doc =
