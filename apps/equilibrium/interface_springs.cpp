@@ -1,5 +1,6 @@
 #include "equilibrium/interface_springs.hpp"
 
+#include <Eigen/QR>
 #include <stdexcept>
 #include <vector>
 

@@ -1,6 +1,7 @@
 #include "material/error_map.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <stdexcept>

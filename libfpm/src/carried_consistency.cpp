@@ -1,5 +1,6 @@
 #include "fpm/carried_consistency.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <iterator>

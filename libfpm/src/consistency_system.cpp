@@ -1,5 +1,6 @@
 #include "consistency_system.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 
 namespace fpm::detail {

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 
+#include "constitutive/spectral.hpp"
 #include "constitutive/strength_reduction.hpp"
 #include "points.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "constitutive/spectral.hpp"
 #include "points.hpp"
 
 // Cohesion and friction that go to residual values with the plastic strain.

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include <Eigen/Geometry>
 #include <constitutive/objective.hpp>

@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "points.hpp"
 

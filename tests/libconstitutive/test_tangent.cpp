@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "constitutive/spectral.hpp"
 #include "points.hpp"
 
 // Consistent tangents against central differences of the update, in every regime.

@@ -1,6 +1,7 @@
 // Tractions, following pressure and penalty supports.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 #include <fpm/boundary_loads.hpp>
 
 #include "sets.hpp"

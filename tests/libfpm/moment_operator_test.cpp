@@ -1,6 +1,7 @@
 // Gather and scatter against the loops they stand for, and the layout they run on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 #include <fpm/moment_operator.hpp>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // What internal forces conserve.
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "operator_reference.hpp"
 

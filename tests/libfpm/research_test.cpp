@@ -1,6 +1,7 @@
 // Local re-search: rows rebuilt on current positions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 #include <fpm/rows.hpp>
 
 #include <numeric>

@@ -1,6 +1,7 @@
 // The first search and the record a checkpoint keeps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 #include <fpm/rows.hpp>
 
 #include <any>

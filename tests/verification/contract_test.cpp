@@ -3,6 +3,7 @@
 // alone.
 
 #include <omp.h>
+#include <Eigen/LU>
 
 #include "bodies.hpp"
 #include "libfpm/allocation_count.hpp"

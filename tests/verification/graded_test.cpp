@@ -1,6 +1,7 @@
 // Particles graded to where it matters: exact where lattices are, and more for less elsewhere.
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "bodies.hpp"
 #include "constitutive/objective.hpp"

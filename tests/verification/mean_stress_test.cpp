@@ -1,6 +1,7 @@
 // The mean stress that frames show: `recovered_mean_stress` against exact fields. The particles'
 // own one, `mean_stress`, alternates by several times the cohesion.
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <numbers>
 

@@ -8,6 +8,7 @@
 
 #include "constitutive/mixed.hpp"
 #include "constitutive/mohr_coulomb.hpp"
+#include "constitutive/spectral.hpp"
 
 /// `mixed_return` and `mixed_tangent` of Mohr-Coulomb: M deviators that share one mean stress.
 ///
