@@ -98,9 +98,12 @@ class Equilibrium {
                Eigen::VectorXd& w) const {
     vectors_.combine(own, columns, factors, w);
   }
-  void rotate(std::span<Eigen::VectorXd* const> columns, std::span<const double> cosines,
-              std::span<const double> sines) const {
-    vectors_.rotate(columns, cosines, sines);
+  void dots(jfnk::SingleVectors columns, const Eigen::VectorXd& w, std::span<double> sums) const {
+    vectors_.dots(columns, w, sums);
+  }
+  void combine(double own, jfnk::SingleVectors columns, std::span<const double> factors,
+               Eigen::VectorXd& w) const {
+    vectors_.combine(own, columns, factors, w);
   }
 
   /// Takes the increment into the state. Call right after an evaluation that converged at it.

@@ -44,14 +44,15 @@ double ThreadedVectors::dot(const jfnk::Vector& a, const jfnk::Vector& b) const 
   return sum;
 }
 
-void ThreadedVectors::dots(jfnk::Vectors columns, const jfnk::Vector& w,
-                           std::span<double> sums) const {
+template <class Columns>
+void ThreadedVectors::dots_of(Columns columns, const jfnk::Vector& w,
+                              std::span<double> sums) const {
   const Eigen::Index blocks = jfnk::blocks_of(w.size());
   const auto size = static_cast<std::size_t>(blocks) * strip;
   if (block_sums_.size() < size) block_sums_.resize(size);
   for (std::size_t begin = 0; begin < columns.size(); begin += strip) {
     const std::size_t count = std::min(strip, columns.size() - begin);
-    const jfnk::Vectors some = columns.subspan(begin, count);
+    const Columns some = columns.subspan(begin, count);
     double* const parts = block_sums_.data();
     share_out(w.size(), count, particles_, [&](Eigen::Index block) {
       jfnk::dots_of_block(block, some, w, {parts + static_cast<std::size_t>(block) * strip, count});
@@ -64,17 +65,26 @@ void ThreadedVectors::dots(jfnk::Vectors columns, const jfnk::Vector& w,
   }
 }
 
+void ThreadedVectors::dots(jfnk::Vectors columns, const jfnk::Vector& w,
+                           std::span<double> sums) const {
+  dots_of(columns, w, sums);
+}
+
+void ThreadedVectors::dots(jfnk::SingleVectors columns, const jfnk::Vector& w,
+                           std::span<double> sums) const {
+  dots_of(columns, w, sums);
+}
+
 void ThreadedVectors::combine(double own, jfnk::Vectors columns, std::span<const double> factors,
                               jfnk::Vector& w) const {
   share_out(w.size(), columns.size(), particles_,
             [&](Eigen::Index block) { jfnk::combine_block(block, own, columns, factors, w); });
 }
 
-void ThreadedVectors::rotate(std::span<jfnk::Vector* const> columns,
-                             std::span<const double> cosines, std::span<const double> sines) const {
-  if (columns.empty()) return;
-  share_out(columns.front()->size(), columns.size(), particles_,
-            [&](Eigen::Index block) { jfnk::rotate_block(block, columns, cosines, sines); });
+void ThreadedVectors::combine(double own, jfnk::SingleVectors columns,
+                              std::span<const double> factors, jfnk::Vector& w) const {
+  share_out(w.size(), columns.size(), particles_,
+            [&](Eigen::Index block) { jfnk::combine_block(block, own, columns, factors, w); });
 }
 
 }  // namespace equilibrium

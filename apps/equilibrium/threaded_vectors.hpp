@@ -19,13 +19,17 @@ class ThreadedVectors {
   /// w = own w + sum_j factors[j] columns[j]; w is not read if own = 0.
   void combine(double own, jfnk::Vectors columns, std::span<const double> factors,
                jfnk::Vector& w) const;
-  /// Rotates neighbouring columns, see `jfnk::rotate_block`.
-  void rotate(std::span<jfnk::Vector* const> columns, std::span<const double> cosines,
-              std::span<const double> sines) const;
+  /// Both of columns in single precision.
+  void dots(jfnk::SingleVectors columns, const jfnk::Vector& w, std::span<double> sums) const;
+  void combine(double own, jfnk::SingleVectors columns, std::span<const double> factors,
+               jfnk::Vector& w) const;
 
   std::size_t bytes() const { return block_sums_.capacity() * sizeof(double); }
 
  private:
+  template <class Columns>
+  void dots_of(Columns columns, const jfnk::Vector& w, std::span<double> sums) const;
+
   Eigen::Index particles_;
   mutable std::vector<double> block_sums_;
 };

@@ -42,6 +42,9 @@ jfnk::Options solver_options(const scene::Scene& scene, double rounding) {
   if (settings.jacobian == scene::JacobianKind::finite_difference) {
     options.jacobian.source = jfnk::Jacobian::Source::finite_difference;
   }
+  // Rounded pairs cost no evaluations before a tolerance like this, and half the memory.
+  constexpr double finest_for_single_precision = 1e-6;
+  options.multisecant.single_precision = settings.tolerance >= finest_for_single_precision;
   options.jacobian.length_scale = scene.geometry.spacing;
   options.max_evaluations = scene.solver.max_evaluations_per_step;
   return options;

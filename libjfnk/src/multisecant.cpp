@@ -106,7 +106,7 @@ void find_step(Solve& solve) {
   if (keeps_images(solve) != work.secants.has_images()) work.secants.clear(keeps_images(solve));
   if (work.secants.images_are_old()) {
     work.secants.renew_images(
-        [&](const Vector& q, Vector& image) { solve.evaluator.precondition(q, image); });
+        [&](const Vector& y, Vector& image) { solve.evaluator.precondition(y, image); });
   }
   if (keeps_preconditioned(solve)) precondition_base(solve);
   if (!has_broyden(solve)) {
@@ -229,8 +229,9 @@ void renew_memory(Solve& solve) {
   Workspace& work = solve.work;
   CountedPreconditioner counted{&solve.evaluator};
   work.secants.clear(keeps_images(solve));
-  work.gmres.hand_out_space(counted.ref(), [&](const Vector& z, const Vector& q, const auto& r) {
-    return work.secants.append(z, q, r, solve.options.multisecant.max_condition);
+  work.gmres.hand_out_space(counted.ref(), [&](const Vector& z, Vectors q, const auto& r) {
+    return work.secants.append(z, q, r, solve.options.multisecant.max_condition,
+                               solve.evaluator.product());
   });
 }
 

@@ -84,8 +84,8 @@ void check_multisecant(const Multisecant& m, Checker& check) {
   check.at_least(m.wild_patience, 1, "multisecant.wild_patience");
   check.require(m.rejection > 1.0, "multisecant.rejection", "above 1", m.rejection);
   check.up_to_one(m.mixing, "multisecant.mixing");
-  check.require(m.max_condition > 1.0 && m.max_condition <= 1e15, "multisecant.max_condition",
-                "in (1, 1e15]", m.max_condition);
+  check.require(m.max_condition > 1.0 && m.max_condition <= 1e6, "multisecant.max_condition",
+                "in (1, 1e6]", m.max_condition);
   check.at_least(m.max_cuts, 0, "multisecant.max_cuts");
 }
 
@@ -215,7 +215,7 @@ Options plasticity() {
   options.multisecant.patience = 10;
   options.multisecant.progress = 1.0;
   options.multisecant.scale_mixing = false;
-  options.multisecant.max_condition = 1e8;
+  options.multisecant.max_condition = 1e6;
   options.multisecant.broyden = false;
   options.multisecant.renew = false;
   options.multisecant.wild_patience = std::numeric_limits<int>::max();

@@ -10,7 +10,7 @@ namespace detail {
 namespace {
 
 // First integer of a snapshot; raised when its fields change.
-constexpr std::int64_t snapshot_version = 6;
+constexpr std::int64_t snapshot_version = 7;
 
 struct Writer {
   Snapshot& out;
@@ -168,6 +168,7 @@ Snapshot Solver::save() const {
   write(m.options.method);
   write(m.work.base.u.size());
   write(m.work.secants.capacity());
+  write(m.options.multisecant.single_precision);
   write(m.work.setup_point.size());
   write(m.work.evaluator_state.learnt);
   write(m.report.history.size());
@@ -186,6 +187,7 @@ void Solver::load(const Snapshot& snapshot) {
   std::int64_t capacity = 0;
   std::int64_t setup_size = 0;
   std::int64_t lines = 0;
+  bool single_precision = false;
   bool learnt = false;
   read(version);
   if (version != detail::snapshot_version) {
@@ -195,6 +197,7 @@ void Solver::load(const Snapshot& snapshot) {
   read(method);
   read(n);
   read(capacity);
+  read(single_precision);
   read(setup_size);
   read(learnt);
   read(lines);
@@ -202,11 +205,12 @@ void Solver::load(const Snapshot& snapshot) {
   const bool plausible = n >= 0 && n <= held / 5 && (setup_size == 0 || setup_size == n) &&
                          lines >= 0 && lines <= held && capacity >= 0 && (n > 0 || !learnt);
   if (!plausible) detail::Reader::fail();
-  if (method != m.options.method || capacity > m.options.multisecant.memory) {
+  if (method != m.options.method || capacity > m.options.multisecant.memory ||
+      single_precision != m.options.multisecant.single_precision) {
     throw std::invalid_argument("jfnk::Solver::load: saved under other options");
   }
   detail::resize(m.work, n, std::max<std::int64_t>(n, capacity), m.options, setup_size > 0);
-  m.work.secants.resize(n, static_cast<int>(capacity));
+  m.work.secants.resize(n, static_cast<int>(capacity), single_precision);
   m.work.setup_point.resize(setup_size);
   m.work.evaluator.learnt.reset(n);
   if (learnt) detail::use_learnt_jacobian(m.work, m.options);

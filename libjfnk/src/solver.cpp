@@ -77,7 +77,7 @@ void resize(Workspace& work, Eigen::Index n, Eigen::Index global, const Options&
   }
   if (options.method != Method::newton_krylov) {
     const Eigen::Index pairs = std::min<Eigen::Index>(options.multisecant.memory, global);
-    work.secants.resize(n, static_cast<int>(pairs));
+    work.secants.resize(n, static_cast<int>(pairs), options.multisecant.single_precision);
     const bool broyden = preconditioned && options.multisecant.broyden;
     work.broyden.resize(n, broyden ? options.multisecant.memory : 0);
     for (Vector* v : {&work.by_least_squares, &work.by_broyden, &work.image}) {
@@ -336,6 +336,7 @@ std::size_t Solver::bytes_to_come(Eigen::Index n, bool preconditioned, int krylo
   const Options& options = memory_->options;
   const Eigen::Index p = preconditioned ? 1 : 0;
   Eigen::Index vectors = 13 + p;  // iterates and residuals, step, direction, probe; setup_point
+  Eigen::Index singles = 0;
   if (options.method != Method::multisecant) {
     const Eigen::Index most = std::min(options.krylov.restart, options.krylov.max_iterations) + 1;
     const Eigen::Index basis = std::min<Eigen::Index>({most, krylov_vectors + 1, n + 1});
@@ -345,13 +346,15 @@ std::size_t Solver::bytes_to_come(Eigen::Index n, bool preconditioned, int krylo
     const Multisecant& rule = options.multisecant;
     const Eigen::Index pairs = std::min<Eigen::Index>(rule.memory, n);
     const bool broyden = preconditioned && rule.broyden;
-    vectors += 1 + 2 * pairs + (broyden ? 3 + 2 * rule.memory : 0);
-    if (broyden && !rule.preconditioned_norm) vectors += pairs;
+    vectors += 1 + (broyden ? 3 + 2 * rule.memory : 0);
+    const Eigen::Index columns = (broyden && !rule.preconditioned_norm ? 3 : 2) * pairs;
+    (rule.single_precision ? singles : vectors) += columns;
     if (preconditioned && (broyden || rule.preconditioned_norm || options.learning.enabled)) {
       vectors += 2;
     }
   }
   return static_cast<std::size_t>(vectors * n) * sizeof(double) +
+         static_cast<std::size_t>(singles * n) * sizeof(float) +
          detail::most_lines(options) * sizeof(Iteration);
 }
 

@@ -23,9 +23,8 @@ Rows rows_of(Eigen::Index block, Eigen::Index n) {
   return {begin, std::min(rows_per_block, n - begin)};
 }
 
-}  // namespace
-
-void dots_of_block(Eigen::Index block, Vectors columns, const Vector& w, std::span<double> sums) {
+template <class Columns>
+void dots_of_rows(Eigen::Index block, Columns columns, const Vector& w, std::span<double> sums) {
   const Rows rows = rows_of(block, w.size());
   const double* const b = w.data() + rows.begin;
   std::size_t j = 0;
@@ -39,8 +38,9 @@ void dots_of_block(Eigen::Index block, Vectors columns, const Vector& w, std::sp
   }
 }
 
-void combine_block(Eigen::Index block, double own, Vectors columns, std::span<const double> factors,
-                   Vector& w) {
+template <class Columns>
+void combine_rows(Eigen::Index block, double own, Columns columns, std::span<const double> factors,
+                  Vector& w) {
   const Rows rows = rows_of(block, w.size());
   double* const to = w.data() + rows.begin;
   if (own == 0.0) {
@@ -59,14 +59,41 @@ void combine_block(Eigen::Index block, double own, Vectors columns, std::span<co
   }
 }
 
-void rotate_block(Eigen::Index block, std::span<Vector* const> columns,
-                  std::span<const double> cosines, std::span<const double> sines) {
-  if (columns.empty()) return;
-  const Rows rows = rows_of(block, columns.front()->size());
-  for (std::size_t j = 0; j + 1 < columns.size(); ++j) {
-    detail::rotate_two(rows.count, cosines[j], sines[j], columns[j]->data() + rows.begin,
-                       columns[j + 1]->data() + rows.begin);
+// Sums over all blocks on this thread.
+template <class Columns>
+void dots_here(Columns columns, const Vector& w, std::span<double> sums) {
+  std::fill_n(sums.begin(), columns.size(), 0.0);
+  // So many columns that a block's sums fit where no allocation is needed.
+  constexpr std::size_t strip = 32;
+  std::array<double, strip> part{};
+  for (std::size_t begin = 0; begin < columns.size(); begin += strip) {
+    const std::size_t count = std::min(strip, columns.size() - begin);
+    for (Eigen::Index block = 0; block < blocks_of(w.size()); ++block) {
+      dots_of_rows(block, columns.subspan(begin, count), w, part);
+      for (std::size_t j = 0; j < count; ++j) sums[begin + j] += part[j];
+    }
   }
+}
+
+}  // namespace
+
+void dots_of_block(Eigen::Index block, Vectors columns, const Vector& w, std::span<double> sums) {
+  dots_of_rows(block, columns, w, sums);
+}
+
+void dots_of_block(Eigen::Index block, SingleVectors columns, const Vector& w,
+                   std::span<double> sums) {
+  dots_of_rows(block, columns, w, sums);
+}
+
+void combine_block(Eigen::Index block, double own, Vectors columns, std::span<const double> factors,
+                   Vector& w) {
+  combine_rows(block, own, columns, factors, w);
+}
+
+void combine_block(Eigen::Index block, double own, SingleVectors columns,
+                   std::span<const double> factors, Vector& w) {
+  combine_rows(block, own, columns, factors, w);
 }
 
 bool InnerProductRef::is_safe_square(double square) {
@@ -97,17 +124,18 @@ void InnerProductRef::dots(Vectors columns, const Vector& w, std::span<double> s
     for (std::size_t j = 0; j < columns.size(); ++j) sums[j] = dot_(object_, *columns[j], w);
     return;
   }
-  std::fill_n(sums.begin(), columns.size(), 0.0);
-  // So many columns that a block's sums fit where no allocation is needed.
-  constexpr std::size_t strip = 32;
-  std::array<double, strip> part{};
-  for (std::size_t begin = 0; begin < columns.size(); begin += strip) {
-    const std::size_t count = std::min(strip, columns.size() - begin);
-    for (Eigen::Index block = 0; block < blocks_of(w.size()); ++block) {
-      dots_of_block(block, columns.subspan(begin, count), w, part);
-      for (std::size_t j = 0; j < count; ++j) sums[begin + j] += part[j];
+  dots_here(columns, w, sums);
+}
+
+void InnerProductRef::dots(SingleVectors columns, const Vector& w, std::span<double> sums) const {
+  if (single_dots_ != nullptr) return single_dots_(object_, columns, w, sums);
+  if (dot_ != nullptr) {
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      sums[j] = dot_(object_, columns[j]->cast<double>(), w);
     }
+    return;
   }
+  dots_here(columns, w, sums);
 }
 
 void InnerProductRef::combine(double own, Vectors columns, std::span<const double> factors,
@@ -118,12 +146,11 @@ void InnerProductRef::combine(double own, Vectors columns, std::span<const doubl
   }
 }
 
-void InnerProductRef::rotate(std::span<Vector* const> columns, std::span<const double> cosines,
-                             std::span<const double> sines) const {
-  if (columns.size() < 2) return;
-  if (rotate_ != nullptr) return rotate_(object_, columns, cosines, sines);
-  for (Eigen::Index block = 0; block < blocks_of(columns.front()->size()); ++block) {
-    rotate_block(block, columns, cosines, sines);
+void InnerProductRef::combine(double own, SingleVectors columns, std::span<const double> factors,
+                              Vector& w) const {
+  if (single_combine_ != nullptr) return single_combine_(object_, own, columns, factors, w);
+  for (Eigen::Index block = 0; block < blocks_of(w.size()); ++block) {
+    combine_block(block, own, columns, factors, w);
   }
 }
 

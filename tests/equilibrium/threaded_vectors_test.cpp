@@ -19,6 +19,8 @@ using jfnk::Vector;
 struct Vectors {
   std::vector<Vector> all;
   std::vector<const Vector*> columns;
+  std::vector<jfnk::SingleVector> singles;
+  std::vector<const jfnk::SingleVector*> single_columns;
   Vector w;
   Vector factors;
 
@@ -30,13 +32,10 @@ struct Vectors {
     };
     for (std::size_t j = 0; j < count; ++j) all.push_back(random(n));
     for (const Vector& v : all) columns.push_back(&v);
+    for (const Vector& v : all) singles.push_back(v.cast<float>());
+    for (const jfnk::SingleVector& v : singles) single_columns.push_back(&v);
     w = random(n);
     factors = random(static_cast<Eigen::Index>(count));
-  }
-  std::vector<Vector*> writable() {
-    std::vector<Vector*> pointers;
-    for (Vector& v : all) pointers.push_back(&v);
-    return pointers;
   }
   std::span<const double> weights() const { return {factors.data(), columns.size()}; }
 };
@@ -44,7 +43,7 @@ struct Vectors {
 /// All that the operations make of the same vectors.
 template <class Operations>
 std::vector<Vector> everything(const Operations& operations, Eigen::Index n, std::size_t count) {
-  Vectors set(n, count);
+  const Vectors set(n, count);
   Vector sums(static_cast<Eigen::Index>(count));
   operations.dots(set.columns, set.w, {sums.data(), count});
   Vector product(1);
@@ -55,10 +54,10 @@ std::vector<Vector> everything(const Operations& operations, Eigen::Index n, std
   results.push_back(w);
   operations.combine(0.0, set.columns, set.weights(), w);
   results.push_back(w);
-  const Vector cosines = Vector::Constant(static_cast<Eigen::Index>(count), 0.6);
-  const Vector sines = Vector::Constant(static_cast<Eigen::Index>(count), 0.8);
-  operations.rotate(set.writable(), {cosines.data(), count - 1}, {sines.data(), count - 1});
-  for (const Vector& v : set.all) results.push_back(v);
+  operations.dots(set.single_columns, set.w, {sums.data(), count});
+  results.push_back(sums);
+  operations.combine(-0.7, set.single_columns, set.weights(), w);
+  results.push_back(w);
   return results;
 }
 
@@ -87,7 +86,8 @@ TEST(ThreadedVectors, AreWhatTheSolverFindsInTheEquilibrium) {
   EXPECT_TRUE(jfnk::HasInnerProduct<Plane>);
   EXPECT_TRUE(jfnk::HasDots<Plane>);
   EXPECT_TRUE(jfnk::HasCombine<Plane>);
-  EXPECT_TRUE(jfnk::HasRotate<Plane>);
+  EXPECT_TRUE(jfnk::HasSingleDots<Plane>);
+  EXPECT_TRUE(jfnk::HasSingleCombine<Plane>);
 }
 
 }  // namespace

@@ -143,6 +143,25 @@ TEST(Multisecant, PreconditionsEachPointOnce) {
   }
 }
 
+TEST(Multisecant, PairsInSinglePrecisionAreGoodForTheFirstDigits) {
+  // Without a preconditioner the pairs are so dependent that a step gains three or four digits at
+  // most: to 1e-6 it is one evaluation more (25 for 24), to 1e-10 ten.
+  const jfnk_test::Bratu bratu(12, 5.0);
+  int evaluations[2];
+  for (const bool single_precision : {false, true}) {
+    Options options;
+    options.method = Method::multisecant;
+    options.learning.enabled = false;
+    options.tolerances.relative = 1e-6;
+    options.multisecant.single_precision = single_precision;
+    Vector u = Vector::Zero(bratu.size());
+    const Report report = solve(bratu, u, options);
+    EXPECT_TRUE(report.converged()) << report.reason;
+    evaluations[single_precision ? 1 : 0] = report.counts.total();
+  }
+  EXPECT_LE(evaluations[1], evaluations[0] + 2);
+}
+
 TEST(Multisecant, AnotherPreconditionerLeavesNothingOfTheOneBefore) {
   // So poor a preconditioner that no step is Broyden's: with his updates kept, and the images of P
   // with them, it is the same iteration as without, though P is tripled at each setup.
@@ -156,12 +175,13 @@ TEST(Multisecant, AnotherPreconditionerLeavesNothingOfTheOneBefore) {
     void apply(const Vector& r, Vector& z) const { z = scale * r; }
   };
   constexpr int n = 20;
-  constexpr double rounding = 1e-9;  // of the condition of the pairs, 1e4, and a little
+  constexpr double rounding = 1e-9;  // of the condition of the pairs, squared, and a little
   std::vector<Vector> points[2];
   for (const std::size_t broyden : {0U, 1U}) {
     Options options;
     options.method = Method::multisecant;
     options.multisecant.broyden = broyden == 1U;
+    options.multisecant.max_condition = 100.0;
     options.setup_cost = 1.0;
     options.max_evaluations = 12;
     options.tolerances.relative = 1e-13;
@@ -288,8 +308,8 @@ TEST(Multisecant, EndsAtItsIterationLimit) {
 
 TEST(Hybrid, KeepsARoundWithoutThePreconditionerThatCameFar) {
   // Moré, Garbow & Hillstrom's trigonometric function of eight unknowns with the Jacobian at the
-  // start as a preconditioner: undone, the round is repeated from further off, at 354 to 504
-  // evaluations in all instead of 56 to 79.
+  // start as a preconditioner: undone, the round is repeated from further off, at 320 to 364
+  // evaluations in all.
   constexpr int bearable = 200;
   const auto F = [](const Vector& u, Vector& r) {
     const double sum = u.array().cos().sum();
@@ -297,7 +317,7 @@ TEST(Hybrid, KeepsARoundWithoutThePreconditionerThatCameFar) {
       r[i] = 8.0 - sum + (i + 1) * (1.0 - std::cos(u[i])) - std::sin(u[i]);
     }
   };
-  for (const double seed : {15.0, 22.0, 58.0}) {
+  for (const double seed : {11.0, 58.0, 64.0}) {
     Vector u(8);
     for (int i = 0; i < 8; ++i) u[i] = (1.0 + 0.02 * std::sin(seed * (i + 1.0))) / 8.0;
     jfnk::ColouredJacobian jacobian(F, jfnk::banded_sparsity(8, 7, 7));
@@ -317,7 +337,7 @@ TEST(Hybrid, LeastSquaresInTheNormOfPFAreThoseOfTheResidualPF) {
   const CholeskyPreconditioner P(jfnk_test::laplacian(6));
   const int n = 36;
   constexpr int steps = 8;
-  constexpr double rounding = 1e-9;  // of the condition of the pairs, 1e4, and a little
+  constexpr double rounding = 1e-9;  // of the condition of the pairs, squared, and a little
   Options options;
   options.method = Method::multisecant;
   options.tolerances.relative = 1e-13;

@@ -122,11 +122,12 @@ TEST(Resume, ContinuesBitForBitWithTheImagesOfAPreconditioner) {
     void apply(const Vector& r, Vector& z) const { z = 0.1 * r; }
   };
   const jfnk_test::Bratu bratu(12, 6.0);
-  for (const bool in_its_norm : {false, true}) {
+  for (const int kind : {0, 1, 2}) {
     Options options;
     options.method = Method::multisecant;
     options.multisecant.memory = 12;
-    options.multisecant.preconditioned_norm = in_its_norm;
+    options.multisecant.preconditioned_norm = kind == 1;
+    options.multisecant.single_precision = kind == 2;
     const auto make = [] { return Poor{}; };
     for (const int at : {1, 5, 12, 15, 20}) {
       Vector whole = Vector::Zero(bratu.size());
@@ -265,14 +266,16 @@ TEST(Resume, RefusesAnyDamagedSize) {
     damaged.integers[place] = value;
     return midway.refused(damaged);
   };
-  // Version, method, unknowns, secant pairs, unknowns at the setup, learnt or not, lines.
-  for (const std::size_t place : {0, 1, 2, 3, 4, 6}) {
+  // Version, method, unknowns, secant pairs, these in single precision or not, unknowns at the
+  // setup, learnt or not, lines.
+  for (const std::size_t place : {0, 1, 2, 3, 5, 7}) {
     EXPECT_TRUE(refuses(place, -1)) << place;
     EXPECT_TRUE(refuses(place, std::int64_t{1} << 40)) << place;
   }
-  for (const std::size_t place : {0, 1, 2, 4, 6}) EXPECT_TRUE(refuses(place, 77)) << place;
+  for (const std::size_t place : {0, 1, 2, 5, 7}) EXPECT_TRUE(refuses(place, 77)) << place;
   EXPECT_TRUE(refuses(3, midway.options.multisecant.memory + 1));
-  EXPECT_TRUE(refuses(5, 1 - midway.good.integers[5]));
+  EXPECT_TRUE(refuses(4, 1 - midway.good.integers[4]));
+  EXPECT_TRUE(refuses(6, 1 - midway.good.integers[6]));
 }
 
 TEST(Resume, RefusesAnyDamagedCount) {

@@ -108,7 +108,8 @@ TEST(Dogleg, HandsOutTheSpaceAsOrthogonalFactors) {
     Vector x = Vector::Zero(25);
     (void)gmres.solve(jfnk::OperatorRef(op), b, x, options, P);
     std::vector<Vector> qs;
-    gmres.hand_out_space(P, [&](const Vector& z, const Vector& q, const auto& r) {
+    gmres.hand_out_space(P, [&](const Vector& z, jfnk::Vectors up_to_q, const auto& r) {
+      const Vector& q = *up_to_q.back();
       qs.push_back(q);
       Vector image = A * z;
       for (std::size_t j = 0; j < qs.size(); ++j) {

@@ -96,7 +96,8 @@ class Gmres {
                  const InnerProductRef& product = {});
 
   /// Hands out the space of the last solve as A Z = Q R: `take(z, q, r)` is called for each column,
-  /// r being the column of R down to its diagonal, until it returns false. Applies P to every
+  /// q being the columns of Q up to this one and r that of R down to its diagonal, until it returns
+  /// false. Applies P to every
   /// column unless that is stored. The space is used up. Only if `can_shorten()`.
   template <class Take>
   void hand_out_space(const PreconditionerRef& P, Take&& take) {
@@ -105,10 +106,7 @@ class Gmres {
     for (int j = 0; j < columns_; ++j) {
       rotate_basis(j);
       const Vector& z = column_of_space(j, P);
-      if (!take(z, std::as_const(basis_[static_cast<std::size_t>(j)]),
-                triangle_.col(j).head(j + 1))) {
-        break;
-      }
+      if (!take(z, first_of(basis_, j + 1), triangle_.col(j).head(j + 1))) break;
       work_.swap(next_);
     }
   }

@@ -40,10 +40,6 @@ concept NamesCombine = requires {
   &T::combine;
 };
 template <class T>
-concept NamesRotate = requires {
-  &T::rotate;
-};
-template <class T>
 concept NamesGlobalSize = requires {
   &T::global_size;
 };
@@ -108,9 +104,6 @@ constexpr void explain_members() {
   static_assert(!NamesCombine<F> || HasCombine<F>,
                 "jfnk: `combine` of the residual must be const and take a double, jfnk::Vectors, a "
                 "std::span<const double> and a jfnk::Vector&");
-  static_assert(!NamesRotate<F> || HasRotate<F>,
-                "jfnk: `rotate` of the residual must be const and take a "
-                "std::span<jfnk::Vector* const> and two std::span<const double>");
   static_assert(!NamesGlobalSize<F> || HasGlobalSize<F>,
                 "jfnk: `global_size` of the residual must be const and return a number");
   static_assert(!HasGlobalSize<F> || HasInnerProduct<F>,

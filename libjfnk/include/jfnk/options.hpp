@@ -130,6 +130,10 @@ struct Multisecant {
   /// Pairs (du, dF) kept: memory is twice that many vectors, of which only those used are touched.
   /// Range [1, inf).
   int memory = 200;
+  /// Pairs are kept in single precision: half the memory, and half of what is read at each point.
+  /// The linear model is then good to 1e-7 times its condition; F and u are in double precision.
+  /// For relative tolerances of 1e-6 and looser: tighter ones take more steps.
+  bool single_precision = false;
   /// Given up after this many evaluations in which the best ||F|| did not fall below
   /// progress times its value at the last such fall; 0 stands for 20 without and 10 with a
   /// preconditioner, or for what the Newton steps of the round before took if that is less (4 at
@@ -150,7 +154,7 @@ struct Multisecant {
   /// linear model; costs one Jacobian action at the start.
   bool scale_mixing = true;
   /// Oldest pairs are dropped until the unit columns of dF have a condition estimate below this.
-  /// Range (1, 1e15].
+  /// Range (1, 1e6], as the least squares are good to round-off times its square.
   double max_condition = 1e4;
   /// With a preconditioner, keep Broyden's rank-one updates of it besides the least squares over
   /// all pairs. A step is by Broyden's H where ||s - H y|| <= 0.6 ||s|| held for the last pairs (s,

@@ -15,6 +15,12 @@ using Vector = Eigen::VectorXd;
 /// Several vectors of one size.
 using Vectors = std::span<const Vector* const>;
 
+/// One kept in single precision, in half the memory; it is worked with in double precision.
+using SingleVector = Eigen::VectorXf;
+
+/// Several of these.
+using SingleVectors = std::span<const SingleVector* const>;
+
 /// Rows are worked on in blocks of so many, those of the last one fewer. Sums are those of the
 /// blocks added up in their order: whoever spreads the blocks over threads gets the same bits, for
 /// any number of threads. They are the same on every x86-64, too, whatever its registers' width.
@@ -28,15 +34,14 @@ inline constexpr Eigen::Index rows_per_block = 1024;
 /// The part of a block in <columns[j], w>, for all j.
 /// @param[out] sums  overwritten, one for each column
 void dots_of_block(Eigen::Index block, Vectors columns, const Vector& w, std::span<double> sums);
+void dots_of_block(Eigen::Index block, SingleVectors columns, const Vector& w,
+                   std::span<double> sums);
 
 /// w = own w + sum_j factors[j] columns[j] in a block; w is not read if own = 0.
 void combine_block(Eigen::Index block, double own, Vectors columns, std::span<const double> factors,
                    Vector& w);
-
-/// Rotates columns 0 and 1, then 1 and 2, ... in a block: (a, b) becomes (c a + s b, c b - s a).
-/// @param cosines, sines  one less than columns
-void rotate_block(Eigen::Index block, std::span<Vector* const> columns,
-                  std::span<const double> cosines, std::span<const double> sines);
+void combine_block(Eigen::Index block, double own, SingleVectors columns,
+                   std::span<const double> factors, Vector& w);
 
 /// A residual with its own inner product, as vectors spread over processes need.
 template <class F>
@@ -60,11 +65,17 @@ concept HasCombine = requires(const F& f, Vectors columns, std::span<const doubl
   f.combine(1.0, columns, factors, w);
 };
 
-/// A residual may bring `rotate(columns, cosines, sines)`, as `rotate_block` for all blocks.
+/// A residual may bring both for SingleVectors as well. Without such `dots`, `dot` is called for a
+/// copy of each.
 template <class F>
-concept HasRotate = requires(const F& f, std::span<Vector* const> columns,
-                             std::span<const double> angles) {
-  f.rotate(columns, angles, angles);
+concept HasSingleDots = requires(const F& f, SingleVectors columns, const Vector& w,
+                                 std::span<double> sums) {
+  f.dots(columns, w, sums);
+};
+template <class F>
+concept HasSingleCombine = requires(const F& f, SingleVectors columns,
+                                    std::span<const double> factors, Vector& w) {
+  f.combine(1.0, columns, factors, w);
 };
 
 /// Non-owning view of an inner product and of what else is done with several vectors; the Euclidean
@@ -73,7 +84,7 @@ class InnerProductRef {
  public:
   InnerProductRef() = default;
   template <class F>
-  requires(HasInnerProduct<F> || HasCombine<F> || HasRotate<F>) explicit InnerProductRef(const F& f)
+  requires(HasInnerProduct<F> || HasCombine<F>) explicit InnerProductRef(const F& f)
       : object_(std::addressof(f)) {
     if constexpr (HasInnerProduct<F>) {
       dot_ = [](const void* o, const Vector& a, const Vector& b) {
@@ -89,10 +100,16 @@ class InnerProductRef {
       combine_ = [](const void* o, double own, Vectors columns, std::span<const double> factors,
                     Vector& w) { static_cast<const F*>(o)->combine(own, columns, factors, w); };
     }
-    if constexpr (HasRotate<F>) {
-      rotate_ = [](const void* o, std::span<Vector* const> columns, std::span<const double> cosines,
-                   std::span<const double> sines) {
-        static_cast<const F*>(o)->rotate(columns, cosines, sines);
+    if constexpr (HasInnerProduct<F> && HasSingleDots<F>) {
+      single_dots_ = [](const void* o, SingleVectors columns, const Vector& w,
+                        std::span<double> sums) {
+        static_cast<const F*>(o)->dots(columns, w, sums);
+      };
+    }
+    if constexpr (HasSingleCombine<F>) {
+      single_combine_ = [](const void* o, double own, SingleVectors columns,
+                           std::span<const double> factors, Vector& w) {
+        static_cast<const F*>(o)->combine(own, columns, factors, w);
       };
     }
   }
@@ -105,9 +122,9 @@ class InnerProductRef {
   void dots(Vectors columns, const Vector& w, std::span<double> sums) const;
   /// w = own w + sum_j factors[j] columns[j]; w is not read if own = 0. Cost: one pass over each.
   void combine(double own, Vectors columns, std::span<const double> factors, Vector& w) const;
-  /// Rotates neighbouring columns, see `rotate_block`. Cost: one pass over each.
-  void rotate(std::span<Vector* const> columns, std::span<const double> cosines,
-              std::span<const double> sines) const;
+  /// Both of vectors in single precision.
+  void dots(SingleVectors columns, const Vector& w, std::span<double> sums) const;
+  void combine(double own, SingleVectors columns, std::span<const double> factors, Vector& w) const;
 
   /// Whether a sum of squares is one of which the root is the norm, free of overflow and underflow.
   [[nodiscard]] static bool is_safe_square(double square);
@@ -117,8 +134,9 @@ class InnerProductRef {
   double (*dot_)(const void*, const Vector&, const Vector&) = nullptr;
   void (*dots_)(const void*, Vectors, const Vector&, std::span<double>) = nullptr;
   void (*combine_)(const void*, double, Vectors, std::span<const double>, Vector&) = nullptr;
-  void (*rotate_)(const void*, std::span<Vector* const>, std::span<const double>,
-                  std::span<const double>) = nullptr;
+  void (*single_dots_)(const void*, SingleVectors, const Vector&, std::span<double>) = nullptr;
+  void (*single_combine_)(const void*, double, SingleVectors, std::span<const double>,
+                          Vector&) = nullptr;
 };
 
 }  // namespace jfnk

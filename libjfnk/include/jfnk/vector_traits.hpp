@@ -118,9 +118,13 @@ class ForeignResidual {
                Vector& w) const requires HasCombine<F> {
     f_.combine(own, columns, factors, w);
   }
-  void rotate(std::span<Vector* const> columns, std::span<const double> cosines,
-              std::span<const double> sines) const requires HasRotate<F> {
-    f_.rotate(columns, cosines, sines);
+  void dots(SingleVectors columns, const Vector& w,
+            std::span<double> sums) const requires HasSingleDots<F> {
+    f_.dots(columns, w, sums);
+  }
+  void combine(double own, SingleVectors columns, std::span<const double> factors,
+               Vector& w) const requires HasSingleCombine<F> {
+    f_.combine(own, columns, factors, w);
   }
   Eigen::Index global_size() const requires HasGlobalSize<F> { return f_.global_size(); }
   void on_accept(const Vector& u) requires requires(F& f, const V& v) { f.on_accept(v); }

@@ -1,0 +1,81 @@
+#include "column_store.hpp"
+
+namespace jfnk::detail {
+namespace {
+
+template <class V>
+void fit(std::vector<V>& vectors, std::size_t slots, Eigen::Index n) {
+  vectors.resize(slots);
+  for (V& v : vectors) {
+    if (v.size() != n) v.resize(0);
+  }
+}
+
+template <class V>
+std::size_t bytes_of(const std::vector<V>& vectors) {
+  Eigen::Index numbers = 0;
+  for (const V& v : vectors) numbers += v.size();
+  return static_cast<std::size_t>(numbers) * sizeof(typename V::Scalar);
+}
+
+}  // namespace
+
+void ColumnStore::resize(std::size_t slots, Eigen::Index n, bool single_precision) {
+  is_single_ = single_precision;
+  fit(doubles_, is_single_ ? 0 : slots, n);
+  fit(singles_, is_single_ ? slots : 0, n);
+}
+
+void ColumnStore::assign(std::size_t slot, double factor, const Vector& v) {
+  if (is_single_) {
+    singles_[slot] = (factor * v).cast<float>();
+  } else {
+    doubles_[slot] = factor * v;
+  }
+}
+
+void ColumnStore::copy_to(std::size_t slot, Vector& v) const {
+  if (is_single_) {
+    v = singles_[slot].cast<double>();
+  } else {
+    v = doubles_[slot];
+  }
+}
+
+std::size_t ColumnStore::bytes() const {
+  return bytes_of(doubles_) + bytes_of(singles_);
+}
+
+void ColumnList::clear() {
+  doubles_.clear();
+  singles_.clear();
+}
+
+void ColumnList::reserve(std::size_t count) {
+  doubles_.reserve(count);
+  singles_.reserve(count);
+}
+
+void ColumnList::add(const ColumnStore& store, std::size_t slot) {
+  if (store.is_single_) {
+    singles_.push_back(&store.singles_[slot]);
+  } else {
+    doubles_.push_back(&store.doubles_[slot]);
+  }
+}
+
+void ColumnList::dots(const InnerProductRef& product, const Vector& w, double* sums) const {
+  if (!doubles_.empty()) product.dots(Vectors(doubles_), w, {sums, doubles_.size()});
+  if (!singles_.empty()) product.dots(SingleVectors(singles_), w, {sums, singles_.size()});
+}
+
+void ColumnList::combine(const InnerProductRef& product, double own, const double* factors,
+                         Vector& w) const {
+  if (!singles_.empty()) {
+    product.combine(own, SingleVectors(singles_), {factors, singles_.size()}, w);
+  } else {
+    product.combine(own, Vectors(doubles_), {factors, doubles_.size()}, w);
+  }
+}
+
+}  // namespace jfnk::detail

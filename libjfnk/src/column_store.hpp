@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "jfnk/vector_operations.hpp"
+
+namespace jfnk::detail {
+
+/// Vectors of one size kept in double or in single precision, in numbered slots. Each is allocated
+/// when its slot is first assigned, and kept.
+class ColumnStore {
+ public:
+  /// For `slots` vectors of n numbers; those of another size or precision are let go.
+  void resize(std::size_t slots, Eigen::Index n, bool single_precision);
+  /// Slot = factor v, rounded to the precision it is kept in.
+  void assign(std::size_t slot, double factor, const Vector& v);
+  /// What is in a slot. @param[out] v  resized
+  void copy_to(std::size_t slot, Vector& v) const;
+  /// Whether nothing was ever put there.
+  [[nodiscard]] bool is_empty(std::size_t slot) const {
+    return (is_single_ ? singles_[slot].size() : doubles_[slot].size()) == 0;
+  }
+  /// Memory of the vectors held [bytes].
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  friend class ColumnList;
+  bool is_single_ = false;
+  std::vector<Vector> doubles_;
+  std::vector<SingleVector> singles_;
+};
+
+/// Vectors out of stores of one precision, in the order in which an operation takes them.
+class ColumnList {
+ public:
+  void clear();
+  void reserve(std::size_t count);
+  void add(const ColumnStore& store, std::size_t slot);
+  /// sums[j] = <column j, w>.
+  void dots(const InnerProductRef& product, const Vector& w, double* sums) const;
+  /// w = own w + sum_j factors[j] column j; w is not read if own = 0.
+  void combine(const InnerProductRef& product, double own, const double* factors, Vector& w) const;
+
+ private:
+  std::vector<const Vector*> doubles_;
+  std::vector<const SingleVector*> singles_;
+};
+
+}  // namespace jfnk::detail
