@@ -73,8 +73,7 @@ Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>&
       given_(given_unknowns(model.prescribed)),
       laws_(model.reduced_laws.empty() ? std::vector<constitutive::Material>() : model.laws),
       loops_(choose_loops<Dim>(model.layout)),
-      interfaces_(model),
-      vectors_(model.size()) {
+      interfaces_(model) {
   if (model_.consistency) {
     // The correction belongs to the initial configuration, whatever was re-searched since.
     const fpm::Rows<Dim> initial(model_.particles, model_.ghosts, model_.row_options);
@@ -353,12 +352,12 @@ std::vector<model::MemoryPart> Equilibrium<Dim>::memory(bool to_come) const {
       to_come
           ? static_cast<std::size_t>(sizes.tangent_entries + sizes.rotation_entries) * sizeof(float)
           : bytes_of(tangents_);
-  return {{"stencils", operator_.bytes() + correction_.bytes()},
-          {"arrays of a step", bytes_of(step_)},
-          {"arrays of an evaluation",
-           bytes_of(evaluation_) + vectors_.bytes() + given_.capacity() * sizeof(Eigen::Index)},
-          {"tangents", tangents},
-          {"viscosity, interfaces", viscosity_.bytes() + interfaces_.bytes()}};
+  return {
+      {"stencils", operator_.bytes() + correction_.bytes()},
+      {"arrays of a step", bytes_of(step_)},
+      {"arrays of an evaluation", bytes_of(evaluation_) + given_.capacity() * sizeof(Eigen::Index)},
+      {"tangents", tangents},
+      {"viscosity, interfaces", viscosity_.bytes() + interfaces_.bytes()}};
 }
 
 template class Equilibrium<2>;

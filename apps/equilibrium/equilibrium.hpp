@@ -6,7 +6,7 @@
 #include "equilibrium/initial_balance.hpp"
 #include "equilibrium/interface_forces.hpp"
 #include "equilibrium/law_loops.hpp"
-#include "equilibrium/threaded_vectors.hpp"
+#include "equilibrium/share_out.hpp"
 #include "fpm/moment_operator.hpp"
 #include "fpm/viscosity.hpp"
 #include "jfnk/residual.hpp"
@@ -87,23 +87,9 @@ class Equilibrium {
   /// included: what a residual is small against.
   double reference_norm() const { return reference_norm_; }
 
-  // The vector operations of libjfnk, on all threads.
-  double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
-    return vectors_.dot(a, b);
-  }
-  void dots(jfnk::Vectors columns, const Eigen::VectorXd& w, std::span<double> sums) const {
-    vectors_.dots(columns, w, sums);
-  }
-  void combine(double own, jfnk::Vectors columns, std::span<const double> factors,
-               Eigen::VectorXd& w) const {
-    vectors_.combine(own, columns, factors, w);
-  }
-  void dots(jfnk::SingleVectors columns, const Eigen::VectorXd& w, std::span<double> sums) const {
-    vectors_.dots(columns, w, sums);
-  }
-  void combine(double own, jfnk::SingleVectors columns, std::span<const double> factors,
-               Eigen::VectorXd& w) const {
-    vectors_.combine(own, columns, factors, w);
+  /// What libjfnk does with vectors, on all threads; see `equilibrium::share_out`.
+  void share_out(Eigen::Index n, Eigen::Index numbers, jfnk::BlockWork work) const {
+    equilibrium::share_out(n, numbers, model_.size(), work);
   }
 
   /// Takes the increment into the state. Call right after an evaluation that converged at it.
@@ -153,7 +139,6 @@ class Equilibrium {
   StepArrays<Dim> step_;
   EvaluationArrays<Dim> evaluation_;
   TangentArrays tangents_;
-  ThreadedVectors vectors_;
   std::vector<fpm::Vector<Dim>> plane_force_;  // by which each plane holds the body
   double rigid_load_ = 0.0;                    // load parameter to which rigid bodies have moved
   double external_norm_ = 0.0;                 // of the dead loads of the step

@@ -26,20 +26,24 @@ void ColumnStore::resize(std::size_t slots, Eigen::Index n, bool single_precisio
   fit(singles_, is_single_ ? slots : 0, n);
 }
 
-void ColumnStore::assign(std::size_t slot, double factor, const Vector& v) {
-  if (is_single_) {
-    singles_[slot] = (factor * v).cast<float>();
-  } else {
-    doubles_[slot] = factor * v;
-  }
+void ColumnStore::assign(std::size_t slot, double factor, const Vector& v,
+                         const InnerProductRef& product) {
+  const auto put = [&](auto& to) {
+    using Scalar = typename std::remove_reference_t<decltype(to)>::Scalar;
+    to.resize(v.size());
+    product.pass(v.size(), 2,
+                 [&](Rows rows) { rows.of(to) = (factor * rows.of(v)).template cast<Scalar>(); });
+  };
+  is_single_ ? put(singles_[slot]) : put(doubles_[slot]);
 }
 
-void ColumnStore::copy_to(std::size_t slot, Vector& v) const {
-  if (is_single_) {
-    v = singles_[slot].cast<double>();
-  } else {
-    v = doubles_[slot];
-  }
+void ColumnStore::copy_to(std::size_t slot, Vector& v, const InnerProductRef& product) const {
+  const auto take = [&](const auto& from) {
+    v.resize(from.size());
+    product.pass(v.size(), 2,
+                 [&](Rows rows) { rows.of(v) = rows.of(from).template cast<double>(); });
+  };
+  is_single_ ? take(singles_[slot]) : take(doubles_[slot]);
 }
 
 std::size_t ColumnStore::bytes() const {

@@ -14,9 +14,10 @@ class ColumnStore {
   /// For `slots` vectors of n numbers; those of another size or precision are let go.
   void resize(std::size_t slots, Eigen::Index n, bool single_precision);
   /// Slot = factor v, rounded to the precision it is kept in.
-  void assign(std::size_t slot, double factor, const Vector& v);
+  void assign(std::size_t slot, double factor, const Vector& v,
+              const InnerProductRef& product = {});
   /// What is in a slot. @param[out] v  resized
-  void copy_to(std::size_t slot, Vector& v) const;
+  void copy_to(std::size_t slot, Vector& v, const InnerProductRef& product = {}) const;
   /// Whether nothing was ever put there.
   [[nodiscard]] bool is_empty(std::size_t slot) const {
     return (is_single_ ? singles_[slot].size() : doubles_[slot].size()) == 0;

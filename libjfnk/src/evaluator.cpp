@@ -55,7 +55,7 @@ bool Evaluator::within_bounds(const Vector& u) {
 
 Outcome Evaluator::call(const Vector& u, Vector& r) {
   const Vector& point = physical(u);
-  r.setConstant(unwritten());
+  product().pass(r.size(), 1, [&](Rows rows) { rows.of(r).setConstant(unwritten()); });
   const Outcome outcome = translate(residual_(point, r));
   refused_ = outcome == Outcome::out_of_domain;
   require_size(r, u.size(), "the residual");

@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "passes.hpp"
 #include "strategy.hpp"
 
 namespace jfnk::detail {
@@ -79,7 +80,8 @@ void invert_by_least_squares(Solve& solve, Vector& z) {
     Vector& remainder = work.evaluator.probe;
     work.secants.project(r, z, remainder, product);
     solve.evaluator.precondition(remainder, work.direction);
-    z = mixing * work.direction - z;
+    product.pass(z.size(), 3,
+                 [&](Rows rows) { rows.of(z) = mixing * rows.of(work.direction) - rows.of(z); });
   }
 }
 
@@ -111,7 +113,8 @@ void find_step(Solve& solve) {
   if (keeps_preconditioned(solve)) precondition_base(solve);
   if (!has_broyden(solve)) {
     invert_by_least_squares(solve, work.step);
-    work.step *= -1.0;
+    solve.evaluator.product().pass(work.step.size(), 2,
+                                   [&](Rows rows) { rows.of(work.step) *= -1.0; });
   } else {
     invert_by_least_squares(solve, work.by_least_squares);
     if (!solve.course.multisecant.inverted) invert_by_broyden(solve, work.by_broyden);
@@ -123,7 +126,7 @@ void find_step(Solve& solve) {
 /// Evaluates base + step; out of the domain, halves the way from the best point to the trial.
 Ending look(Solve& solve, Iteration& line) {
   Workspace& work = solve.work;
-  work.trial.u = work.base.u + work.step;
+  add(solve.evaluator.product(), work.trial.u, work.base.u, 1.0, work.step);
   line.step_length = 1.0;
   for (int cut = 0; cut <= solve.options.multisecant.max_cuts; ++cut) {
     const Outcome outcome = solve.evaluator.evaluate(
@@ -177,14 +180,14 @@ void compare_models(Solve& solve) {
 double move(Solve& solve, Iteration& line) {
   Workspace& work = solve.work;
   const InnerProductRef& product = solve.evaluator.product();
-  work.step = work.trial.u - work.base.u;
+  add(product, work.step, work.trial.u, -1.0, work.base.u);
   line.step_norm = product.norm(work.step);
   std::swap(work.base, work.trial);
   Vector& difference = work.evaluator.probe;
   // Nothing has to be learnt for where all is done.
   if (solve.evaluator.converged(work.base, line.step_norm)) {
     forget_base(solve);
-    difference = work.base.r - work.trial.r;
+    add(product, difference, work.base.r, -1.0, work.trial.r);
     return product.norm(difference);
   }
   // P F was, and becomes its change.
@@ -196,7 +199,7 @@ double move(Solve& solve, Iteration& line) {
   }
   if (has_broyden(solve)) compare_models(solve);
   if (keeps_preconditioned(solve)) image = work.preconditioned - image;
-  difference = work.base.r - work.trial.r;
+  add(product, difference, work.base.r, -1.0, work.trial.r);
   const double change = product.norm(difference);
   work.secants.add(work.step, in_preconditioned_norm(solve) ? image : difference,
                    solve.options.multisecant.max_condition, product, &image);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes.hpp"
+
 namespace jfnk::detail {
 
 void SecantMemory::resize(Eigen::Index n, int capacity, bool single_precision) {
@@ -33,12 +35,12 @@ void SecantMemory::add(const Vector& du, const Vector& dr, double max_condition,
   const bool is_full = size_ == capacity_;
   if (is_full) drop_oldest();
   const std::size_t at = slot(size_);
-  du_.assign(at, 1.0 / length, du);
-  y_.assign(at, 1.0 / length, dr);
+  du_.assign(at, 1.0 / length, du, product);
+  y_.assign(at, 1.0 / length, dr, product);
   if (image == nullptr) images_are_old_ = true;
-  if (with_images_ && !images_are_old_) image_.assign(at, 1.0 / length, *image);
+  if (with_images_ && !images_are_old_) image_.assign(at, 1.0 / length, *image, product);
   // As it is kept, so that the Gram matrix is one whatever the rounding.
-  y_.copy_to(at, work_);
+  y_.copy_to(at, work_, product);
   columns(y_, size_ + 1).dots(product, work_, gram_.col(size_).data());
   bool fits = is_full ? factorise(size_ + 1, max_condition) : extend_factor(size_, max_condition);
   ++size_;
@@ -117,7 +119,7 @@ void SecantMemory::project(const Vector& r, Vector& step, Vector& remainder,
   columns(y_, size_).dots(product, r, gamma_.data());
   find_gamma();
   factors_.head(size_) = -gamma_.head(size_);
-  remainder = r;
+  assign(product, remainder, r);
   list_.combine(product, 1.0, factors_.data(), remainder);
   step.resize(n_);
   columns(du_, size_).combine(product, 0.0, factors_.data(), step);
@@ -131,7 +133,7 @@ void SecantMemory::invert(const Vector& r, const Vector& image, double mixing, V
   factors_.segment(size_, size_) = gamma_.head(size_);
   (void)columns(with_images_ ? image_ : y_, size_);
   for (int j = 0; j < size_; ++j) list_.add(du_, slot(j));
-  z = image;
+  assign(product, z, image);
   list_.combine(product, mixing, factors_.data(), z);
 }
 

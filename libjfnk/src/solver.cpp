@@ -8,6 +8,7 @@
 
 #include "memory.hpp"
 #include "outcome_text.hpp"
+#include "passes.hpp"
 
 namespace jfnk {
 namespace detail {
@@ -28,7 +29,12 @@ Ending Solve::accept_base(const Iteration& line) const {
   const bool converged = evaluator.converged(work.base, line.step_norm);
   // The reference norm may vary, so that a point which meets the tolerance need not have the lowest
   // norm.
-  if (converged || work.base.norm < work.best.norm) work.best = work.base;
+  if (converged || work.base.norm < work.best.norm) {
+    assign(evaluator.product(), work.best.u, work.base.u);
+    assign(evaluator.product(), work.best.r, work.base.r);
+    work.best.norm = work.base.norm;
+    work.best.reference = work.base.reference;
+  }
   evaluator.accept(work.base.u);
   const bool go_on = record(line, work.base);
   if (converged) return Ending::converged;

@@ -1,7 +1,6 @@
 #include "jfnk/vector_operations.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,19 +12,8 @@ namespace {
 // Kernels take so many columns at once: each block of w is then read from the cache that often.
 constexpr std::size_t columns_at_once = 4;
 
-struct Rows {
-  Eigen::Index begin;
-  Eigen::Index count;
-};
-
-Rows rows_of(Eigen::Index block, Eigen::Index n) {
-  const Eigen::Index begin = block * rows_per_block;
-  return {begin, std::min(rows_per_block, n - begin)};
-}
-
 template <class Columns>
-void dots_of_rows(Eigen::Index block, Columns columns, const Vector& w, std::span<double> sums) {
-  const Rows rows = rows_of(block, w.size());
+void dots_of_rows(Rows rows, Columns columns, const Vector& w, std::span<double> sums) {
   const double* const b = w.data() + rows.begin;
   std::size_t j = 0;
   for (; j + columns_at_once <= columns.size(); j += columns_at_once) {
@@ -39,9 +27,8 @@ void dots_of_rows(Eigen::Index block, Columns columns, const Vector& w, std::spa
 }
 
 template <class Columns>
-void combine_rows(Eigen::Index block, double own, Columns columns, std::span<const double> factors,
+void combine_rows(Rows rows, double own, Columns columns, std::span<const double> factors,
                   Vector& w) {
-  const Rows rows = rows_of(block, w.size());
   double* const to = w.data() + rows.begin;
   if (own == 0.0) {
     std::fill_n(to, rows.count, 0.0);
@@ -59,42 +46,7 @@ void combine_rows(Eigen::Index block, double own, Columns columns, std::span<con
   }
 }
 
-// Sums over all blocks on this thread.
-template <class Columns>
-void dots_here(Columns columns, const Vector& w, std::span<double> sums) {
-  std::fill_n(sums.begin(), columns.size(), 0.0);
-  // So many columns that a block's sums fit where no allocation is needed.
-  constexpr std::size_t strip = 32;
-  std::array<double, strip> part{};
-  for (std::size_t begin = 0; begin < columns.size(); begin += strip) {
-    const std::size_t count = std::min(strip, columns.size() - begin);
-    for (Eigen::Index block = 0; block < blocks_of(w.size()); ++block) {
-      dots_of_rows(block, columns.subspan(begin, count), w, part);
-      for (std::size_t j = 0; j < count; ++j) sums[begin + j] += part[j];
-    }
-  }
-}
-
 }  // namespace
-
-void dots_of_block(Eigen::Index block, Vectors columns, const Vector& w, std::span<double> sums) {
-  dots_of_rows(block, columns, w, sums);
-}
-
-void dots_of_block(Eigen::Index block, SingleVectors columns, const Vector& w,
-                   std::span<double> sums) {
-  dots_of_rows(block, columns, w, sums);
-}
-
-void combine_block(Eigen::Index block, double own, Vectors columns, std::span<const double> factors,
-                   Vector& w) {
-  combine_rows(block, own, columns, factors, w);
-}
-
-void combine_block(Eigen::Index block, double own, SingleVectors columns,
-                   std::span<const double> factors, Vector& w) {
-  combine_rows(block, own, columns, factors, w);
-}
 
 bool InnerProductRef::is_safe_square(double square) {
   // Squares of entries beyond these bounds overflow or lose digits to underflow.
@@ -118,40 +70,67 @@ double InnerProductRef::norm(const Vector& a) const {
   return std::sqrt(square);
 }
 
+void InnerProductRef::share_out(Eigen::Index n, Eigen::Index numbers, BlockWork work) const {
+  if (share_out_ != nullptr) return share_out_(object_, n, numbers, work);
+  for (Eigen::Index block = 0; block < blocks_of(n); ++block) work(block);
+}
+
+// Sums of the blocks, whoever made them, are added up in the blocks' order.
+template <class Columns>
+void InnerProductRef::dots_by_blocks(Columns columns, const Vector& w,
+                                     std::span<double> sums) const {
+  // So many columns at a time, so that little memory holds the sums.
+  constexpr std::size_t strip = 32;
+  const Eigen::Index n = w.size();
+  const auto blocks = static_cast<std::size_t>(blocks_of(n));
+  if (block_sums_.size() < blocks * strip) block_sums_.resize(blocks * strip);
+  for (std::size_t begin = 0; begin < columns.size(); begin += strip) {
+    const std::size_t count = std::min(strip, columns.size() - begin);
+    const Columns some = columns.subspan(begin, count);
+    const auto part = [&](std::size_t block) {
+      return std::span<double>(block_sums_).subspan(block * strip, count);
+    };
+    const auto work = [&](Eigen::Index block) {
+      dots_of_rows(rows_of(block, n), some, w, part(static_cast<std::size_t>(block)));
+    };
+    share_out(n, static_cast<Eigen::Index>(count) * n, BlockWork(work));
+    const std::span<double> total = sums.subspan(begin, count);
+    std::fill(total.begin(), total.end(), 0.0);
+    for (std::size_t block = 0; block < blocks; ++block) {
+      for (std::size_t j = 0; j < count; ++j) total[j] += part(block)[j];
+    }
+  }
+}
+
+template <class Columns>
+void InnerProductRef::combine_by_blocks(double own, Columns columns,
+                                        std::span<const double> factors, Vector& w) const {
+  pass(w.size(), static_cast<Eigen::Index>(columns.size()),
+       [&](Rows rows) { combine_rows(rows, own, columns, factors, w); });
+}
+
 void InnerProductRef::dots(Vectors columns, const Vector& w, std::span<double> sums) const {
   if (dots_ != nullptr) return dots_(object_, columns, w, sums);
-  if (dot_ != nullptr) {
-    for (std::size_t j = 0; j < columns.size(); ++j) sums[j] = dot_(object_, *columns[j], w);
-    return;
-  }
-  dots_here(columns, w, sums);
+  if (dot_ == nullptr) return dots_by_blocks(columns, w, sums);
+  for (std::size_t j = 0; j < columns.size(); ++j) sums[j] = dot_(object_, *columns[j], w);
 }
 
 void InnerProductRef::dots(SingleVectors columns, const Vector& w, std::span<double> sums) const {
   if (single_dots_ != nullptr) return single_dots_(object_, columns, w, sums);
-  if (dot_ != nullptr) {
-    for (std::size_t j = 0; j < columns.size(); ++j) {
-      sums[j] = dot_(object_, columns[j]->cast<double>(), w);
-    }
-    return;
+  if (dot_ == nullptr) return dots_by_blocks(columns, w, sums);
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    sums[j] = dot_(object_, columns[j]->cast<double>(), w);
   }
-  dots_here(columns, w, sums);
 }
 
 void InnerProductRef::combine(double own, Vectors columns, std::span<const double> factors,
                               Vector& w) const {
-  if (combine_ != nullptr) return combine_(object_, own, columns, factors, w);
-  for (Eigen::Index block = 0; block < blocks_of(w.size()); ++block) {
-    combine_block(block, own, columns, factors, w);
-  }
+  combine_by_blocks(own, columns, factors, w);
 }
 
 void InnerProductRef::combine(double own, SingleVectors columns, std::span<const double> factors,
                               Vector& w) const {
-  if (single_combine_ != nullptr) return single_combine_(object_, own, columns, factors, w);
-  for (Eigen::Index block = 0; block < blocks_of(w.size()); ++block) {
-    combine_block(block, own, columns, factors, w);
-  }
+  combine_by_blocks(own, columns, factors, w);
 }
 
 }  // namespace jfnk

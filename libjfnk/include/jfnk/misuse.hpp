@@ -36,8 +36,8 @@ concept NamesDots = requires {
   &T::dots;
 };
 template <class T>
-concept NamesCombine = requires {
-  &T::combine;
+concept NamesShareOut = requires {
+  &T::share_out;
 };
 template <class T>
 concept NamesGlobalSize = requires {
@@ -101,9 +101,9 @@ constexpr void explain_members() {
                 "jfnk::Vector& and a std::span<double>");
   static_assert(!HasDots<F> || HasInnerProduct<F>,
                 "jfnk: a residual with `dots` needs the `dot` that they are many of");
-  static_assert(!NamesCombine<F> || HasCombine<F>,
-                "jfnk: `combine` of the residual must be const and take a double, jfnk::Vectors, a "
-                "std::span<const double> and a jfnk::Vector&");
+  static_assert(!NamesShareOut<F> || HasShareOut<F>,
+                "jfnk: `share_out` of the residual must be const and take two Eigen::Index and a "
+                "jfnk::BlockWork");
   static_assert(!NamesGlobalSize<F> || HasGlobalSize<F>,
                 "jfnk: `global_size` of the residual must be const and return a number");
   static_assert(!HasGlobalSize<F> || HasInnerProduct<F>,

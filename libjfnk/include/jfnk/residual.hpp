@@ -152,7 +152,7 @@ class ResidualRef {
         return static_cast<double>(detail::restore<F>(o).reference_norm());
       };
     }
-    if constexpr (HasInnerProduct<F> || HasCombine<F>) {
+    if constexpr (HasInnerProduct<F> || HasShareOut<F>) {
       inner_product_ = InnerProductRef(std::as_const(f));
     }
     if constexpr (HasGlobalSize<F>) {

@@ -4,6 +4,8 @@
 #include <concepts>
 #include <memory>
 #include <span>
+#include <type_traits>
+#include <vector>
 
 /// What a solver does with many vectors at once: the inner products of one with all the others in a
 /// single sum, and combinations, each vector being read once.
@@ -31,17 +33,38 @@ inline constexpr Eigen::Index rows_per_block = 1024;
   return (n + rows_per_block - 1) / rows_per_block;
 }
 
-/// The part of a block in <columns[j], w>, for all j.
-/// @param[out] sums  overwritten, one for each column
-void dots_of_block(Eigen::Index block, Vectors columns, const Vector& w, std::span<double> sums);
-void dots_of_block(Eigen::Index block, SingleVectors columns, const Vector& w,
-                   std::span<double> sums);
+/// The rows of a block.
+struct Rows {
+  Eigen::Index begin;
+  Eigen::Index count;
 
-/// w = own w + sum_j factors[j] columns[j] in a block; w is not read if own = 0.
-void combine_block(Eigen::Index block, double own, Vectors columns, std::span<const double> factors,
-                   Vector& w);
-void combine_block(Eigen::Index block, double own, SingleVectors columns,
-                   std::span<const double> factors, Vector& w);
+  /// These rows of a vector.
+  template <class V>
+  [[nodiscard]] auto of(V& v) const {
+    return v.segment(begin, count);
+  }
+};
+
+/// Those of a block of n rows.
+[[nodiscard]] constexpr Rows rows_of(Eigen::Index block, Eigen::Index n) {
+  const Eigen::Index begin = block * rows_per_block;
+  return {begin, n - begin < rows_per_block ? n - begin : rows_per_block};
+}
+
+/// Non-owning view of what is to be done with each block; blocks may be worked on at once.
+class BlockWork {
+ public:
+  template <class Work>
+  requires(!std::same_as<std::remove_cv_t<Work>, BlockWork>) explicit BlockWork(Work& work)
+      : object_(std::addressof(work)), work_([](const void* object, Eigen::Index block) {
+          (*static_cast<const Work*>(object))(block);
+        }) {}
+  void operator()(Eigen::Index block) const { work_(object_, block); }
+
+ private:
+  const void* object_;
+  void (*work_)(const void*, Eigen::Index);
+};
 
 /// A residual with its own inner product, as vectors spread over processes need.
 template <class F>
@@ -57,34 +80,28 @@ concept HasDots = requires(const F& f, Vectors columns, const Vector& w, std::sp
   f.dots(columns, w, sums);
 };
 
-/// A residual may bring `combine(own, columns, factors, w)`, as `combine_block` for all blocks: for
-/// threads.
-template <class F>
-concept HasCombine = requires(const F& f, Vectors columns, std::span<const double> factors,
-                              Vector& w) {
-  f.combine(1.0, columns, factors, w);
-};
-
-/// A residual may bring both for SingleVectors as well. Without such `dots`, `dot` is called for a
-/// copy of each.
+/// The same of columns in single precision. Without it `dot` is called for a copy of each.
 template <class F>
 concept HasSingleDots = requires(const F& f, SingleVectors columns, const Vector& w,
                                  std::span<double> sums) {
   f.dots(columns, w, sums);
 };
+
+/// A residual may bring `share_out(n, numbers, work)`, which calls work(block) once for each block
+/// of n rows, from whichever threads: `numbers` that are read or written in all tell whether that
+/// is worth the threads' meeting.
 template <class F>
-concept HasSingleCombine = requires(const F& f, SingleVectors columns,
-                                    std::span<const double> factors, Vector& w) {
-  f.combine(1.0, columns, factors, w);
+concept HasShareOut = requires(const F& f, Eigen::Index n, BlockWork work) {
+  f.share_out(n, n, work);
 };
 
-/// Non-owning view of an inner product and of what else is done with several vectors; the Euclidean
-/// one on one thread when default constructed.
+/// Non-owning view of an inner product and of what else is done with vectors; the Euclidean one on
+/// one thread when default constructed. One thread at a time may use it.
 class InnerProductRef {
  public:
   InnerProductRef() = default;
   template <class F>
-  requires(HasInnerProduct<F> || HasCombine<F>) explicit InnerProductRef(const F& f)
+  requires(HasInnerProduct<F> || HasShareOut<F>) explicit InnerProductRef(const F& f)
       : object_(std::addressof(f)) {
     if constexpr (HasInnerProduct<F>) {
       dot_ = [](const void* o, const Vector& a, const Vector& b) {
@@ -96,20 +113,15 @@ class InnerProductRef {
         };
       }
     }
-    if constexpr (HasCombine<F>) {
-      combine_ = [](const void* o, double own, Vectors columns, std::span<const double> factors,
-                    Vector& w) { static_cast<const F*>(o)->combine(own, columns, factors, w); };
+    if constexpr (HasShareOut<F>) {
+      share_out_ = [](const void* o, Eigen::Index n, Eigen::Index numbers, BlockWork work) {
+        static_cast<const F*>(o)->share_out(n, numbers, work);
+      };
     }
     if constexpr (HasInnerProduct<F> && HasSingleDots<F>) {
       single_dots_ = [](const void* o, SingleVectors columns, const Vector& w,
                         std::span<double> sums) {
         static_cast<const F*>(o)->dots(columns, w, sums);
-      };
-    }
-    if constexpr (HasSingleCombine<F>) {
-      single_combine_ = [](const void* o, double own, SingleVectors columns,
-                           std::span<const double> factors, Vector& w) {
-        static_cast<const F*>(o)->combine(own, columns, factors, w);
       };
     }
   }
@@ -126,17 +138,31 @@ class InnerProductRef {
   void dots(SingleVectors columns, const Vector& w, std::span<double> sums) const;
   void combine(double own, SingleVectors columns, std::span<const double> factors, Vector& w) const;
 
+  /// Calls work(rows) for all blocks of n rows, on the residual's threads if it has any.
+  /// @param vectors  that are read or written
+  template <class Work>
+  void pass(Eigen::Index n, Eigen::Index vectors, const Work& work) const {
+    const auto of_block = [&](Eigen::Index block) { work(rows_of(block, n)); };
+    share_out(n, vectors * n, BlockWork(of_block));
+  }
+
   /// Whether a sum of squares is one of which the root is the norm, free of overflow and underflow.
   [[nodiscard]] static bool is_safe_square(double square);
 
  private:
+  void share_out(Eigen::Index n, Eigen::Index numbers, BlockWork work) const;
+  template <class Columns>
+  void dots_by_blocks(Columns columns, const Vector& w, std::span<double> sums) const;
+  template <class Columns>
+  void combine_by_blocks(double own, Columns columns, std::span<const double> factors,
+                         Vector& w) const;
+
   const void* object_ = nullptr;
+  mutable std::vector<double> block_sums_;  // grown as needed, and kept
   double (*dot_)(const void*, const Vector&, const Vector&) = nullptr;
   void (*dots_)(const void*, Vectors, const Vector&, std::span<double>) = nullptr;
-  void (*combine_)(const void*, double, Vectors, std::span<const double>, Vector&) = nullptr;
+  void (*share_out_)(const void*, Eigen::Index, Eigen::Index, BlockWork) = nullptr;
   void (*single_dots_)(const void*, SingleVectors, const Vector&, std::span<double>) = nullptr;
-  void (*single_combine_)(const void*, double, SingleVectors, std::span<const double>,
-                          Vector&) = nullptr;
 };
 
 }  // namespace jfnk

@@ -114,17 +114,13 @@ class ForeignResidual {
   void dots(Vectors columns, const Vector& w, std::span<double> sums) const requires HasDots<F> {
     f_.dots(columns, w, sums);
   }
-  void combine(double own, Vectors columns, std::span<const double> factors,
-               Vector& w) const requires HasCombine<F> {
-    f_.combine(own, columns, factors, w);
-  }
   void dots(SingleVectors columns, const Vector& w,
             std::span<double> sums) const requires HasSingleDots<F> {
     f_.dots(columns, w, sums);
   }
-  void combine(double own, SingleVectors columns, std::span<const double> factors,
-               Vector& w) const requires HasSingleCombine<F> {
-    f_.combine(own, columns, factors, w);
+  void share_out(Eigen::Index n, Eigen::Index numbers,
+                 BlockWork work) const requires HasShareOut<F> {
+    f_.share_out(n, numbers, work);
   }
   Eigen::Index global_size() const requires HasGlobalSize<F> { return f_.global_size(); }
   void on_accept(const Vector& u) requires requires(F& f, const V& v) { f.on_accept(v); }

@@ -1,5 +1,5 @@
 // Vector operations on threads: the bits of libjfnk's own, for any number of threads.
-#include "equilibrium/threaded_vectors.hpp"
+#include "equilibrium/share_out.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -11,7 +11,6 @@
 
 namespace {
 
-using equilibrium::ThreadedVectors;
 using jfnk::InnerProductRef;
 using jfnk::Vector;
 
@@ -40,9 +39,17 @@ struct Vectors {
   std::span<const double> weights() const { return {factors.data(), columns.size()}; }
 };
 
+/// A residual of which libjfnk needs no more here.
+struct Shared {
+  Eigen::Index particles;
+  void share_out(Eigen::Index n, Eigen::Index numbers, jfnk::BlockWork work) const {
+    equilibrium::share_out(n, numbers, particles, work);
+  }
+};
+
 /// All that the operations make of the same vectors.
-template <class Operations>
-std::vector<Vector> everything(const Operations& operations, Eigen::Index n, std::size_t count) {
+std::vector<Vector> everything(const InnerProductRef& operations, Eigen::Index n,
+                               std::size_t count) {
   const Vectors set(n, count);
   Vector sums(static_cast<Eigen::Index>(count));
   operations.dots(set.columns, set.w, {sums.data(), count});
@@ -61,15 +68,16 @@ std::vector<Vector> everything(const Operations& operations, Eigen::Index n, std
   return results;
 }
 
-TEST(ThreadedVectors, GiveTheBitsOfNoneForAnyNumberOfThreads) {
+TEST(ShareOut, GivesTheBitsOfOneThreadForAnyNumber) {
   const int before = omp_get_max_threads();
   // On either side of a block of rows and of a strip of columns; fewer blocks than threads, more.
   for (const Eigen::Index n : {5, 1024, 1025, 9000}) {
     for (const std::size_t count : {1U, 4U, 33U}) {
       const std::vector<Vector> expected = everything(InnerProductRef(), n, count);
+      const Shared shared{(n + 1) / 2};
       for (const int threads : {1, 2, 3, 7}) {
         omp_set_num_threads(threads);
-        const std::vector<Vector> found = everything(ThreadedVectors((n + 1) / 2), n, count);
+        const std::vector<Vector> found = everything(InnerProductRef(shared), n, count);
         ASSERT_EQ(found.size(), expected.size());
         for (std::size_t k = 0; k < found.size(); ++k) {
           EXPECT_TRUE((found[k].array() == expected[k].array()).all())
@@ -81,13 +89,9 @@ TEST(ThreadedVectors, GiveTheBitsOfNoneForAnyNumberOfThreads) {
   omp_set_num_threads(before);
 }
 
-TEST(ThreadedVectors, AreWhatTheSolverFindsInTheEquilibrium) {
+TEST(ShareOut, IsWhatTheSolverFindsInTheEquilibrium) {
   using Plane = equilibrium::Equilibrium<2>;
-  EXPECT_TRUE(jfnk::HasInnerProduct<Plane>);
-  EXPECT_TRUE(jfnk::HasDots<Plane>);
-  EXPECT_TRUE(jfnk::HasCombine<Plane>);
-  EXPECT_TRUE(jfnk::HasSingleDots<Plane>);
-  EXPECT_TRUE(jfnk::HasSingleCombine<Plane>);
+  EXPECT_TRUE(jfnk::HasShareOut<Plane>);
 }
 
 }  // namespace
