@@ -45,6 +45,7 @@ jfnk::Options solver_options(const scene::Scene& scene, double rounding) {
   // Rounded pairs cost no evaluations before a tolerance like this, and half the memory.
   constexpr double finest_for_single_precision = 1e-6;
   options.multisecant.single_precision = settings.tolerance >= finest_for_single_precision;
+  options.krylov.single_precision = options.multisecant.single_precision;
   options.jacobian.length_scale = scene.geometry.spacing;
   options.max_evaluations = scene.solver.max_evaluations_per_step;
   return options;

@@ -1,4 +1,4 @@
-#include "column_store.hpp"
+#include "jfnk/column_store.hpp"
 
 namespace jfnk::detail {
 namespace {

@@ -44,22 +44,16 @@ void Gmres::resize(Eigen::Index n, const GmresOptions& options, bool preconditio
   const Eigen::Index dimension = options.global_size > 0 ? options.global_size : n;
   const auto columns = static_cast<std::size_t>(
       std::min<Eigen::Index>({dimension, options.restart, options.max_iterations}));
-  if (basis_.size() != columns + 1) basis_.resize(columns + 1);
   // Grown as columns are built: most solves need few.
-  for (Vector& v : basis_) {
-    if (v.size() != n) v.resize(0);
-  }
-  basis_.front().resize(n);
-  preconditioned_.resize(options.flexible && preconditioned ? columns : 0);
-  for (Vector& z : preconditioned_) {
-    if (z.size() != n) z.resize(0);
-  }
+  basis_.resize(columns + 1, n, options.single_precision);
+  preconditioned_.resize(options.flexible && preconditioned ? columns : 0, n,
+                         options.single_precision);
   work_.resize(n);
   next_.resize(n);
   direction_.resize(preconditioned ? n : 0);
   const auto m = static_cast<Eigen::Index>(columns);
   sums_.resize(m + 2);
-  columns_of_basis_.reserve(columns + 2);
+  list_.reserve(columns + 2);
   triangle_.resize(m + 1, m);
   cosines_.resize(m);
   sines_.resize(m);
@@ -87,7 +81,7 @@ GmresResult Gmres::solve(const OperatorRef& A, const Vector& b, Vector& x,
   GmresResult result;
   const double b_norm = product.norm(b);
   const double target = std::max(options.absolute_tolerance, options.relative_tolerance * b_norm);
-  Vector& r = basis_.front();
+  Vector& r = next_;
   const bool zero_guess = all_zero(x);
   Evaluation first = Evaluation::ok;
   if (zero_guess) {
@@ -132,28 +126,26 @@ GmresResult Gmres::solve(const OperatorRef& A, const Vector& b, Vector& x,
   return result;
 }
 
-// Builds columns from basis_[0] = r until the target, the restart length, the cap or a failure.
+// Builds columns from next_ = r until the target, the restart length, the cap or a failure.
 Gmres::Cycle Gmres::run_cycle(const OperatorRef& A, const PreconditionerRef& P,
                               const InnerProductRef& product, const GmresOptions& options,
                               int allowed, double target) {
   Cycle cycle;
   const int columns = std::min(allowed, static_cast<int>(triangle_.cols()));
-  basis_[0] /= residual_norm_;
+  product.pass(next_.size(), 2, [&](Rows rows) { rows.of(next_) /= residual_norm_; });
+  basis_.assign(0, 1.0, next_, product);
   rhs_.setZero();
   rhs_[0] = residual_norm_;
   for (int k = 0; k < columns; ++k) {
     const auto column = static_cast<std::size_t>(k);
-    Vector& w = basis_[column + 1];
-    w.resize(work_.size());
-    const Vector* input = &basis_[column];
+    const Vector* input = &basis_.view(column, work_, product);
     if (!P.is_identity()) {
-      Vector& z = options.flexible ? preconditioned_[column] : direction_;
-      z.resize(work_.size());
-      P.apply(basis_[column], z);
+      P.apply(*input, direction_);
       ++preconditioner_applications_;
-      input = &z;
+      if (options.flexible) preconditioned_.assign(column, 1.0, direction_, product);
+      input = &direction_;
     }
-    const Evaluation outcome = A(*input, w);
+    const Evaluation outcome = A(*input, next_);
     double before = 0.0;
     double after = 0.0;
     if (outcome == Evaluation::ok) after = orthogonalise(k, product, before);
@@ -163,6 +155,7 @@ Gmres::Cycle Gmres::run_cycle(const OperatorRef& A, const PreconditionerRef& P,
           outcome == Evaluation::stop ? KrylovStatus::stopped : KrylovStatus::operator_failed;
       return cycle;
     }
+    basis_.assign(column + 1, 1.0, next_, product);
     const bool exhausted = after <= breakdown_ratio * before;
     rotate_column(k, exhausted ? 0.0 : after);
     cycle.columns = k + 1;
@@ -178,25 +171,25 @@ Gmres::Cycle Gmres::run_cycle(const OperatorRef& A, const PreconditionerRef& P,
   return cycle;
 }
 
-Vectors Gmres::first_of(const std::vector<Vector>& vectors, int count) {
-  columns_of_basis_.clear();
-  for (int j = 0; j < count; ++j) {
-    columns_of_basis_.push_back(&vectors[static_cast<std::size_t>(j)]);
-  }
-  return columns_of_basis_;
+const detail::ColumnList& Gmres::first_of(const detail::ColumnStore& store, int count) {
+  list_.clear();
+  for (int j = 0; j < count; ++j) list_.add(store, static_cast<std::size_t>(j));
+  return list_;
 }
 
-// Classical Gram-Schmidt of basis_[k+1] against the columns before it, with coefficients to
+// Classical Gram-Schmidt of next_ against the columns before it, with coefficients to
 // triangle_: all inner products of a sweep and the square of the vector are one sum, and the rest
 // is scaled to length one as it is formed. Returns the length it had; not finite: `before` is not.
 double Gmres::orthogonalise(int k, const InnerProductRef& product, double& before) {
-  Vector& w = basis_[static_cast<std::size_t>(k) + 1];
-  const auto count = static_cast<std::size_t>(k) + 1;
+  Vector& w = next_;
   double scale = 1.0;  // of w over what it was
   double shrunk = 1.0;
   triangle_.col(k).setZero();
   const auto look = [&] {
-    product.dots(first_of(basis_, k + 2), w, {sums_.data(), count + 1});
+    (void)first_of(basis_, k + 1);
+    if (!basis_.is_single()) list_.add(w);
+    list_.dots(product, w, sums_.data());
+    if (basis_.is_single()) sums_[k + 1] = product.dot(w, w);
     return sums_[k + 1];
   };
   double square = look();
@@ -217,7 +210,7 @@ double Gmres::orthogonalise(int k, const InnerProductRef& product, double& befor
     const double after = known ? std::sqrt(rest) : length;
     triangle_.col(k).head(k + 1) += (scale * shrunk) * sums_.head(k + 1);
     sums_.head(k + 1) *= -1.0 / after;
-    product.combine(1.0 / after, first_of(basis_, k + 1), {sums_.data(), count}, w);
+    first_of(basis_, k + 1).combine(product, 1.0 / after, sums_.data(), w);
     shrunk *= after;
     if (known) return scale * shrunk;
     // What is left is too small a part to be known by its square: look again.
@@ -229,11 +222,9 @@ double Gmres::orthogonalise(int k, const InnerProductRef& product, double& befor
 }
 
 std::size_t Gmres::bytes() const {
-  Eigen::Index numbers = work_.size() + direction_.size() + next_.size() + triangle_.size();
-  for (const std::vector<Vector>* vectors : {&basis_, &preconditioned_}) {
-    for (const Vector& v : *vectors) numbers += v.size();
-  }
-  return static_cast<std::size_t>(numbers) * sizeof(double);
+  const Eigen::Index numbers = work_.size() + direction_.size() + next_.size() + triangle_.size();
+  return static_cast<std::size_t>(numbers) * sizeof(double) + basis_.bytes() +
+         preconditioned_.bytes();
 }
 
 // Brings the new column of the Hessenberg matrix to triangular form by Givens rotations.
@@ -276,30 +267,31 @@ void Gmres::solve_triangle(int columns) {
 void Gmres::add_combination(int columns, const Eigen::VectorXd& coefficients,
                             const PreconditionerRef& P, const InnerProductRef& product, Vector& x) {
   if (columns == 0) return;
-  const std::span<const double> weights{coefficients.data(), static_cast<std::size_t>(columns)};
   if (flexible_ || P.is_identity()) {
-    product.combine(1.0, first_of(flexible_ ? preconditioned_ : basis_, columns), weights, x);
+    first_of(flexible_ ? preconditioned_ : basis_, columns)
+        .combine(product, 1.0, coefficients.data(), x);
     return;
   }
-  product.combine(0.0, first_of(basis_, columns), weights, work_);
+  first_of(basis_, columns).combine(product, 0.0, coefficients.data(), work_);
   P.apply(work_, direction_);
   ++preconditioner_applications_;
   x += direction_;
 }
 
-// Column j of Q = V G^T into basis_[j], where G are the rotations; work_ holds v_j as it was, next_
+// Column j of Q = V G^T into the basis, where G are the rotations; work_ holds v_j as it was, next_
 // will hold v_{j+1}.
 void Gmres::rotate_basis(int j) {
-  Vector& q = basis_[static_cast<std::size_t>(j)];
-  Vector& rest = basis_[static_cast<std::size_t>(j) + 1];
-  next_ = rest;
-  rest = cosines_[j] * next_ - sines_[j] * q;
-  q = cosines_[j] * q + sines_[j] * next_;
+  const auto at = static_cast<std::size_t>(j);
+  basis_.copy_to(at + 1, next_);
+  Vector q;
+  basis_.copy_to(at, q);
+  basis_.assign(at + 1, 1.0, cosines_[j] * next_ - sines_[j] * q);
+  basis_.assign(at, 1.0, cosines_[j] * q + sines_[j] * next_);
 }
 
 // z_j such that A z_j is column j, from v_j in work_.
 const Vector& Gmres::column_of_space(int j, const PreconditionerRef& P) {
-  if (flexible_) return preconditioned_[static_cast<std::size_t>(j)];
+  if (flexible_) return preconditioned_.view(static_cast<std::size_t>(j), direction_);
   if (P.is_identity()) return work_;
   P.apply(work_, direction_);
   ++preconditioner_applications_;
@@ -364,9 +356,7 @@ void Gmres::residual_from_recurrence(int columns, const InnerProductRef& product
     coefficients_[j] = cosines_[j] * upper - sines_[j] * lower;
     coefficients_[j + 1] = sines_[j] * upper + cosines_[j] * lower;
   }
-  const auto count = static_cast<std::size_t>(columns) + 1;
-  product.combine(0.0, first_of(basis_, columns + 1), {coefficients_.data(), count}, work_);
-  basis_[0].swap(work_);
+  first_of(basis_, columns + 1).combine(product, 0.0, coefficients_.data(), next_);
 }
 
 }  // namespace jfnk

@@ -79,6 +79,7 @@ LinearSolution find_direction(Solve& solve, double eta, double shift, Iteration&
   linear.restart = solve.options.krylov.restart;
   linear.max_iterations = most_iterations(solve);
   linear.flexible = solve.options.krylov.flexible;
+  linear.single_precision = solve.options.krylov.single_precision;
   linear.relative_tolerance = eta;
   linear.global_size = evaluator.residual().global_size(work.base.u.size());
   work.step = -work.base.r;

@@ -232,10 +232,11 @@ void renew_memory(Solve& solve) {
   Workspace& work = solve.work;
   CountedPreconditioner counted{&solve.evaluator};
   work.secants.clear(keeps_images(solve));
-  work.gmres.hand_out_space(counted.ref(), [&](const Vector& z, Vectors q, const auto& r) {
-    return work.secants.append(z, q, r, solve.options.multisecant.max_condition,
-                               solve.evaluator.product());
-  });
+  work.gmres.hand_out_space(
+      counted.ref(), [&](const Vector& z, const ColumnList& q, const auto& r) {
+        return work.secants.append(z, q, r, solve.options.multisecant.max_condition,
+                                   solve.evaluator.product());
+      });
 }
 
 /// Whether it is time for Newton, after a step that changed F by so much.

@@ -50,7 +50,7 @@ void SecantMemory::add(const Vector& du, const Vector& dr, double max_condition,
   }
 }
 
-bool SecantMemory::append(const Vector& du, Vectors q,
+bool SecantMemory::append(const Vector& du, const ColumnList& q,
                           const Eigen::Ref<const Eigen::VectorXd>& column, double max_condition,
                           const InnerProductRef& product) {
   const double length = column.norm();
@@ -62,7 +62,7 @@ bool SecantMemory::append(const Vector& du, Vectors q,
       r_.col(size_).head(size_ + 1);
   du_.assign(slot(size_), 1.0 / length, du);
   factors_.head(size_ + 1) = r_.col(size_).head(size_ + 1);
-  product.combine(0.0, q, {factors_.data(), q.size()}, work_);
+  q.combine(product, 0.0, factors_.data(), work_);
   y_.assign(slot(size_), 1.0, work_);
   images_are_old_ = true;
   ++size_;

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "column_store.hpp"
+#include "jfnk/column_store.hpp"
 #include "jfnk/residual.hpp"
 
 namespace jfnk::detail {
@@ -55,8 +55,9 @@ class SecantMemory {
   /// @param column  the next column of R, down to its diagonal at `size()`
   /// Images are to be renewed afterwards.
   /// @return false, and no pair is taken, if there is no room or the column adds too little
-  bool append(const Vector& du, Vectors q, const Eigen::Ref<const Eigen::VectorXd>& column,
-              double max_condition, const InnerProductRef& product);
+  bool append(const Vector& du, const ColumnList& q,
+              const Eigen::Ref<const Eigen::VectorXd>& column, double max_condition,
+              const InnerProductRef& product);
 
   /// gamma = argmin ||r - Y gamma||; step = -dU gamma, remainder = r - Y gamma.
   /// Cost: 6 n size() flops. No allocation.

@@ -75,6 +75,7 @@ void resize(Workspace& work, Eigen::Index n, Eigen::Index global, const Options&
     linear.restart = options.krylov.restart;
     linear.max_iterations = options.krylov.max_iterations;
     linear.flexible = options.krylov.flexible;
+    linear.single_precision = options.krylov.single_precision;
     if (options.krylov.solver != Krylov::Solver::bicgstab) {
       work.gmres.resize(n, linear, preconditioned);
     } else {
@@ -346,7 +347,12 @@ std::size_t Solver::bytes_to_come(Eigen::Index n, bool preconditioned, int krylo
   if (options.method != Method::multisecant) {
     const Eigen::Index most = std::min(options.krylov.restart, options.krylov.max_iterations) + 1;
     const Eigen::Index basis = std::min<Eigen::Index>({most, krylov_vectors + 1, n + 1});
-    vectors += options.krylov.solver == Krylov::Solver::bicgstab ? 6 + p : 2 + p + basis;
+    if (options.krylov.solver == Krylov::Solver::bicgstab) {
+      vectors += 6 + p;
+    } else {
+      vectors += 2 + p;
+      (options.krylov.single_precision ? singles : vectors) += basis;
+    }
   }
   if (options.method != Method::newton_krylov) {
     const Multisecant& rule = options.multisecant;

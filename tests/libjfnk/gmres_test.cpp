@@ -54,6 +54,40 @@ double rounding_bound(const Matrix& A, const Vector& x, const Vector& b) {
   return 10.0 * rounding_unit * static_cast<double>(A.rows()) * (A.norm() * x.norm() + b.norm());
 }
 
+TEST(Gmres, ColumnsInSinglePrecisionCostNoIterationAtATolerableTolerance) {
+  constexpr int n = 400;
+  constexpr double rounding = 0x1p-24;  // of a number to single precision
+  const Matrix A = clustered_matrix(n, 3);
+  const Vector b = random_vector(n, 4);
+  const auto half = [](const Vector& r, Vector& z) { z = 0.5 * r; };
+  for (const bool flexible : {false, true}) {
+    for (const int restart : {60, 5}) {
+      int iterations[2];
+      std::size_t bytes[2];
+      for (const bool single_precision : {false, true}) {
+        GmresOptions options;
+        options.restart = restart;
+        options.relative_tolerance = 1e-5;
+        options.flexible = flexible;
+        options.single_precision = single_precision;
+        jfnk::Gmres solver;
+        Product product{A};
+        Vector x = Vector::Zero(n);
+        const GmresResult result =
+            solver.solve(jfnk::OperatorRef(product), b, x, options, jfnk::PreconditionerRef(half));
+        ASSERT_EQ(result.status, KrylovStatus::converged);
+        iterations[single_precision ? 1 : 0] = result.iterations;
+        bytes[single_precision ? 1 : 0] = solver.bytes();
+        // The recurrence knows nothing of the rounding of the columns, each of a part of b.
+        const double unknown = result.iterations * (single_precision ? rounding : rounding_unit);
+        EXPECT_NEAR((b - A * x).norm(), result.residual_norm, 10 * unknown * b.norm());
+      }
+      EXPECT_EQ(iterations[1], iterations[0]);
+      EXPECT_LT(bytes[1], bytes[0]);
+    }
+  }
+}
+
 TEST(Gmres, SolvesNonsymmetricSystemInAtMostNIterations) {
   constexpr int n = 40;
   const Matrix A = random_matrix(n, 1);

@@ -276,7 +276,10 @@ TEST(SolverMemory, IsToldAsItIsAndAsItWillBe) {
   const jfnk_test::Bratu bratu(80, 6.0);
   const int n = bratu.size();
   const auto weak = [](const Vector& r, Vector& z) { z = 0.2 * r; };
-  for (const Options& options : {jfnk::plasticity(), jfnk::newton_krylov(), jfnk::hybrid()}) {
+  Options single = jfnk::plasticity();
+  single.krylov.single_precision = single.multisecant.single_precision = true;
+  for (const Options& options :
+       {jfnk::plasticity(), single, jfnk::newton_krylov(), jfnk::hybrid()}) {
     Vector u = Vector::Zero(n);
     const std::size_t before = allocated();
     Solver solver(options);

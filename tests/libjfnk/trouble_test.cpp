@@ -108,8 +108,11 @@ TEST(Dogleg, HandsOutTheSpaceAsOrthogonalFactors) {
     Vector x = Vector::Zero(25);
     (void)gmres.solve(jfnk::OperatorRef(op), b, x, options, P);
     std::vector<Vector> qs;
-    gmres.hand_out_space(P, [&](const Vector& z, jfnk::Vectors up_to_q, const auto& r) {
-      const Vector& q = *up_to_q.back();
+    gmres.hand_out_space(P, [&](const Vector& z, const auto& up_to_q, const auto& r) {
+      Vector last = Vector::Zero(static_cast<Eigen::Index>(up_to_q.size()));
+      last[last.size() - 1] = 1.0;
+      Vector q(25);
+      up_to_q.combine({}, 0.0, last.data(), q);
       qs.push_back(q);
       Vector image = A * z;
       for (std::size_t j = 0; j < qs.size(); ++j) {

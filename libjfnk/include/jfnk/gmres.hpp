@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "jfnk/column_store.hpp"
 #include "jfnk/preconditioner.hpp"
 #include "jfnk/residual.hpp"
 
@@ -33,6 +34,9 @@ struct GmresOptions {
   /// Store the preconditioned vectors so that P may vary from call to call (Saad 1993); otherwise
   /// P is applied once more at the end of each cycle.
   bool flexible = false;
+  /// Keep the columns in single precision, in half the memory; x, b and what is orthogonalised are
+  /// in double precision. For relative tolerances of 1e-5 and looser.
+  bool single_precision = false;
   /// Unknowns on all processes together, for a distributed A; 0: those of b.
   Eigen::Index global_size = 0;
 };
@@ -102,7 +106,7 @@ class Gmres {
   template <class Take>
   void hand_out_space(const PreconditionerRef& P, Take&& take) {
     can_shorten_ = false;
-    work_ = basis_.front();
+    basis_.copy_to(0, work_);
     for (int j = 0; j < columns_; ++j) {
       rotate_basis(j);
       const Vector& z = column_of_space(j, P);
@@ -127,7 +131,7 @@ class Gmres {
   Cycle run_cycle(const OperatorRef& A, const PreconditionerRef& P, const InnerProductRef& product,
                   const GmresOptions& options, int allowed, double target);
   double orthogonalise(int k, const InnerProductRef& product, double& before);
-  Vectors first_of(const std::vector<Vector>& vectors, int count);
+  const detail::ColumnList& first_of(const detail::ColumnStore& store, int count);
   void rotate_column(int k, double subdiagonal);
   const Vector& column_of_space(int j, const PreconditionerRef& P);
   void rotate_basis(int j);
@@ -136,11 +140,11 @@ class Gmres {
                        const InnerProductRef& product, Vector& x);
   void residual_from_recurrence(int columns, const InnerProductRef& product);
 
-  std::vector<Vector> basis_;
-  std::vector<Vector> preconditioned_;
+  detail::ColumnStore basis_;
+  detail::ColumnStore preconditioned_;
   Vector work_;
   Vector direction_;
-  Vector next_;
+  Vector next_;  // the residual before a cycle, the next column within
   Eigen::MatrixXd triangle_;
   Eigen::VectorXd cosines_;
   Eigen::VectorXd sines_;
@@ -149,8 +153,8 @@ class Gmres {
   Eigen::VectorXd descent_;
   Eigen::VectorXd path_;
   Eigen::VectorXd sums_;
-  std::vector<const Vector*> columns_of_basis_;  // those that an operation is about
-  int columns_ = 0;                              // of the last cycle
+  detail::ColumnList list_;  // the columns that an operation is about
+  int columns_ = 0;          // of the last cycle
   bool flexible_ = false;
   bool can_shorten_ = false;
   double length_ = 0.0;

@@ -61,6 +61,9 @@ struct Krylov {
   int max_iterations = 200;
   /// Keep the preconditioned vectors so that the preconditioner may vary (twice the memory).
   bool flexible = false;
+  /// GMRES keeps its columns in single precision: half the memory, and half of what an iteration
+  /// reads. For forcing terms of 1e-5 and looser.
+  bool single_precision = false;
   Forcing forcing = {};
 };
 

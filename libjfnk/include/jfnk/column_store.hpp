@@ -18,6 +18,13 @@ class ColumnStore {
               const InnerProductRef& product = {});
   /// What is in a slot. @param[out] v  resized
   void copy_to(std::size_t slot, Vector& v, const InnerProductRef& product = {}) const;
+  /// The vector in a slot: itself if it is in double precision, else a copy in `scratch`.
+  const Vector& view(std::size_t slot, Vector& scratch, const InnerProductRef& product = {}) const {
+    if (!is_single_) return doubles_[slot];
+    copy_to(slot, scratch, product);
+    return scratch;
+  }
+  [[nodiscard]] bool is_single() const { return is_single_; }
   /// Whether nothing was ever put there.
   [[nodiscard]] bool is_empty(std::size_t slot) const {
     return (is_single_ ? singles_[slot].size() : doubles_[slot].size()) == 0;
@@ -38,6 +45,9 @@ class ColumnList {
   void clear();
   void reserve(std::size_t count);
   void add(const ColumnStore& store, std::size_t slot);
+  /// A vector in double precision, as are the others.
+  void add(const Vector& v) { doubles_.push_back(&v); }
+  [[nodiscard]] std::size_t size() const { return doubles_.size() + singles_.size(); }
   /// sums[j] = <column j, w>.
   void dots(const InnerProductRef& product, const Vector& w, double* sums) const;
   /// w = own w + sum_j factors[j] column j; w is not read if own = 0.
