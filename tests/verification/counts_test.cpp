@@ -108,8 +108,8 @@ TEST(Counts, AreThoseOfTheTable) {
     for (std::string word; words >> word;) settings.push_back(word);
     const TestScene scene = shipped_scene(line.scene, settings);
     double nanoseconds = 0.0;
-    const Line found = scene.geometry.dimension == 3 ? counted<3>(line, scene, nanoseconds)
-                                                     : counted<2>(line, scene, nanoseconds);
+    const Line found = dimension_of(scene) == 3 ? counted<3>(line, scene, nanoseconds)
+                                                : counted<2>(line, scene, nanoseconds);
     std::cout << line.scene << ' ' << line.settings << ": " << found.evaluations << " evaluations, "
               << std::round(nanoseconds) << " ns per particle and evaluation\n";
     if (to != nullptr) {

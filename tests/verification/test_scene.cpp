@@ -31,6 +31,10 @@ TestScene scene_of(const std::string& text, const Settings& settings) {
   return checked(scene::parse_scene(text, "test scene", settings));
 }
 
+int dimension_of(const scene::Scene& scene) {
+  return scene.geometry.dimension;
+}
+
 double target_of(const scene::Scene& scene) {
   return scene.drive.target;
 }

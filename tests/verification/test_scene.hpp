@@ -31,6 +31,7 @@ TestScene shipped_scene(const std::string& name, const Settings& settings = {});
 TestScene scene_of(const std::string& text, const Settings& settings = {});
 
 /// What tests ask of a scene, without its type.
+int dimension_of(const scene::Scene& scene);
 double target_of(const scene::Scene& scene);            // of the drive [m]
 double reference_length_of(const scene::Scene& scene);  // of the drive [m]
 double youngs_modulus_of(const scene::Scene& scene);    // of the first material [Pa]
