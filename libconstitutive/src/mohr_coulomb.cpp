@@ -185,6 +185,10 @@ UpdateOutcome update(const MohrCoulomb& material,
   if (!std::isfinite(j2(trial)) || !std::isfinite(trace(trial))) {
     return {.failed = true};
   }
+  if (detail::is_within_for_sure(material, mean_stress(trial), std::sqrt(j2(trial)))) {
+    s1.stress = trial;
+    return {};
+  }
   const Spectrum x = spectrum(trial);
   const detail::PrincipalReturn r = detail::return_principal(material, sin_psi, x.values);
   if (r.regime == detail::MohrCoulombRegime::elastic) {
@@ -205,6 +209,9 @@ template <int Dim>
 TangentMatrix<Dim> trial_tangent(const MohrCoulomb& material,
                                  const std::type_identity_t<StressVector<Dim>>& trial,
                                  const PointState<Dim>& s0) {
+  if (detail::is_within_for_sure(material, mean_stress(trial), std::sqrt(j2(trial)))) {
+    return TangentMatrix<Dim>::Identity();
+  }
   const Spectrum x = spectrum(trial);
   const detail::PrincipalReturn r =
       detail::return_principal(material, detail::sine_of_dilation(material, s0), x.values);

@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
-#include <Eigen/QR>
 
+#include <Eigen/QR>
+#include <algorithm>
+#include <functional>
+#include <limits>
 #include <numbers>
+#include <random>
 
 #include "points.hpp"
 
@@ -116,6 +120,32 @@ TEST(MohrCoulombReturn, IsContinuousAcrossItsRegimes) {
       const Eigen::Vector3d next = return_principal(m, m.sin_dilation, trial).stress;
       ASSERT_LE((next - last).norm(), lipschitz * (to - from).norm() / steps) << trial.transpose();
       last = next;
+    }
+  }
+}
+
+TEST(MohrCoulomb, IsWithinForSureWhereverThePrincipalStressesSaySo) {
+  std::mt19937 engine(5);
+  std::normal_distribution<double> normal;
+  for (const double phi : {0.0, 20.0, 45.0}) {
+    for (const double tension : {std::numeric_limits<double>::infinity(), 4e3}) {
+      MohrCoulomb m = mohr_coulomb(phi, phi / 2);
+      m.tension = tension;
+      int inside = 0, for_sure = 0;
+      for (int sample = 0; sample < 20000; ++sample) {
+        Eigen::Vector3d x = 10e3 * Eigen::Vector3d::NullaryExpr([&] { return normal(engine); });
+        std::sort(x.data(), x.data() + 3, std::greater<>());
+        const double size = std::sqrt((x.array() - x.mean()).square().sum() / 2);
+        const bool is_inside =
+            return_principal(m, m.sin_dilation, x).regime == MohrCoulombRegime::elastic;
+        inside += is_inside ? 1 : 0;
+        if (!detail::is_within_for_sure(m, x.mean(), size)) continue;
+        ++for_sure;
+        EXPECT_TRUE(is_inside) << x.transpose();
+      }
+      // A circle in the hexagon has 0.9 of Tresca's area, and less of slimmer ones.
+      EXPECT_GT(for_sure, inside / 2);
+      EXPECT_LT(for_sure, inside);
     }
   }
 }

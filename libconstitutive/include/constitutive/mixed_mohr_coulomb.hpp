@@ -64,12 +64,22 @@ inline void return_at_mean(const MohrCoulomb& m, double sin_psi, const Spectrum&
   point.by_trial[row] += 1 / flow;
 }
 
-template <std::size_t M, int Dim>
-std::array<Spectrum, M> spectra(const MixedTrial<M, Dim>& trial) {
-  std::array<Spectrum, M> of;
-  for (std::size_t k = 0; k < M; ++k) of[k] = spectrum(trial.deviator[k]);
-  return of;
-}
+/// The trial's deviators in their principal frames, but of sub-points that are elastic for sure: at
+/// the trial's mean stress, and so at any lower one.
+template <std::size_t M>
+struct TrialSpectra {
+  std::array<bool, M> is_elastic;
+  std::array<Spectrum, M> of;  ///< Unspecified where it is elastic.
+
+  template <int Dim>
+  TrialSpectra(const MohrCoulomb& m, const MixedTrial<M, Dim>& trial,
+               const std::array<double, M>& sizes) {
+    for (std::size_t k = 0; k < M; ++k) {
+      is_elastic[k] = is_within_for_sure(m, trial.pressure, sizes[k]);
+      if (!is_elastic[k]) of[k] = spectrum(trial.deviator[k]);
+    }
+  }
+};
 
 /// A block at a given mean stress: the rest of the equation for p, and its slope.
 template <std::size_t M>
@@ -78,13 +88,14 @@ struct CornerBlock {
   double rest = 0, slope = 1;
 
   CornerBlock(const MohrCoulomb& material, double sin_psi, double trial_pressure,
-              const std::array<Spectrum, M>& deviator, const std::array<double, M>& weights,
+              const TrialSpectra<M>& deviator, const std::array<double, M>& weights,
               double pressure)
       : rest(pressure - trial_pressure) {
     const MohrCoulomb m = without_bulk(material);
     const double dilation = 2 * material.moduli.bulk * sin_psi;
     for (std::size_t k = 0; k < M; ++k) {
-      Spectrum at_pressure = deviator[k];
+      if (deviator.is_elastic[k]) continue;
+      Spectrum at_pressure = deviator.of[k];
       at_pressure.values.array() += pressure;
       return_at_mean(m, sin_psi, at_pressure, point[k]);
       rest += dilation * weights[k] * point[k].multiplier;
@@ -102,9 +113,8 @@ inline double apex_pressure(const MohrCoulomb& m) {
 /// Whether the block ends at the apex, else the block at its mean stress, which `pressure` becomes.
 template <std::size_t M>
 bool solve_corner_block(const MohrCoulomb& m, double sin_psi, double trial_pressure,
-                        const std::array<Spectrum, M>& deviator,
-                        const std::array<double, M>& weights, double& pressure,
-                        CornerBlock<M>& block) {
+                        const TrialSpectra<M>& deviator, const std::array<double, M>& weights,
+                        double& pressure, CornerBlock<M>& block) {
   const double apex = apex_pressure(m);
   pressure = std::min(trial_pressure, apex);
   const auto at = [&](double p) {
@@ -148,7 +158,7 @@ MixedCornerResult<M, Dim> mixed_return(const MohrCoulomb& material, const MixedT
   const auto sizes = detail::deviator_sizes(trial);
   r.outcome.failed = !detail::all_finite(trial.pressure, sizes) || std::isfinite(material.tension);
   if (r.outcome.failed) return r;
-  const auto deviator = detail::spectra(trial);
+  const detail::TrialSpectra<M> deviator(material, trial, sizes);
   detail::CornerBlock<M> block(material, sin_psi, trial.pressure, deviator, weights,
                                trial.pressure);
   r.outcome.apex = detail::solve_corner_block(material, sin_psi, trial.pressure, deviator, weights,
@@ -170,7 +180,7 @@ MixedCornerResult<M, Dim> mixed_return(const MohrCoulomb& material, const MixedT
     } else {
       dilation = 2 * moduli.bulk * sin_psi * point.multiplier;
       r.deviator[k] = recompose<Dim>(Eigen::Vector3d(point.returned.stress.array() - r.pressure),
-                                     deviator[k].directions);
+                                     deviator.of[k].directions);
     }
     const double removed =
         sqrt_j2_of_deviator(StressVector<Dim>(trial.deviator[k] - r.deviator[k]));
