@@ -10,6 +10,7 @@
 
 #include "limit/certificate/lower_certificate.hpp"
 #include "limit/ground/ground_cases.hpp"
+#include "limit/problem/bare_corners.hpp"
 
 namespace {
 
@@ -216,12 +217,127 @@ TEST(TensionCutOff, OfNothingHasAFactorOfSafety) {
   EXPECT_LT(found.gap(), 0.05);
 }
 
+// Clay whose weight grows with depth, gamma = 1 + (1 - y) / 2: columns as high as the cut bear 2 c
+// at their feet under 1.25 of it.
+TEST(TensionCutOff, OfNothingBearsColumnsOfUnevenWeight) {
+  std::string text = cut(0.0);
+  const std::string even = "unit_weight = 1\n";
+  text.replace(text.find(even), even.size(),
+               "unit_weight = { at = [0, 1], value = 1, gradient = [0, -0.5] }\n");
+  const bracket::Solution found = coarse(text);
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_LE(*found.lower, 1.6 * (1.0 + 1e-9));
+  EXPECT_GT(*found.lower, 1.6 * 0.999);
+  EXPECT_GE(*found.upper, 1.6);
+  EXPECT_LE(largest_tension(found), 1e-11);
+}
+
+// A pillar of weight on a smooth floor, half of it, under a pressure or a footing.
+std::string pillar(const std::string& more, const std::string& top, const char* sought) {
+  return fmt::format("[load]\nsought = \"{}\"\n", sought) + more +
+         "[[material]]\nname = \"soil\"\ncohesion = 20e3\nfriction_angle = 20\n"
+         "unit_weight = 20e3\ntension_cutoff = 0\n" +
+         R"([[region]]
+material = "soil"
+outline = [[0, 0], [1, 0], [1, 2], [0, 2]]
+[[side]]
+name = "face"
+kind = "free"
+along = [[1, 0], [1, 2]]
+[[side]]
+name = "axis"
+kind = "symmetry"
+along = [[0, 0], [0, 2]]
+[[side]]
+name = "top"
+)" + top +
+         R"(
+along = [[0, 2], [1, 2]]
+[[side]]
+name = "floor"
+kind = "roller"
+along = [[0, 0], [1, 0]]
+)";
+}
+
+// What a pillar bears at its foot is 2 c tan(45 + phi / 2), its own weight included, which is less
+// under water; whether a pressure is on top or a footing that may lift off.
+TEST(TensionCutOff, OfNothingLeavesAPillarItsStrengthUnderWaterAndFootings) {
+  const double foot = 2.0 * 20e3 * std::tan((45.0 + 10.0) * degree);
+  const std::string pressed = "kind = \"loaded\"\nlive_pressure = 1";
+  const std::string footing = "kind = \"footing\"\nbase = \"smooth\"\ntension = false";
+  const std::string water = "[water]\nunit_weight = 10e3\ntable = [[-1, 3], [2, 3]]\n";
+  struct Pillar {
+    std::string scene;
+    double exact;
+  };
+  for (const Pillar& one : {Pillar{pillar("", pressed, "traction"), foot - 2.0 * 20e3},
+                            Pillar{pillar(water, pressed, "traction"), foot - 2.0 * 10e3},
+                            Pillar{pillar("", footing, "footing"), foot - 2.0 * 20e3}}) {
+    const bracket::Solution found = coarse(one.scene);
+    ASSERT_TRUE(found.lower && found.upper) << one.scene;
+    EXPECT_LE(*found.lower, one.exact * (1.0 + 1e-9)) << one.scene;
+    EXPECT_GT(*found.lower, one.exact * 0.99) << one.scene;
+    EXPECT_GE(*found.upper, one.exact * (1.0 - 1e-9)) << one.scene;
+    EXPECT_LE(largest_tension(found), 1e-11);
+  }
+}
+
+// A side that carries nothing of what is sought is as free as a free one.
+TEST(TensionCutOff, OfNothingKnowsAFaceWhoseLoadIsNotSought) {
+  std::string text = cut(0.0);
+  const std::string all = "kind = \"free\"\nalong = [[-2, 0], [0, 0], [0, 1], [2, 1]]";
+  text.replace(text.find(all), all.size(),
+               "kind = \"free\"\nalong = [[-2, 0], [0, 0]]\n[[side]]\nname = \"top\"\nkind = "
+               "\"free\"\nalong = [[0, 1], [2, 1]]\n[[side]]\nname = \"face\"\nkind = \"loaded\"\n"
+               "live_pressure = 1\nalong = [[0, 0], [0, 1]]");
+  const bracket::Solution found = coarse(text);
+  ASSERT_TRUE(found.lower);
+  EXPECT_LE(*found.lower, 2.0 * (1.0 + 1e-9));
+  EXPECT_GT(*found.lower, 1.999);
+}
+
+// Where a face turns by more than rounding it is an edge that juts out, which bears nothing.
+TEST(TensionCutOff, OfNothingTakesATurnOfAFaceForWhatItIs) {
+  for (const double turn : {0.0, 1e-12, 1e-7}) {
+    problem::Problem problem;
+    problem.mesh.nodes = {{0.0, 0.0}, {1.0, -1.0}, {2.0, 0.0}, {1.0, turn}};
+    problem.mesh.triangles = {{{0, 1, 3}, 0}, {{1, 2, 3}, 0}};
+    problem.mesh.boundary = {{0, 1, 1}, {1, 2, 1}, {2, 3, 0}, {3, 0, 0}};
+    problem::Soil soil;
+    soil.cohesion = 1.0;
+    soil.tension = 0.0;
+    problem.soils = {soil};
+    problem.boundaries = {{"face"}, {"rigid", problem::Known::support, problem::Known::support}};
+    const auto bare = problem::bare_corners(problem);
+    ASSERT_EQ(bare.size(), 2U);
+    using Bears = problem::BareCorner::Bears;
+    EXPECT_EQ(bare[0][2].bears, turn > 1e-9 ? Bears::nothing : Bears::along) << turn;
+    EXPECT_EQ(bare[1][2].bears, bare[0][2].bears) << turn;
+  }
+}
+
 std::string complaint(const std::string& text) {
   tables::Diagnosis diagnosis("scene");
   std::optional<tables::Complaint> unreadable;
   const auto scene = ground::read_ground_scene(text, {}, diagnosis, unreadable);
   if (scene) static_cast<void>(ground::ground_case(*scene, diagnosis));
   return diagnosis.errors().empty() ? "" : diagnosis.errors().front().text();
+}
+
+// A slice along an upright face that cannot pull bears nothing that pushes it outwards.
+TEST(TensionCutOff, OfNothingIsRefusedWhereAnUprightFaceIsPushedOutwards) {
+  std::string shaken = cut(0.0);
+  const std::string sought = "sought = \"gravity\"\n";
+  shaken.replace(shaken.find(sought), sought.size(), sought + "kh = -0.1\n");
+  EXPECT_THAT(complaint(shaken), HasSubstr("load.kh: an earthquake pushes the upright face at "
+                                           "(0, 1) outwards, where material clay"));
+  const std::string sheared = pillar("", "kind = \"loaded\"\nlive_shear = -1", "traction");
+  EXPECT_THAT(complaint(sheared), HasSubstr("shear: the shear on top pushes the upright face at"));
+  // Into the ground neither is an error.
+  shaken.replace(shaken.find("kh = -0.1"), 9, "kh = 0.1");
+  EXPECT_EQ(complaint(shaken), "");
+  EXPECT_EQ(complaint(pillar("", "kind = \"loaded\"\nlive_shear = 1", "traction")), "");
 }
 
 TEST(TensionCutOff, ThatLeavesNothingOrIsBesideTheApexIsRefusedInWords) {
