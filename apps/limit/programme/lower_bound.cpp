@@ -106,12 +106,13 @@ class Builder {
     }
   }
 
-  // Whether what is known of a stress is all that equilibrium with a free side asks for.
-  bool is_bare_across(Eigen::Index stress, const mesh::Point& normal) const {
-    const problem::BareCorner* bare = points_.bare(stress);
-    if (bare == nullptr) return false;
-    return bare->bears == problem::BareCorner::Bears::nothing ||
-           problem::is_one_line(bare->normal, normal);
+  // Whether there is no traction in a direction on a plane, by what is known of a stress.
+  static bool follows(const problem::BareCorner& bare, const mesh::Point& normal,
+                      const mesh::Point& direction) {
+    if (bare.bears == problem::BareCorner::Bears::nothing) return true;
+    // It bears across that normal only.
+    return problem::is_one_line(bare.normal, normal) ||
+           problem::is_one_line(bare.normal, direction);
   }
 
   // The one normal of planes without traction of all these stresses; nothing if they have none in
@@ -166,16 +167,22 @@ class Builder {
     }
     const problem::Boundary& boundary =
         problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
-    if (is_bare_across(left.front().first, side.normal)) return;
+    const problem::BareCorner* bare = points_.bare(left.front().first);
+    bool is_told = false;
+    const auto tell = [&](const mesh::Point& direction, double dead, double live) {
+      const bool is_known = bare != nullptr && follows(*bare, side.normal, direction);
+      // Of what bears along one line only, one equation says all, or none if nothing does.
+      if (dead == 0.0 && live == 0.0 && (is_known || (bare != nullptr && is_told))) return;
+      begin_equation(dead);
+      add(multiplier(), -live);
+      add_all(left, traction(side.normal, direction), 1.0);
+      is_told = true;
+    };
     if (boundary.normal == problem::Known::traction) {
-      begin_equation(boundary.normal_stress);
-      add(multiplier(), -boundary.live_normal_stress);
-      add_all(left, traction(side.normal, side.normal), 1.0);
+      tell(side.normal, boundary.normal_stress, boundary.live_normal_stress);
     }
     if (boundary.tangential == problem::Known::traction) {
-      begin_equation(boundary.shear_stress);
-      add(multiplier(), -boundary.live_shear_stress);
-      add_all(left, traction(side.normal, side.tangent), 1.0);
+      tell(side.tangent, boundary.shear_stress, boundary.live_shear_stress);
     }
   }
 

@@ -28,6 +28,8 @@ class StressPoints {
   /// @param edges  of the problem's mesh
   StressPoints(const problem::Problem& problem, const Parabolas& parabolas,
                const std::vector<mesh::Edge>& edges);
+  StressPoints(const StressPoints&) = delete;
+  StressPoints& operator=(const StressPoints&) = delete;
 
   [[nodiscard]] const std::vector<YieldCone>& cones() const { return cones_; }
   [[nodiscard]] const std::vector<Eigen::Vector3d>& starts() const { return starts_; }
