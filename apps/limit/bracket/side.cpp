@@ -94,17 +94,21 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
 Attempt Side::ask(solver::ConeForm form, bool is_first, Bracket& bracket,
                   const BracketOptions& options, const std::function<void(const Attempt&)>& watch) {
   const double began = means_.seconds();
-  // Coarse polygons know nothing but where to look; afterwards those of one mesh do for the next.
-  const int rounds = is_new_ ? 3 : 1;
-  std::optional<double> last;
+  // At first parabolas know nothing but where to look, and roughly is enough; afterwards what one
+  // mesh has shown does for the next.
+  const int rounds = is_new_ ? 2 : 1;
+  constexpr double roughly = 1e-2;
   for (int round = 1;; ++round) {
     const programme::ConeProgram program =
-        is_lower_ ? programme::lower_bound_program(problem_, polygons_)
-                  : programme::upper_bound_program(problem_, polygons_);
+        is_lower_ ? programme::lower_bound_program(problem_, parabolas_)
+                  : programme::upper_bound_program(problem_, parabolas_);
     solver::SolverOptions solver;
     solver.form = form;
     solver.max_iterations = options.max_iterations;
     solver.cone_gap = options.solver_gap;
+    if (!program.curved.empty() && round < rounds) {
+      solver.cone_gap = std::max(solver.cone_gap, roughly);
+    }
     solver.wants_interior = !is_lower_;
     const double start = means_.seconds();
     solver.max_seconds = std::max(1.0, options.max_seconds - (start - began));
@@ -128,15 +132,9 @@ Attempt Side::ask(solver::ConeForm form, bool is_first, Bracket& bracket,
     const bool is_solved = attempt.status == solver::SolverStatus::solved ||
                            attempt.status == solver::SolverStatus::acceptable;
     if (program.curved.empty() || !is_solved) return attempt;
-    polygons_.take(program.curved, solution.variables);
+    parabolas_.take(program.curved, solution.variables);
     is_new_ = false;
-    constexpr double of_gap = 0.1;
-    const bool is_close = last && attempt.certified &&
-                          std::abs(*attempt.certified / *last - 1.0) < of_gap * options.gap;
-    last = attempt.certified;
-    if (is_close || round == rounds || means_.seconds() - began >= options.max_seconds) {
-      return attempt;
-    }
+    if (round == rounds || means_.seconds() - began >= options.max_seconds) return attempt;
   }
 }
 

@@ -8,7 +8,7 @@
 #include "limit/bracket/attempt.hpp"
 #include "limit/bracket/means.hpp"
 #include "limit/problem/problem.hpp"
-#include "limit/programme/polygons.hpp"
+#include "limit/programme/parabolas.hpp"
 
 namespace limit::bracket {
 
@@ -41,7 +41,7 @@ class Side {
                const std::function<void(const Attempt&)>& watch);
 
  private:
-  /// One form, and as often again as polygons of curved envelopes are to follow the stresses.
+  /// One form, and as often again as parabolas for curved envelopes are to follow the stresses.
   Attempt ask(solver::ConeForm form, bool is_first, Bracket& bracket, const BracketOptions& options,
               const std::function<void(const Attempt&)>& watch);
   [[nodiscard]] bool is_good(const Attempt& attempt, const std::optional<double>& before) const;
@@ -51,7 +51,7 @@ class Side {
   problem::Problem problem_;
   bool is_lower_;
   Means means_;
-  programme::Polygons polygons_;
+  programme::Parabolas parabolas_;
   bool is_new_ = true;  // nothing is known of its stresses
   std::vector<double> indicators_;
   std::vector<solver::ConeForm> given_up_;

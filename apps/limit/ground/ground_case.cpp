@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "limit/ground/ground_boundary.hpp"
 #include "limit/ground/ground_columns.hpp"
 #include "limit/ground/ground_cut.hpp"
 #include "limit/ground/ground_footing.hpp"
@@ -21,36 +22,6 @@ namespace limit::ground {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-
-problem::Boundary boundary_of(const GroundScene& scene, const GroundSide& side) {
-  problem::Boundary boundary{side.name};
-  switch (side.kind) {
-    case SideKind::fixed:
-      boundary.normal = boundary.tangential = problem::Known::support;
-      break;
-    case SideKind::roller:
-    case SideKind::symmetry:
-      boundary.normal = problem::Known::support;
-      break;
-    case SideKind::footing:
-      boundary.normal = problem::Known::footing;
-      boundary.tangential =
-          side.base == BaseKind::rough ? problem::Known::footing : problem::Known::traction;
-      boundary.may_open = !side.tension;
-      break;
-    case SideKind::loaded:
-      boundary.normal_stress = -side.pressure;
-      boundary.shear_stress = side.shear;
-      if (scene.load.sought == Sought::traction) {
-        boundary.live_normal_stress = -side.live_pressure;
-        boundary.live_shear_stress = side.live_shear;
-      }
-      break;
-    case SideKind::free:
-      break;
-  }
-  return boundary;
-}
 
 void make_weight_live(problem::Soil& soil) {
   soil.live_unit_weight = std::exchange(soil.unit_weight, 0.0);
@@ -170,10 +141,13 @@ problem::Units units_of(const problem::Problem& problem, double length) {
     surcharge = std::max(surcharge, -(boundary.normal_stress + live * boundary.live_normal_stress));
   }
   for (const problem::Soil& soil : problem.soils) {
-    const double unit_weight = soil.unit_weight + live * soil.live_unit_weight;
-    stress += (soil.cohesion * std::cos(soil.friction_angle) +
-               (surcharge + unit_weight * length) * std::sin(soil.friction_angle)) /
-              static_cast<double>(problem.soils.size());
+    const double load = surcharge + (soil.unit_weight + live * soil.live_unit_weight) * length;
+    // The tangent of a curved envelope may have next to no cohesion.
+    const double strength =
+        soil.is_curved()
+            ? soil.envelope.radius_about(soil.envelope.unconfined() / 2.0 + load)
+            : soil.cohesion * std::cos(soil.friction_angle) + load * std::sin(soil.friction_angle);
+    stress += strength / static_cast<double>(problem.soils.size());
   }
   // Clay that just stands has a fifth or so of the weight of the whole height, two lengths: divided
   // by the factor, the strength is no less, however soft it is.
@@ -295,7 +269,9 @@ std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagn
     if (diagnosis.errors().empty()) outline = ground_outline(scene, diagnosis);
     if (!diagnosis.errors().empty()) return std::nullopt;
   }
-  if (cut_columns(scene, outline)) outline = ground_outline(scene, diagnosis);
+  const bool has_columns = cut_columns(scene, outline, diagnosis);
+  if (!diagnosis.errors().empty()) return std::nullopt;
+  if (has_columns) outline = ground_outline(scene, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   const std::optional<Base> base = find_base(scene, outline, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;

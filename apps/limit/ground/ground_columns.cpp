@@ -1,10 +1,15 @@
 #include "limit/ground/ground_columns.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
+#include "limit/ground/ground_boundary.hpp"
 #include "limit/ground/ground_cut.hpp"
+#include "limit/problem/bare_corners.hpp"
 
 namespace limit::ground {
 
@@ -15,21 +20,17 @@ struct Face {
   mesh::Point foot{0.0, 0.0}, crest{0.0, 0.0};
   double inwards = 1.0;  // along x
   double top = 0.0;      // length of the level outline behind the crest
+  std::size_t top_side = 0;
 };
 
 constexpr double level = 1e-9;  // slope of what is meant to be level or upright
-
-bool is_bare(const GroundSide& side) {
-  return side.kind == SideKind::free ||
-         (side.kind == SideKind::loaded && side.pressure == 0.0 && side.shear == 0.0 &&
-          side.live_pressure == 0.0 && side.live_shear == 0.0);
-}
 
 std::vector<Face> faces_of(const GroundScene& scene, const GroundOutline& outline) {
   std::vector<Face> faces;
   for (const GroundSegment& segment : outline.segments) {
     if (segment.right >= 0) continue;
-    if (!is_bare(scene.sides[static_cast<std::size_t>(segment.side)])) continue;
+    const GroundSide& side = scene.sides[static_cast<std::size_t>(segment.side)];
+    if (!problem::is_free(boundary_of(scene, side))) continue;
     const mesh::Point &first = outline.at(segment.first), &second = outline.at(segment.second);
     const mesh::Point along = second - first;
     if (std::abs(along.x()) > level * std::abs(along.y())) continue;
@@ -60,21 +61,52 @@ std::vector<Face> faces_of(const GroundScene& scene, const GroundOutline& outlin
       if (std::abs(back.y()) > level * std::abs(back.x()) || back.x() * face.inwards <= 0.0)
         continue;
       face.top = std::abs(back.x());
+      face.top_side = static_cast<std::size_t>(segment.side);
     }
   }
   std::erase_if(faces, [](const Face& face) { return face.top == 0.0; });
   return faces;
 }
 
-// Whether it is no more than weight, straight down, that acts on a soil of no tension.
-bool stands(const GroundScene& scene, const GroundMaterial& material) {
-  const bool is_shaken = scene.load.kh != 0.0;
-  return material.soil.tension == 0.0 && material.soil.seepage.x() == 0.0 && !is_shaken;
+// What pushes along x, of an earthquake and of water, per volume.
+double push_on(const GroundScene& scene, const problem::Soil& soil) {
+  return scene.load.kh * soil.unit_weight + soil.seepage.x();
+}
+
+// The shear on top of a face, along x.
+double shear_on(const GroundScene& scene, const Face& face) {
+  const problem::Boundary top = boundary_of(scene, scene.sides[face.top_side]);
+  if (top.tangential != problem::Known::traction) return 0.0;
+  // Along the outline with the ground to the left, on top towards -x.
+  return -(top.shear_stress != 0.0 ? top.shear_stress : top.live_shear_stress);
+}
+
+// No slice along an upright face that cannot pull bears anything that pushes it outwards.
+void check_push(const GroundScene& scene, const Face& face, std::size_t material,
+                tables::Diagnosis& diagnosis) {
+  const double push = push_on(scene, scene.materials[material].soil);
+  const double shear = shear_on(scene, face);
+  const bool is_pushed = push * face.inwards < 0.0;
+  if (!is_pushed && shear * face.inwards >= 0.0) return;
+  const bool is_shaken = is_pushed && scene.load.kh * face.inwards < 0.0;
+  const std::string key = is_shaken   ? "load.kh"
+                          : is_pushed ? fmt::format("material.{}.tension_cutoff", material)
+                                      : fmt::format("side.{}.shear", face.top_side);
+  diagnosis.error(
+      key,
+      fmt::format("{} pushes the upright face at ({:.6g}, {:.6g}) outwards, where material {} "
+                  "bears no tension",
+                  is_shaken   ? "an earthquake"
+                  : is_pushed ? "water that seeps"
+                              : "the shear on top",
+                  face.crest.x(), face.crest.y(), scene.materials[material].name),
+      "a slice of it falls off at once, however little pushes: allowed are a face that leans back, "
+      "a push into the ground, or a trace of tension, as a thousandth of the cohesion");
 }
 
 }  // namespace
 
-bool cut_columns(GroundScene& scene, const GroundOutline& outline) {
+bool cut_columns(GroundScene& scene, const GroundOutline& outline, tables::Diagnosis& diagnosis) {
   constexpr double lean = 0.1, most = 0.5;  // of the height, of the level ground on top
   const Extent ground = extent_of(scene);
   bool is_any = false;
@@ -86,7 +118,11 @@ bool cut_columns(GroundScene& scene, const GroundOutline& outline) {
     std::vector<GroundRegion> regions;
     for (const GroundRegion& whole : scene.regions) {
       auto columns = parts_within(whole, wedge, ground);
-      if (columns.empty() || !stands(scene, scene.materials[whole.material])) {
+      const problem::Soil& soil = scene.materials[whole.material].soil;
+      const bool bears_none = !columns.empty() && soil.tension == 0.0;
+      if (bears_none) check_push(scene, face, whole.material, diagnosis);
+      // Columns bear what acts straight down.
+      if (!bears_none || push_on(scene, soil) != 0.0 || shear_on(scene, face) != 0.0) {
         regions.push_back(whole);
         continue;
       }

@@ -123,9 +123,10 @@ bool is_singular(const GroundScene& scene, const GroundOutline& outline, const C
   if (one_footing) return true;
   const bool both_known = before.kind != SideKind::fixed && before.kind != SideKind::footing &&
                           after.kind != SideKind::fixed && after.kind != SideKind::footing;
-  const bool same = before.pressure == after.pressure && before.shear == after.shear &&
-                    before.live_pressure == after.live_pressure &&
-                    before.live_shear == after.live_shear;
+  const bool grow_alike =
+      scene.load.sought != Sought::traction ||
+      (before.live_pressure == after.live_pressure && before.live_shear == after.live_shear);
+  const bool same = before.pressure == after.pressure && before.shear == after.shear && grow_alike;
   return both_known && !same && angle > pi - turn;
 }
 

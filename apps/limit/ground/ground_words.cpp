@@ -92,7 +92,8 @@ std::vector<std::string> assumptions_of(const GroundScene& scene, const problem:
   if (is_curved) {
     assumptions.emplace_back(
         "strength of a curved envelope flows by its normal, whatever its dilation; the bounds are "
-        "certified against the envelope itself, of which the programmes know chords and tangents");
+        "certified against the envelope itself, for which the programmes have parabolas that touch "
+        "it");
   }
   if (scene.load.sought == Sought::strength) {
     assumptions.emplace_back(

@@ -11,7 +11,7 @@ namespace limit::problem {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double straight = 1e-6;  // off 180 degrees, less than any outline that is meant to turn
+constexpr double straight = 1e-9;  // off 180 degrees, in which equilibrium is one to rounding
 
 // An end of the triangles around a node of the outline.
 struct FanEnd {
@@ -27,12 +27,6 @@ struct Fan {
   double angle = 0.0;
   FanEnd first, last;
 };
-
-bool is_free(const Boundary& boundary) {
-  return boundary.normal == Known::traction && boundary.tangential == Known::traction &&
-         boundary.normal_stress == 0.0 && boundary.shear_stress == 0.0 &&
-         boundary.live_normal_stress == 0.0 && boundary.live_shear_stress == 0.0;
-}
 
 class BareCorners {
  public:
@@ -75,8 +69,7 @@ class BareCorners {
   static void bind(BareCorner& corner, const mesh::Point& normal) {
     if (corner.bears == BareCorner::Bears::nothing) return;
     const bool is_other =
-        corner.bears == BareCorner::Bears::along &&
-        std::abs(corner.normal.x() * normal.y() - corner.normal.y() * normal.x()) > straight;
+        corner.bears == BareCorner::Bears::along && !is_one_line(corner.normal, normal);
     if (corner.bears == BareCorner::Bears::all) corner.normal = normal;
     corner.bears = is_other ? BareCorner::Bears::nothing : BareCorner::Bears::along;
   }
@@ -163,6 +156,16 @@ class BareCorners {
 };
 
 }  // namespace
+
+bool is_one_line(const mesh::Point& a, const mesh::Point& b) {
+  return std::abs(a.x() * b.y() - a.y() * b.x()) <= straight;
+}
+
+bool is_free(const Boundary& boundary) {
+  return boundary.normal == Known::traction && boundary.tangential == Known::traction &&
+         boundary.normal_stress == 0.0 && boundary.shear_stress == 0.0 &&
+         boundary.live_normal_stress == 0.0 && boundary.live_shear_stress == 0.0;
+}
 
 std::vector<BareTriangle> bare_corners(const Problem& problem) {
   const bool is_any =

@@ -17,6 +17,13 @@ struct BareCorner {
 /// Of the corners of a triangle and the middles of its sides 01 12 20.
 using BareTriangle = std::array<BareCorner, 6>;
 
+/// Whether two directions of length one are one line, either way: what is meant to turn turns by
+/// more, and what turns by less than this leaves equilibrium as it is, to rounding.
+[[nodiscard]] bool is_one_line(const mesh::Point& a, const mesh::Point& b);
+
+/// Whether nothing acts on a side, neither given nor growing, and nothing holds it.
+[[nodiscard]] bool is_free(const Boundary& boundary);
+
 /// Where soil that bears no tension at all has no choice at free faces, triangle by triangle; empty
 /// if no soil is such.
 ///

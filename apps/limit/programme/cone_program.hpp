@@ -17,7 +17,7 @@ struct YieldCone {
   double scale = 1.0;     // a stress typical of the place, > 0
 };
 
-/// A stress in a soil of a curved envelope, for which a polygon stands, and where it is.
+/// A stress in a soil of a curved envelope, for which a parabola stands, and where it is.
 struct CurvedPoint {
   Eigen::Index variable = 0;  // the first of its cone
   int region = 0;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "limit/problem/local_soil.hpp"
-#include "limit/programme/polygon_cones.hpp"
+#include "limit/programme/parabola_cones.hpp"
 #include "limit/programme/velocity_shapes.hpp"
 #include "limit/programme/weight_power.hpp"
 #include "limit/programme/yield_cones.hpp"
@@ -86,9 +86,9 @@ constexpr double trace = 1e-4;
 
 class Builder {
  public:
-  Builder(const problem::Problem& problem, const Polygons& polygons)
+  Builder(const problem::Problem& problem, const Parabolas& parabolas)
       : problem_(problem),
-        polygons_(polygons),
+        parabolas_(parabolas),
         edges_(mesh::edges_of(problem.mesh)),
         overburden_(problem),
         rows_(problem) {}
@@ -98,15 +98,17 @@ class Builder {
     for (const mesh::Edge& edge : edges_) add_side(edge);
     curves_.add_others();
     int equations = rows_.count;
-    std::vector<double> right_side;
-    curves_.equations(
-        [&](double side) {
-          right_side.push_back(side);
-          ++equations;
-        },
-        [&](Eigen::Index variable, double factor) {
-          add(equations - 1, static_cast<int>(variable), factor);
-        });
+    algebra::EquationBuilder of_curves;
+    curves_.equations(of_curves);
+    const Eigen::VectorXd right_side = of_curves.right_side();
+    const auto curves = of_curves.matrix(3 * static_cast<Eigen::Index>(cones_.size()));
+    for (Eigen::Index row = 0; row < curves.rows(); ++row) {
+      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(curves, row); entry;
+           ++entry) {
+        add(equations, static_cast<int>(entry.col()), entry.value());
+      }
+      ++equations;
+    }
     for (const Contact& contact : contacts_) {
       add(equations, contact.traction, 1.0);
       if (contact.has_deviator) add(equations, contact.traction + 1, 1.0);
@@ -139,9 +141,7 @@ class Builder {
     program.equations.setFromTriplets(entries_.begin(), entries_.end());
     program.right_side = Eigen::VectorXd::Zero(equations);
     program.right_side.head(rows_.count) = loads.dead;
-    for (std::size_t i = 0; i < right_side.size(); ++i) {
-      program.right_side[rows_.count + static_cast<Eigen::Index>(i)] = right_side[i];
-    }
+    program.right_side.segment(rows_.count, right_side.size()) = right_side;
     if (problem_.most_multiplier) program.right_side[equations - 1] = *problem_.most_multiplier;
     program.objective = Eigen::VectorXd::Unit(multiplier + 1, multiplier);
     program.start = Eigen::VectorXd::Zero(multiplier + 1);
@@ -172,7 +172,8 @@ class Builder {
   int add_curved(const problem::Soil& soil, const CurvedPoint& point, const mesh::Point& place) {
     const double load = overburden_.at(soil, place);
     const double guess = load + soil.envelope.unconfined() / 2.0;
-    curves_.add(polygons_.lines(soil, point, guess, Polygon::tangents), point, load, 0.0);
+    curves_.add(soil.envelope, parabolas_.at(soil, point, guess, problem::Bound::upper), point,
+                0.0);
     return 3 * static_cast<int>(cones_.size() - 1);
   }
 
@@ -307,13 +308,13 @@ class Builder {
   }
 
   const problem::Problem& problem_;
-  const Polygons& polygons_;
+  const Parabolas& parabolas_;
   std::vector<mesh::Edge> edges_;
   Overburden overburden_;
   Rows rows_;
   std::vector<YieldCone> cones_;
   std::vector<Eigen::Vector3d> starts_;
-  PolygonCones curves_{cones_, starts_};
+  ParabolaCones curves_{cones_, starts_};
   struct Contact {
     int traction, variable;
     bool has_deviator;
@@ -325,8 +326,8 @@ class Builder {
 
 }  // namespace
 
-ConeProgram upper_bound_program(const problem::Problem& problem, const Polygons& polygons) {
-  return Builder(problem, polygons).program();
+ConeProgram upper_bound_program(const problem::Problem& problem, const Parabolas& parabolas) {
+  return Builder(problem, parabolas).program();
 }
 
 problem::VelocityField velocity_field(const problem::Problem& problem,

@@ -6,7 +6,7 @@
 #include "limit/problem/fields.hpp"
 #include "limit/problem/problem.hpp"
 #include "limit/programme/cone_program.hpp"
-#include "limit/programme/polygons.hpp"
+#include "limit/programme/parabolas.hpp"
 
 namespace limit::programme {
 
@@ -18,9 +18,9 @@ namespace limit::programme {
 /// (Bernstein) is kept everywhere. The velocities are the multipliers of the equations: 12 per
 /// triangle, then the footing's motions that are free; then the openings, at each control point
 /// where the footing may lift off.
-/// A curved envelope is replaced by polygons around it.
+/// A curved envelope is replaced by parabolas that are true where they touch it.
 [[nodiscard]] ConeProgram upper_bound_program(const problem::Problem& problem,
-                                              const Polygons& polygons = {});
+                                              const Parabolas& parabolas = {});
 
 /// The velocity field of such a program's multipliers, scaled to unit power of the live load.
 [[nodiscard]] problem::VelocityField velocity_field(const problem::Problem& problem,

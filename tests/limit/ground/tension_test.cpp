@@ -8,8 +8,10 @@
 #include <numbers>
 #include <string>
 
+#include "limit/bracket/side.hpp"
 #include "limit/certificate/lower_certificate.hpp"
 #include "limit/ground/ground_cases.hpp"
+#include "limit/problem/bare_corners.hpp"
 
 namespace {
 
@@ -65,6 +67,19 @@ bracket::Solution coarse(const std::string& text) {
   bracket::BracketOptions options;
   options.max_triangles = 1;
   return problem ? bracket::solution_of(problem->associated, options, {}) : bracket::Solution{};
+}
+
+// The lower bound of the first mesh alone, with its fields.
+bracket::Solution lower_alone(const std::string& text) {
+  bracket::Solution found;
+  const auto problem = case_of(text);
+  EXPECT_TRUE(problem);
+  if (!problem) return found;
+  const problem::Case& whole = problem->associated;
+  bracket::Side side(problem::in_units(whole.lower, whole.units), true);
+  side.attempt(found.bracket, {}, {});
+  if (found.bracket.lower) found.lower = found.bracket.lower_bound() * whole.units.multiplier();
+  return found;
 }
 
 // One state of stress is exact: the least of the cut-off and of Mohr and Coulomb's tension.
@@ -216,12 +231,149 @@ TEST(TensionCutOff, OfNothingHasAFactorOfSafety) {
   EXPECT_LT(found.gap(), 0.05);
 }
 
+// Clay on a rough floor whose weight grows with depth, gamma = 1 + (1 - y) / 2: columns as high as
+// the face bear 2 c at their feet under 1.25 of it.
+TEST(TensionCutOff, OfNothingBearsColumnsOfUnevenWeight) {
+  const bracket::Solution found = lower_alone(R"([load]
+sought = "gravity"
+[[material]]
+name = "clay"
+cohesion = 1
+friction_angle = 0
+unit_weight = { at = [0, 1], value = 1, gradient = [0, -0.5] }
+tension_cutoff = 0
+[[region]]
+material = "clay"
+outline = [[0, 0], [1, 0], [1, 1], [0, 1]]
+[[side]]
+name = "free"
+kind = "free"
+along = [[0, 0], [0, 1], [1, 1]]
+[[side]]
+name = "rigid"
+kind = "fixed"
+along = [[0, 0], [1, 0], [1, 1]]
+)");
+  ASSERT_TRUE(found.lower);
+  EXPECT_LE(*found.lower, 1.6 * (1.0 + 1e-9));
+  EXPECT_GT(*found.lower, 1.6 * 0.999);
+  EXPECT_LE(largest_tension(found), 1e-11);
+}
+
+// Half of a strip that may lift off, on level ground.
+std::string strip(double friction, double weight, const std::string& more) {
+  return "[load]\nsought = \"footing\"\n" + more +
+         fmt::format(
+             "[[material]]\nname = \"soil\"\ncohesion = 1\nfriction_angle = {}\n"
+             "unit_weight = {}\ntension_cutoff = 0\n",
+             friction, weight) +
+         R"([[region]]
+material = "soil"
+outline = [[0, -1.5], [3, -1.5], [3, 0], [0, 0]]
+[[side]]
+name = "base"
+kind = "footing"
+base = "smooth"
+tension = false
+along = [[0, 0], [1, 0]]
+[[side]]
+name = "surface"
+kind = "free"
+along = [[1, 0], [3, 0]]
+[[side]]
+name = "axis"
+kind = "symmetry"
+along = [[0, 0], [0, -1.5]]
+[[side]]
+name = "rigid"
+kind = "fixed"
+along = [[0, -1.5], [3, -1.5], [3, 0]]
+)";
+}
+
+// Prandtl's field has no tension, and of clay weight changes nothing in it.
+TEST(TensionCutOff, OfNothingBearsAStripThatMayLiftOff) {
+  const bracket::Solution found = coarse(strip(0.0, 1.0, ""));
+  ASSERT_TRUE(found.lower && found.upper);
+  const double prandtl = 2.0 + std::numbers::pi;
+  EXPECT_LE(*found.lower, prandtl);
+  EXPECT_GE(*found.upper, prandtl);
+  EXPECT_LT(found.gap(), 0.02);  // 0.9 % on these meshes
+  EXPECT_LE(largest_tension(found), 1e-11);
+}
+
+// Flooded ground is dry ground of its weight in water.
+TEST(TensionCutOff, OfNothingIsUnderWaterWhatItIsDryWithLessWeight) {
+  const bracket::Solution dry = coarse(strip(10.0, 1.0, "")),
+                          wet = coarse(strip(
+                              10.0, 2.0, "[water]\nunit_weight = 1\ntable = [[-1, 1], [4, 1]]\n"));
+  ASSERT_TRUE(dry.lower && dry.upper && wet.lower && wet.upper);
+  constexpr double solver = 1e-4;
+  EXPECT_NEAR(*wet.lower, *dry.lower, solver * *dry.lower);
+  EXPECT_NEAR(*wet.upper, *dry.upper, solver * *dry.upper);
+  EXPECT_LE(largest_tension(wet), 1e-11);
+}
+
+// A side that carries nothing of what is sought is as free as a free one.
+TEST(TensionCutOff, OfNothingKnowsAFaceWhoseLoadIsNotSought) {
+  std::string text = cut(0.0);
+  const std::string all = "kind = \"free\"\nalong = [[-2, 0], [0, 0], [0, 1], [2, 1]]";
+  text.replace(text.find(all), all.size(),
+               "kind = \"free\"\nalong = [[-2, 0], [0, 0]]\n[[side]]\nname = \"top\"\nkind = "
+               "\"free\"\nalong = [[0, 1], [2, 1]]\n[[side]]\nname = \"face\"\nkind = \"loaded\"\n"
+               "live_pressure = 1\nalong = [[0, 0], [0, 1]]");
+  const bracket::Solution found = lower_alone(text);
+  ASSERT_TRUE(found.lower);
+  EXPECT_LE(*found.lower, 2.0 * (1.0 + 1e-9));
+  EXPECT_GT(*found.lower, 1.999);
+}
+
+// Where a face turns by more than rounding it is an edge that juts out, which bears nothing.
+TEST(TensionCutOff, OfNothingTakesATurnOfAFaceForWhatItIs) {
+  for (const double turn : {0.0, 1e-12, 1e-7}) {
+    problem::Problem problem;
+    problem.mesh.nodes = {{0.0, 0.0}, {1.0, -1.0}, {2.0, 0.0}, {1.0, turn}};
+    problem.mesh.triangles = {{{0, 1, 3}, 0}, {{1, 2, 3}, 0}};
+    problem.mesh.boundary = {{0, 1, 1}, {1, 2, 1}, {2, 3, 0}, {3, 0, 0}};
+    problem::Soil soil;
+    soil.cohesion = 1.0;
+    soil.tension = 0.0;
+    problem.soils = {soil};
+    problem.boundaries = {{"face"}, {"rigid", problem::Known::support, problem::Known::support}};
+    const auto bare = problem::bare_corners(problem);
+    ASSERT_EQ(bare.size(), 2U);
+    using Bears = problem::BareCorner::Bears;
+    EXPECT_EQ(bare[0][2].bears, turn > 1e-9 ? Bears::nothing : Bears::along) << turn;
+    EXPECT_EQ(bare[1][2].bears, bare[0][2].bears) << turn;
+  }
+}
+
 std::string complaint(const std::string& text) {
   tables::Diagnosis diagnosis("scene");
   std::optional<tables::Complaint> unreadable;
   const auto scene = ground::read_ground_scene(text, {}, diagnosis, unreadable);
   if (scene) static_cast<void>(ground::ground_case(*scene, diagnosis));
   return diagnosis.errors().empty() ? "" : diagnosis.errors().front().text();
+}
+
+// A slice along an upright face that cannot pull bears nothing that pushes it outwards.
+TEST(TensionCutOff, OfNothingIsRefusedWhereAnUprightFaceIsPushedOutwards) {
+  std::string shaken = cut(0.0);
+  const std::string sought = "sought = \"gravity\"\n";
+  shaken.replace(shaken.find(sought), sought.size(), sought + "kh = -0.1\n");
+  EXPECT_THAT(complaint(shaken), HasSubstr("load.kh: an earthquake pushes the upright face at "
+                                           "(0, 1) outwards, where material clay"));
+  std::string sheared = cut(0.0);
+  const std::string all = "along = [[-2, 0], [0, 0], [0, 1], [2, 1]]\n";
+  sheared.replace(sheared.find(all), all.size(),
+                  "along = [[-2, 0], [0, 0], [0, 1]]\n[[side]]\nname = \"top\"\nkind = \"loaded\"\n"
+                  "shear = 0.1\nalong = [[0, 1], [2, 1]]\n");
+  EXPECT_THAT(complaint(sheared), HasSubstr("side.1.shear: the shear on top pushes the upright"));
+  // Into the ground neither is an error.
+  shaken.replace(shaken.find("kh = -0.1"), 9, "kh = 0.1");
+  EXPECT_EQ(complaint(shaken), "");
+  sheared.replace(sheared.find("shear = 0.1"), 11, "shear = -0.1");
+  EXPECT_EQ(complaint(sheared), "");
 }
 
 TEST(TensionCutOff, ThatLeavesNothingOrIsBesideTheApexIsRefusedInWords) {
