@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "fpm/moment_operator.hpp"
@@ -25,11 +26,12 @@ struct InitialBalance {
 
 /// Adds what the images carry onto the particles, plane by plane, to rows of the planes' sides.
 /// @param force  extended to the images, components `stride` apart
+/// @param moving  only of planes that a drive moves, or of the others
 template <int Dim>
 void add_side_reactions(
     const model::Model<Dim>& model, const double* force, Eigen::Index stride,
     Eigen::Ref<typename model::State<Dim>::template Columns<model::State<Dim>::side_rows>> sides,
-    bool only_moving = false);
+    std::optional<bool> moving = std::nullopt);
 
 /// @param op  on the initial rows, with the consistency correction if it is on
 template <int Dim>

@@ -10,14 +10,14 @@
 namespace verification {
 namespace {
 
-// A strip of 1 m by two particles, pressed or sheared between two rough or smooth plates.
-constexpr double E = 1e6, nu = 0.25, height = 0.25, width = 1.0, moved = 1e-3;
+// A strip of 1 m by three particles, pressed or sheared between two rough or smooth plates.
+constexpr double E = 1e6, nu = 0.25, height = 0.375, width = 1.0, moved = 1e-3;
 
 std::string strip(const std::string& rest) {
   return R"(
 [geometry]
 min = [0.0, 0.0]
-max = [1.0, 0.25]
+max = [1.0, 0.375]
 spacing = 0.125
 [approximation]
 kinematics = "small_strain"
