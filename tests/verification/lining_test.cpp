@@ -1,9 +1,11 @@
 // Regions that become another material between stages.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "measure.hpp"
+#include "model/measures.hpp"
 #include "staged_run.hpp"
 
 namespace verification {
@@ -154,6 +156,42 @@ become = ["stiff"]
   // The lower half settles under the upper one, which settles under itself and begins on it.
   const double settled = weight * half * half / soft + 0.5 * weight * half * half / stiff;
   EXPECT_NEAR(settlement(run), settled, 0.02 * settled);
+}
+
+// A ring under pressures inside and outside in plane strain (Lame): how far a place moves outwards.
+double moved_outwards(double r, double inner, double outer, double inside, double outside, double E,
+                      double nu) {
+  const double a = inner * inner, b = outer * outer;
+  return (1.0 + nu) / E / (b - a) *
+         ((1.0 - 2.0 * nu) * (inside * a - outside * b) * r + (inside - outside) * a * b / r);
+}
+
+// The rock has given way to 0.6 of what the core bore before the ring in it is concrete; the rest
+// is borne by both, which move alike where they meet.
+TEST(Lining, OfATunnelBearsWhatTheRockHasNotYetGivenWayTo) {
+  constexpr double bore = 2.0, back = 2.4, far = 6.0, pressure = 1e6, before = 0.6;
+  constexpr double rock = 500e6, of_rock = 0.25, concrete = 10e9, of_concrete = 0.2;
+  const double pressed = -pressure * (1.0 + of_rock) * (1.0 - 2.0 * of_rock) / rock * bore;
+  const double dug =
+      pressed + moved_outwards(bore, bore, far, -before * pressure, 0.0, rock, of_rock);
+  const double rest = -(1.0 - before) * pressure;
+  const auto gap = [&](double between) {
+    return moved_outwards(back, bore, back, rest, between, concrete, of_concrete) -
+           moved_outwards(back, back, far, between, 0.0, rock, of_rock);
+  };
+  const double between = -gap(0.0) / (gap(1.0) - gap(0.0));
+  const double lined = dug + moved_outwards(bore, bore, back, rest, between, concrete, of_concrete);
+  StagedRun run(shipped_scene("lined_tunnel.toml"));
+  const auto crown = [&] {
+    const model::Measures<2> measures(run.stages.scene(), run.stages.model());
+    return measures.of(run.state)[2];
+  };
+  constexpr double of_spacing = 0.005;  // 0.3 % with four particles through the ring
+  for (const double expected : {pressed, dug, lined}) {
+    ASSERT_TRUE(run.complete_stage());
+    EXPECT_NEAR(crown(), expected, of_spacing * std::abs(expected));
+    if (!run.stages.is_last()) run.stages.go_on(run.state);
+  }
 }
 
 }  // namespace
