@@ -115,6 +115,7 @@ class Equilibrium {
   void add_to_images(const fpm::Field<Dim>& motion, Eigen::VectorXd& extended) const;
   void extend_increment(const Eigen::VectorXd& increment);
   double take_plane_reactions();
+  void take_side_reactions();
   void act(const Eigen::VectorXd& v, double load_change, Eigen::VectorXd& jv);
   void place_particles();
   void remember_pairs(Eigen::Index a, const Eigen::VectorXd& position_moments);

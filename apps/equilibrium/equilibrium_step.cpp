@@ -118,6 +118,15 @@ std::optional<fpm::Field<Dim>> Equilibrium<Dim>::unbalanced(double load, double 
   return Eigen::Map<const fpm::Field<Dim>>(residual.data(), model_.size(), Dim);
 }
 
+// Which of two opposite sides bears what, of particles that both hold.
+template <int Dim>
+void Equilibrium<Dim>::take_side_reactions() {
+  if (!model_.layout.thin) return;
+  state_.side_reaction.setZero();
+  add_side_reactions(model_, evaluation_.force.data(), operator_.stride(), state_.side_reaction);
+  if (balance_.side_reaction.cols() > 0) state_.side_reaction += balance_.side_reaction;
+}
+
 template <int Dim>
 StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
   StepForces forces;
@@ -152,6 +161,7 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
   }
   if (evaluation_.plane_reaction.rows() > 0) state_.reaction += evaluation_.plane_reaction;
   if (balance_.reaction.rows() > 0) state_.reaction += balance_.reaction;
+  take_side_reactions();
   const LoopOutcome outcome = loops_.commit(loop_data());
   if (!outcome.ok()) {
     throw std::logic_error("commit at an increment at which particle " +

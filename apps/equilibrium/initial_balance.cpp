@@ -44,7 +44,26 @@ void add_interface_forces(const model::Model<Dim>& model, Eigen::Index stride,
   borne -= by_rigid;
 }
 
+bool moves(const auto& model, std::size_t plane) {
+  return !model.plane_drive.empty() && !model.plane_drive[plane].isZero();
+}
+
 }  // namespace
+
+template <int Dim>
+void add_side_reactions(
+    const model::Model<Dim>& model, const double* force, Eigen::Index stride,
+    Eigen::Ref<typename model::State<Dim>::template Columns<model::State<Dim>::side_rows>> sides,
+    std::optional<bool> moving) {
+  const auto& planes = model.ghosts.planes();
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    if (planes[p].symmetry || (moving && moves(model, p) != *moving)) continue;
+    fpm::Field<Dim> of_plane = fpm::Field<Dim>::Zero(model.size(), Dim);
+    model.ghosts.add_reactions(p, force, model.size(), stride, of_plane);
+    sides.template middleRows<Dim>(static_cast<Eigen::Index>(model.plane_side[p]) * Dim) +=
+        of_plane.transpose();
+  }
+}
 
 template <int Dim>
 InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
@@ -62,11 +81,17 @@ InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
   model.ghosts.plane_forces(force.data(), n, op.stride(), on_planes);
   for (std::size_t p = 0; p < planes.size(); ++p) {
     if (planes[p].symmetry) continue;
-    const bool moves = !model.plane_drive.empty() && !model.plane_drive[p].isZero();
-    model.ghosts.add_reactions(p, force.data(), n, op.stride(), moves ? by_moving : borne);
-    if (moves) balance.plane_force[p] = -on_planes[p];
+    model.ghosts.add_reactions(p, force.data(), n, op.stride(),
+                               moves(model, p) ? by_moving : borne);
+    if (moves(model, p)) balance.plane_force[p] = -on_planes[p];
   }
   balance.reaction = -by_moving;
+  if (model.layout.thin) {
+    balance.side_reaction.setZero(Eigen::NoChange, n);
+    add_side_reactions(model, force.data(), op.stride(), balance.side_reaction, true);
+    balance.side_reaction *= -1.0;
+  }
+  const Eigen::VectorXd first = model.layout.thin ? force : Eigen::VectorXd();
   add_interface_forces(model, op.stride(), force, borne);
   for (int i = 0; i < Dim; ++i) {
     for (Eigen::Index a = 0; a < n; ++a) {
@@ -83,11 +108,26 @@ InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
   // The supports bear weight and traction, to the last particle.
   const double missing = -model.initial_load.segment(up * n, n).sum() - borne.col(up).sum();
   if (borne.col(up).sum() != 0.0) {
-    balance.reaction.col(up) += missing / borne.col(up).sum() * borne.col(up);
+    const double more = missing / borne.col(up).sum();
+    balance.reaction.col(up) += more * borne.col(up);
+    if (model.layout.thin) {
+      auto by_sides = balance.side_reaction;
+      by_sides.setZero();
+      add_side_reactions<Dim>(model, first.data(), op.stride(), by_sides, false);
+      for (int side = 0; side < 2 * Dim; ++side) {
+        balance.side_reaction.row(side * Dim + up) += more * by_sides.row(side * Dim + up);
+      }
+    }
   }
   return balance;
 }
 
+template void add_side_reactions<2>(
+    const model::Model<2>&, const double*, Eigen::Index,
+    Eigen::Ref<model::State<2>::Columns<model::State<2>::side_rows>>, std::optional<bool>);
+template void add_side_reactions<3>(
+    const model::Model<3>&, const double*, Eigen::Index,
+    Eigen::Ref<model::State<3>::Columns<model::State<3>::side_rows>>, std::optional<bool>);
 template struct InitialBalance<2>;
 template struct InitialBalance<3>;
 template InitialBalance<2> balance_initial_stress<2>(const model::Model<2>&,

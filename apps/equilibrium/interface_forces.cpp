@@ -170,6 +170,15 @@ template <int Dim>
 void InterfaceForces<Dim>::commit(model::State<Dim>& state) const {
   state.interface_slip = slip_;
   state.interface_traction = traction_;
+  Eigen::Index k = 0;
+  for (std::size_t i = 0; i < motion_.size(); ++i) {
+    const auto& plate = model_.interfaces[i].plate;
+    if (!plate) continue;
+    state.plate_displacement.col(k) = motion_[i].template head<Dim>();
+    state.plate_rotation.col(k) =
+        motion_[i].template tail<model::State<Dim>::rotations>() / plate->arm;
+    ++k;
+  }
 }
 
 template <int Dim>

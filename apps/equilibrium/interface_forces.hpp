@@ -43,7 +43,7 @@ class InterfaceForces {
   /// zero between two bodies.
   const std::vector<fpm::Vector<Dim>>& rigid_force() const { return rigid_force_; }
 
-  /// Takes the latest slips and tractions into the state.
+  /// Takes the latest slips, tractions and motions of plates into the state.
   void commit(model::State<Dim>& state) const;
 
   /// Work [J/m or J] of the loads of plates since the step's start, at a load parameter.

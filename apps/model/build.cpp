@@ -12,6 +12,7 @@
 #include "model/cut_body.hpp"
 #include "model/elements.hpp"
 #include "model/extrude.hpp"
+#include "model/holders.hpp"
 #include "model/initial_stress.hpp"
 #include "model/interfaces.hpp"
 #include "model/loads.hpp"
@@ -76,6 +77,7 @@ void place_particles(const scene::Scene& scene, Model<Dim>& model) {
   }
   // Rows may widen their support, and re-searched rows reach for particles that have moved.
   model.ghosts = fpm::make_ghosts(model.particles, ghost_planes<Dim>(scene), model.row_options);
+  model.plane_side = sides_of_planes(scene, model);
 }
 
 template <int Dim>
@@ -236,7 +238,7 @@ void constrain(const scene::Scene& scene, Model<Dim>& model) {
   // What the one in force moves none of the others holds: it comes last.
   for (auto drive = acting.rbegin(); drive != acting.rend(); ++drive) {
     if (drive->drive->kind == scene::DriveKind::displacement &&
-        drive->drive->method != scene::DriveMethod::contact) {
+        !scene::is_rigid_body(*drive->drive)) {
       displace(scene, *drive, model);
     }
   }
@@ -316,6 +318,7 @@ Model<Dim> build_model(const scene::Scene& scene) {
   model.consistency = scene::resolve_consistency(scene) ||
                       (parted && scene.approximation.consistency == scene::Switch::automatic);
   if (model.consistency) model.area_vector = boundary_area_vectors(scene, model);
+  model.layout.thin = Holders<Dim>(scene, model).are_opposite();
   return model;
 }
 
@@ -323,7 +326,7 @@ template <int Dim>
 State<Dim> initial_state(const Model<Dim>& model) {
   State<Dim> state;
   state.layout = model.layout;
-  state.resize(model.size(), model.interface_points(), model.penalty_points());
+  state.resize(model.size(), model.interface_points(), model.penalty_points(), model.plates());
   state.rows = fpm::Rows<Dim>(model.particles, model.ghosts, model.row_options);
   if (model.initial_stress.size() > 0) state.stress = model.initial_stress;
   if (model.layout.subpoints) {

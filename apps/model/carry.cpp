@@ -151,6 +151,26 @@ void carry_penalties(const Model<Dim>& before, const State<Dim>& state, const Mo
   });
 }
 
+// Plates are known by their drives.
+template <int Dim>
+void carry_plates(const Model<Dim>& before, const State<Dim>& state, const Model<Dim>& after,
+                  State<Dim>& carried) {
+  std::map<std::string, Eigen::Index> known;
+  for (const Interface<Dim>& interface : before.interfaces) {
+    if (interface.plate) known.emplace(interface.of_drive, static_cast<Eigen::Index>(known.size()));
+  }
+  Eigen::Index k = 0;
+  for (const Interface<Dim>& interface : after.interfaces) {
+    if (!interface.plate) continue;
+    const auto found = known.find(interface.of_drive);
+    if (found != known.end()) {
+      carried.plate_displacement.col(k) = state.plate_displacement.col(found->second);
+      carried.plate_rotation.col(k) = state.plate_rotation.col(found->second);
+    }
+    ++k;
+  }
+}
+
 // By their centroids, which stay what they are whatever regions are there.
 template <int Dim>
 std::vector<fpm::Index> same_elements(const Model<Dim>& of, const Model<Dim>& in) {
@@ -207,7 +227,7 @@ State<Dim> carry_state(const Model<Dim>& before, State<Dim>& state, const Model<
                        bool keeps_rows, double load) {
   State<Dim> carried;
   carried.layout = after.layout;
-  carried.resize(after.size(), after.interface_points(), after.penalty_points());
+  carried.resize(after.size(), after.interface_points(), after.penalty_points(), after.plates());
   carried.programme = state.programme;
   const std::vector<fpm::Index> source = same_particles(after, before);
   carry_particles(state, source, carried);
@@ -220,6 +240,7 @@ State<Dim> carry_state(const Model<Dim>& before, State<Dim>& state, const Model<
   }
   carry_faces(before, state, after, load, carried);
   carry_penalties(before, state, after, carried);
+  carry_plates(before, state, after, carried);
   return carried;
 }
 

@@ -14,6 +14,9 @@
 #include "model/particle_fields.hpp"
 #include "model/state_file.hpp"
 #include "scene/derived.hpp"
+#include "scene/drives.hpp"
+#include "scene/element_body.hpp"
+#include "scene/ground.hpp"
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
@@ -51,6 +54,20 @@ void control_as_if_driven(scene::Scene& scene) {
   scene.hourglass.control = scene::resolve_control(driven);
   if (scene.hourglass.control == scene::HourglassControl::incremental) {
     scene.hourglass.stiffness_ratio = scene::resolve_stiffness_ratio(driven);
+  }
+}
+
+// Before this schema the footings that are now tied were contacts by name.
+constexpr std::int64_t schema_of_ties = 8;
+
+void tie_footing(scene::Scene& scene) {
+  const auto footing = scene::footing_of(scene);
+  scene::Drive* drive = scene::drive_of_footing(scene);
+  if (!footing || drive == nullptr || drive->method != scene::DriveMethod::contact) return;
+  const scene::OutlineSide& side = scene.side[*footing];
+  const bool had_images = !scene::is_solid(scene) && !scene::comes_later(scene, *drive);
+  if (!had_images && side.base == scene::Base::rough && side.tension) {
+    drive->method = scene::DriveMethod::tied;
   }
 }
 
@@ -137,6 +154,7 @@ scene::Scene scene_of(const std::filesystem::path& path, const record::Checkpoin
     keep_one_body(scene);
   }
   if (notes.schema < schema_of_load_control) control_as_if_driven(scene);
+  if (notes.schema < schema_of_ties) tie_footing(scene);
   if (restored(path, notes.materials) != parameters_of(scene)) {
     throw files::FileError(path, "/meta/materials are not the materials of /meta/scene");
   }

@@ -4,6 +4,7 @@
 
 #include "model/planes.hpp"
 #include "model/selection.hpp"
+#include "model/state.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
 
@@ -45,17 +46,20 @@ Holders<Dim>::Holders(const scene::Scene& scene, const Model<Dim>& model)
     std::vector<int> directions;
     for (const scene::Axis axis : support.directions) directions.push_back(static_cast<int>(axis));
     std::vector<Eigen::Index> particles = supported_particles(scene, support, model);
-    if (method == scene::SupportMethod::ghosts) {
-      if (scene.geometry.layout == scene::Layout::cell) particles.clear();
+    Holder holder{support.name, support.side, support.side, !support.side};
+    holder.images = method == scene::SupportMethod::ghosts;
+    if (holder.images && scene.geometry.layout == scene::Layout::cell) particles.clear();
+    const auto themselves = unknowns_of(model, particles, directions);
+    holder.by_particles.insert(themselves.begin(), themselves.end());
+    if (holder.images) {
       particles = behind(model, *support.side, scene::side_position(scene.geometry, *support.side),
                          particles);
     }
-    add({support.name, support.side, !support.side}, unknowns_of(model, particles, directions));
+    add(std::move(holder), unknowns_of(model, particles, directions));
   }
   for (const scene::ActingDrive& acting : scene::acting_drives(scene)) {
     const scene::Drive& drive = *acting.drive;
-    if (drive.kind != scene::DriveKind::displacement ||
-        drive.method == scene::DriveMethod::contact) {
+    if (drive.kind != scene::DriveKind::displacement || scene::is_rigid_body(drive)) {
       continue;
     }
     std::vector<int> directions;
@@ -64,13 +68,17 @@ Holders<Dim>::Holders(const scene::Scene& scene, const Model<Dim>& model)
       if (moved || drive.lateral == scene::Lateral::fixed) directions.push_back(i);
     }
     std::vector<Eigen::Index> particles = driven_particles(scene, drive, model);
-    if (scene::resolve_drive_method(scene, drive) == scene::DriveMethod::ghosts) {
-      if (scene.geometry.layout == scene::Layout::cell) particles.clear();
+    Holder holder{scene::name_of_drive(drive),
+                  drive.level ? std::nullopt : std::optional(drive.side), drive.side, false};
+    holder.images = scene::resolve_drive_method(scene, drive) == scene::DriveMethod::ghosts;
+    if (holder.images && scene.geometry.layout == scene::Layout::cell) particles.clear();
+    const auto themselves = unknowns_of(model, particles, directions);
+    holder.by_particles.insert(themselves.begin(), themselves.end());
+    if (holder.images) {
       particles =
           behind(model, drive.side, scene::plate_position(scene.geometry, drive), particles);
     }
-    const auto side = drive.level ? std::nullopt : std::optional(drive.side);
-    add({scene::name_of_drive(drive), side, false}, unknowns_of(model, particles, directions));
+    add(std::move(holder), unknowns_of(model, particles, directions));
   }
 }
 
@@ -86,11 +94,69 @@ double Holders<Dim>::share(Eigen::Index unknown, std::size_t holder) const {
   const std::vector<std::size_t>& all = holding_.at(unknown);
   const auto axis = static_cast<int>(unknown / particles_);
   const auto lies_across = [&](std::size_t h) {
-    return holders_[h].side && scene::axis_of(*holders_[h].side) == axis;
+    return holders_[h].faces && scene::axis_of(*holders_[h].faces) == axis;
   };
   const auto across = std::ranges::count_if(all, lies_across);
   if (across == 0) return 1.0 / static_cast<double>(all.size());
   return lies_across(holder) ? 1.0 / static_cast<double>(across) : 0.0;
+}
+
+template <int Dim>
+bool Holders<Dim>::are_opposite() const {
+  return std::ranges::any_of(holding_, [&](const auto& held) { return are_opposite(held.first); });
+}
+
+template <int Dim>
+bool Holders<Dim>::are_opposite(Eigen::Index unknown) const {
+  const auto& all = holding_.at(unknown);
+  for (const std::size_t one : all) {
+    const Holder& by_images = holders_[one];
+    if (!by_images.images || share(unknown, one) == 0.0) continue;
+    for (const std::size_t other : all) {
+      const auto& side = holders_[other].faces;
+      if (side && share(unknown, other) > 0.0 && *side != *by_images.faces &&
+          scene::axis_of(*side) == scene::axis_of(*by_images.faces)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// What images carry is that of their sides. The rest is what particles bear that are held
+// themselves, or round-off and what keeps an initial stress at rest.
+template <int Dim>
+void Holders<Dim>::add_share(Eigen::Index unknown, std::size_t holder, double part,
+                             Shares& shares) const {
+  if (!are_opposite(unknown)) {
+    shares.reaction.emplace_back(unknown, part);
+    return;
+  }
+  const auto& all = holding_.at(unknown);
+  const auto count = [&](auto&& is_one) {
+    return static_cast<double>(std::ranges::count_if(all, is_one));
+  };
+  const auto by_particles = [&](std::size_t h) {
+    return holders_[h].by_particles.contains(unknown) && share(unknown, h) > 0.0;
+  };
+  double rest = part;
+  if (const double such = count(by_particles); such > 0.0) {
+    rest = by_particles(holder) ? part / share(unknown, holder) / such : 0.0;
+  }
+  if (rest > 0.0) shares.reaction.emplace_back(unknown, rest);
+  const Eigen::Index particle = unknown % particles_, direction = unknown / particles_;
+  for (int f = 0; f < 2 * Dim; ++f) {
+    const auto is_there = [&](std::size_t h) {
+      return holders_[h].images && holders_[h].faces == static_cast<scene::Side>(f) &&
+             share(unknown, h) > 0.0;
+    };
+    const double such = count(is_there);
+    if (such == 0.0) continue;
+    const double own = is_there(holder) ? part / share(unknown, holder) / such : 0.0;
+    if (own == rest) continue;
+    const Eigen::Index place = particle * State<Dim>::side_rows + f * Dim + direction;
+    shares.side_reaction.emplace_back(place, own - rest);
+  }
 }
 
 template <int Dim>
@@ -99,7 +165,7 @@ typename Holders<Dim>::Shares Holders<Dim>::of(const std::string& name) const {
   for (const auto& [unknown, all] : holding_) {
     for (const std::size_t h : all) {
       if (holders_[h].name != name) continue;
-      if (const double part = share(unknown, h); part > 0.0) shares.emplace_back(unknown, part);
+      if (const double part = share(unknown, h); part > 0.0) add_share(unknown, h, part, shares);
     }
   }
   return shares;
@@ -127,7 +193,7 @@ typename Holders<Dim>::Shares Holders<Dim>::on(const scene::Scene& scene, const 
       } else if (holders_[h].side != side) {
         continue;
       }
-      if (part > 0.0) shares.emplace_back(unknown, part);
+      if (part > 0.0) add_share(unknown, h, part, shares);
     }
   }
   return shares;

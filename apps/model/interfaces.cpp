@@ -259,13 +259,14 @@ fpm::CommonFaces<Dim> faces_under_plate(const scene::Scene& scene, const scene::
   });
 }
 
-// A rough footing of a solid body, or one that comes later, holds on to it as nothing else does
-// that is a contact.
-bool is_tied(const scene::Scene& scene, const scene::Drive& drive) {
-  const auto footing = scene::footing_of(scene);
-  if (!footing || !drive.on_footing || !(scene::is_solid(scene) || drive.later)) return false;
-  const scene::OutlineSide& side = scene.side[*footing];
-  return side.base == scene::Base::rough && side.tension;
+// What is tied, but free along the side, is held across it whichever way it is pulled.
+constitutive::InterfaceLaw law_of_plate(const scene::Drive& drive) {
+  if (drive.method != scene::DriveMethod::tied) return law_of(drive.contact);
+  constitutive::InterfaceLaw law;
+  if (drive.lateral == scene::Lateral::fixed) return law;
+  law.tied = false;
+  law.tension = true;
+  return law;
 }
 
 // The rigid plate of a drive that only touches.
@@ -279,8 +280,7 @@ void add_plate(const scene::Scene& scene, const scene::ActingDrive& acting, Mode
   if (is_free && model.layout.plastic && !contact.stiffness_factor) {
     contact.stiffness_factor = free_plates_stiffness;
   }
-  const auto law = is_tied(scene, drive) ? constitutive::InterfaceLaw{} : law_of(contact);
-  Interface<Dim> plate = interface_at(scene, model, under, contact, law);
+  Interface<Dim> plate = interface_at(scene, model, under, contact, law_of_plate(drive));
   // The plate bears nothing at first, whatever lies under it.
   plate.initial_traction.setZero();
   plate.of_drive = scene::name_of_drive(drive);
@@ -305,7 +305,7 @@ void add_rigid(const scene::Scene& scene, Model<Dim>& model) {
     model.interfaces.back().support = support.name;
   }
   for (const scene::ActingDrive& acting : scene::acting_drives(scene)) {
-    if (acting.drive->method == scene::DriveMethod::contact) add_plate(scene, acting, model);
+    if (scene::is_rigid_body(*acting.drive)) add_plate(scene, acting, model);
   }
 }
 

@@ -51,6 +51,7 @@ Measures<Dim>::Measures(const scene::Scene& scene, const Model<Dim>& model)
   if (has_stages_) columns_.emplace_back(stage_column);
   if (reduces_strength_) columns_.emplace_back("strength_reduction");
   if (scene::has_stage_drives(scene)) name_drives(scene);
+  name_rotations(scene);
   for (const scene::Measure& asked : scene::resolve_measures(scene)) {
     Measure& measure = measures_.emplace_back();
     measure.kind = asked.kind;
@@ -83,6 +84,43 @@ void Measures<Dim>::name_drives(const scene::Scene& scene) {
     columns_.push_back(std::move(column));
     drives_.push_back(drive.second);
   }
+}
+
+// Of plates that turn, about each axis.
+template <int Dim>
+void Measures<Dim>::name_rotations(const scene::Scene& scene) {
+  std::map<std::size_t, const scene::Drive*> turning;  // in the order of the scene
+  const auto add = [&](const scene::Drive& drive) {
+    if (!drive.at.empty() && scene::is_rigid_body(drive)) turning[drive.number] = &drive;
+  };
+  add(scene.drive);
+  for (const scene::OtherDrive& other : scene.other_drives) add(other.drive);
+  for (const auto& [number, drive] : turning) {
+    const std::string name = drive->name.empty() ? "plate" : scene::column_name(drive->name);
+    const Eigen::Index plate = plate_of(scene::name_of_drive(*drive));
+    for (int i = 0; i < State<Dim>::rotations; ++i) {
+      const std::string axis =
+          Dim == 2 ? "" : fmt::format("_{}", axes[static_cast<std::size_t>(i)]);
+      std::string column = fmt::format("{}_rotation{}_rad", name, axis);
+      if (std::ranges::count(columns_, column) > 0) {
+        column = fmt::format("{}_{}_rotation{}_rad", name, number, axis);
+      }
+      columns_.push_back(std::move(column));
+      rotations_.emplace_back(i, plate);
+    }
+  }
+}
+
+// Its place among those that are free, or -1.
+template <int Dim>
+Eigen::Index Measures<Dim>::plate_of(const std::string& drive) const {
+  Eigen::Index k = 0;
+  for (const Interface<Dim>& interface : model_.interfaces) {
+    if (!interface.plate) continue;
+    if (interface.of_drive == drive) return k;
+    ++k;
+  }
+  return -1;
 }
 
 template <int Dim>
@@ -141,7 +179,7 @@ void Measures<Dim>::find_side(const scene::Scene& scene, scene::Side side, Measu
   }
   for (const scene::ActingDrive& acting : scene::acting_drives(scene)) {
     const scene::Drive& drive = *acting.drive;
-    if (drive.method == scene::DriveMethod::contact && drive.side == side && !drive.level) {
+    if (scene::is_rigid_body(drive) && drive.side == side && !drive.level) {
       add_contacts(&Interface<Dim>::of_drive, scene::name_of_drive(drive), measure);
     }
   }
@@ -190,8 +228,11 @@ void Measures<Dim>::name_columns(const scene::Measure& asked) {
 template <int Dim>
 fpm::Vector<Dim> Measures<Dim>::force(const Measure& measure, const State<Dim>& state) const {
   fpm::Vector<Dim> sum = fpm::Vector<Dim>::Zero();
-  for (const auto& [k, part] : measure.unknowns) {
+  for (const auto& [k, part] : measure.unknowns.reaction) {
     sum[k / model_.size()] += part * state.reaction.data()[k];
+  }
+  for (const auto& [k, part] : measure.unknowns.side_reaction) {
+    sum[k % Dim] += part * state.side_reaction.data()[k];
   }
   for (const auto& [point, weight] : measure.contacts) {
     sum += weight * state.interface_traction.col(point);
@@ -231,6 +272,10 @@ std::vector<double> Measures<Dim>::of(const State<Dim>& state) const {
   }
   for (const Place& place : drives_) {
     values.push_back(place.scale * (place.moves ? state.programme.load : place.held));
+  }
+  // One that is not there has not turned.
+  for (const auto& [axis, plate] : rotations_) {
+    values.push_back(plate < 0 ? 0.0 : state.plate_rotation(axis, plate));
   }
   const auto add = [&](const auto& vector) {
     for (Eigen::Index i = 0; i < vector.size(); ++i) values.push_back(vector[i]);

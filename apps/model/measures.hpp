@@ -31,7 +31,7 @@ class Measures {
 
   /// Names of the columns, each with its unit: first the stage, from 1, and what strength is
   /// divided by, in a run that has several and that divides it; then where each drive stands, if
-  /// there are several.
+  /// there are several, and by how much each plate has turned that does, from x to y.
   [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
   /// Their values, in the same order.
   [[nodiscard]] std::vector<double> of(const State<Dim>& state) const;
@@ -59,6 +59,8 @@ class Measures {
   void add_contacts(std::string Interface<Dim>::*of, const std::string& name,
                     Measure& measure) const;
   void name_drives(const scene::Scene& scene);
+  void name_rotations(const scene::Scene& scene);
+  [[nodiscard]] Eigen::Index plate_of(const std::string& drive) const;
   void find_side(const scene::Scene& scene, scene::Side side, Measure& measure) const;
   void name_columns(const scene::Measure& asked);
   fpm::Vector<Dim> force(const Measure& measure, const State<Dim>& state) const;
@@ -75,6 +77,8 @@ class Measures {
   scene::Course course_;
   bool has_stages_ = false, reduces_strength_ = false;
   std::vector<Place> drives_;  // of a run with several
+  // Of plates that turn: about which axis, and which of the state's, or -1.
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> rotations_;
   std::vector<Measure> measures_;
   std::vector<std::string> columns_;
 };

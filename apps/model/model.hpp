@@ -198,6 +198,7 @@ struct Model {
   std::vector<fpm::Vector<Dim>> plane_drive;    // [m] displacement at load parameter 1
   std::vector<fpm::Vector<Dim>> plane_held;     // [m] displacement whatever the load parameter
   std::vector<fpm::Vector<Dim>> plane_measure;  // weight of its reaction in the reported load
+  std::vector<scene::Side> plane_side;          // of each plane, whether or not one moves
   std::vector<FollowingPressure<Dim>> following_pressures;
   std::vector<PenaltySupport<Dim>> penalty_supports;
   std::vector<Interface<Dim>> interfaces;
@@ -211,6 +212,9 @@ struct Model {
 
   /// Number of points of supports by penalty whose targets are part of the state.
   Eigen::Index penalty_points() const;
+
+  /// Number of plates that are free in some ways.
+  Eigen::Index plates() const;
 
   /// Number of points of all interfaces.
   Eigen::Index interface_points() const;
@@ -232,6 +236,13 @@ template <int Dim>
 Eigen::Index Model<Dim>::interface_points() const {
   Eigen::Index count = 0;
   for (const Interface<Dim>& interface : interfaces) count += interface.faces.points.size();
+  return count;
+}
+
+template <int Dim>
+Eigen::Index Model<Dim>::plates() const {
+  Eigen::Index count = 0;
+  for (const Interface<Dim>& interface : interfaces) count += interface.plate ? 1 : 0;
   return count;
 }
 

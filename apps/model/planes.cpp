@@ -72,6 +72,26 @@ std::vector<Eigen::Index> sources_of_planes(const Model<Dim>& model, int axis, d
   return {sources.begin(), sources.end()};
 }
 
+template <int Dim>
+std::vector<scene::Side> sides_of_planes(const scene::Scene& scene, const Model<Dim>& model) {
+  std::vector<scene::Side> sides;
+  const auto drive = scene::drive_by_images(scene);
+  const auto& planes = model.ghosts.planes();
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    if (drive && p == driven_plane) {
+      sides.push_back(drive->drive->side);
+      continue;
+    }
+    const auto lower = static_cast<scene::Side>(2 * planes[p].axis);
+    const auto upper = static_cast<scene::Side>(2 * planes[p].axis + 1);
+    const bool is_lower = planes[p].position == scene::side_position(scene.geometry, lower);
+    sides.push_back(is_lower ? lower : upper);
+  }
+  return sides;
+}
+
+template std::vector<scene::Side> sides_of_planes<2>(const scene::Scene&, const Model<2>&);
+template std::vector<scene::Side> sides_of_planes<3>(const scene::Scene&, const Model<3>&);
 template std::vector<Eigen::Index> sources_of_planes<2>(const Model<2>&, int, double);
 template std::vector<Eigen::Index> sources_of_planes<3>(const Model<3>&, int, double);
 template std::vector<fpm::GhostPlane<2>> ghost_planes<2>(const scene::Scene&);

@@ -5,6 +5,7 @@
 
 #include "fpm/ghosts.hpp"
 #include "model/model.hpp"
+#include "scene/choices.hpp"
 
 namespace scene {
 struct Scene;
@@ -20,6 +21,10 @@ std::vector<fpm::GhostPlane<Dim>> ghost_planes(const scene::Scene& scene);
 /// The particles that have images by the planes at a place which are no mirrors, ascending.
 template <int Dim>
 std::vector<Eigen::Index> sources_of_planes(const Model<Dim>& model, int axis, double position);
+
+/// The side of the box that each plane of a model lies on, or is parallel to.
+template <int Dim>
+std::vector<scene::Side> sides_of_planes(const scene::Scene& scene, const Model<Dim>& model);
 
 /// Place of the driven side among them, if it is driven by ghosts.
 inline constexpr std::size_t driven_plane = 0;

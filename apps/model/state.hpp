@@ -17,6 +17,7 @@ struct StateLayout {
   bool subpoints = false;    // deviators of the sub-points
   bool incremental = false;  // memory of the incremental hourglass control
   bool staged = false;       // what the changes of a stage have left unbalanced
+  bool thin = false;         // what opposite sides that hold the same particles bear each
 };
 
 /// Where the load programme stands.
@@ -59,6 +60,8 @@ template <int Dim>
 struct State {
   static constexpr int stress_rows = constitutive::stress_size<Dim>;
   static constexpr int subpoint_rows = static_cast<int>(fpm::subpoint_count) * stress_rows;
+  static constexpr int side_rows = 2 * Dim * Dim;
+  static constexpr int rotations = Dim == 2 ? 1 : 3;
   template <int Rows>
   using Columns = Eigen::Matrix<double, Rows, Eigen::Dynamic>;
 
@@ -75,18 +78,26 @@ struct State {
   Eigen::VectorXd plastic_increment;         // of the last converged step
   Eigen::VectorXd released;                  // omega: 1 once the row has yielded, else 0
   fpm::Field<Dim> reaction;                  // at prescribed unknowns, 0 elsewhere
+  // Of it what images carry: side by side of the box, all components of each.
+  Columns<side_rows> side_reaction;
   fpm::Field<Dim> unbalanced;       // forces left at the stage's beginning; they fade in it
   Columns<Dim> interface_slip;      // of each point of the interfaces
   Columns<Dim> interface_traction;  // there, on the first body
   // Of each point of supports by penalty, where stages change the ground: at which it is held.
   fpm::Field<Dim> penalty_target;
+  // Of each plate that is free in some ways, since it began: of the point about which it turns, and
+  // about the axes.
+  Columns<Dim> plate_displacement;
+  Columns<rotations> plate_rotation;
   fpm::Rows<Dim> rows;
   ProgrammeState programme;
 
   /// @param n  particles
   /// @param points  of the interfaces
   /// @param penalty_points  of the supports by penalty whose targets are kept
-  void resize(Eigen::Index n, Eigen::Index points, Eigen::Index penalty_points) {
+  /// @param plates  that are free in some ways
+  void resize(Eigen::Index n, Eigen::Index points, Eigen::Index penalty_points,
+              Eigen::Index plates) {
     const auto count = [n](bool needed) { return needed ? n : 0; };
     displacement.setZero(n, Dim);
     increment.setZero(n, Dim);
@@ -101,10 +112,13 @@ struct State {
     plastic_increment.setZero(count(layout.plastic));
     released.setZero(count(layout.incremental));
     reaction.setZero(n, Dim);
+    side_reaction.setZero(side_rows, count(layout.thin));
     unbalanced.setZero(count(layout.staged), Dim);
     interface_slip.setZero(Dim, points);
     interface_traction.setZero(Dim, points);
     penalty_target.setZero(penalty_points, Dim);
+    plate_displacement.setZero(Dim, plates);
+    plate_rotation.setZero(rotations, plates);
   }
 
   /// Visits every particle field, visit(name, unit, matrix); fields a scene does not need are
@@ -123,6 +137,7 @@ struct State {
     visit("plastic_increment", "-", plastic_increment);
     visit("released", "-", released);
     visit("reaction", Dim == 2 ? "N/m" : "N", reaction);
+    visit("side_reaction", Dim == 2 ? "N/m" : "N", side_reaction);
     visit("unbalanced", Dim == 2 ? "N/m" : "N", unbalanced);
   }
 
@@ -137,6 +152,14 @@ struct State {
   template <class Visitor>
   void for_each_penalty_field(Visitor&& visit) {
     if (penalty_target.rows() > 0) visit("target", "m", penalty_target);
+  }
+
+  /// Likewise for the plates that are free in some ways.
+  template <class Visitor>
+  void for_each_plate_field(Visitor&& visit) {
+    if (plate_rotation.cols() == 0) return;
+    visit("displacement", "m", plate_displacement);
+    visit("rotation", "rad", plate_rotation);
   }
 };
 

@@ -15,6 +15,7 @@ const std::string particle_group = "/state/particles/";
 const std::string row_group = "/state/rows/";
 const std::string interface_group = "/state/interfaces/";
 const std::string penalty_group = "/state/penalties/";
+const std::string plate_group = "/state/plates/";
 const std::string programme_group = "/state/programme/";
 
 // The reactions were no part of the state before this schema.
@@ -26,6 +27,10 @@ constexpr std::int64_t schema_of_balance = 4;
 constexpr std::int64_t schema_of_corrections = 5;
 // Before this schema a run had one stage, whose progress was its load.
 constexpr std::int64_t schema_of_stages = 7;
+// Before this schema opposite sides shared their reactions, the motion of plates was no part of the
+// state, and supports by penalty that began later held at none, but for some files which have what
+// they held at.
+constexpr std::int64_t schema_of_sides = 8;
 const std::string shown_reactions = "/VTKHDF/PointData/reaction";
 
 template <class Values>
@@ -176,6 +181,9 @@ void write_state(files::Hdf5File& file, State<Dim>& state, files::ContentDigest&
   state.for_each_penalty_field([&](const char* name, const char* unit, const auto& field) {
     writer.write_columns(penalty_group + name, unit, field);
   });
+  state.for_each_plate_field([&](const char* name, const char* unit, const auto& field) {
+    writer.write_columns(plate_group + name, unit, field);
+  });
   state.rows.for_each_field([&](const char* name, const char* unit, const auto& list) {
     using T = typename std::remove_cvref_t<decltype(list)>::value_type;
     writer.template write<T>(row_group + name, span_of(list),
@@ -191,12 +199,14 @@ template <int Dim>
 State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model, std::int64_t schema) {
   State<Dim> state;
   state.layout = model.layout;
-  state.resize(model.size(), model.interface_points(), model.penalty_points());
+  state.resize(model.size(), model.interface_points(), model.penalty_points(), model.plates());
   const FieldReader reader(file);
   const bool has_reactions = schema >= schema_of_reactions;
   const bool has_stages = schema >= schema_of_stages;
+  const bool has_sides = schema >= schema_of_sides;
   state.for_each_particle_field([&](std::string_view name, const char* /*unit*/, auto& field) {
-    if ((has_reactions || name != "reaction") && (has_stages || name != "unbalanced")) {
+    if ((has_reactions || name != "reaction") && (has_stages || name != "unbalanced") &&
+        (has_sides || name != "side_reaction")) {
       reader.read_columns(particle_group + std::string(name), field);
     }
   });
@@ -206,8 +216,11 @@ State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model, std:
     if (has_corrections) reader.read_columns(interface_group + name, field);
   });
   state.for_each_penalty_field([&](const char* name, const char* /*unit*/, auto& field) {
-    // Runs of before held at none.
-    if (file.has(penalty_group + name)) reader.read_columns(penalty_group + name, field);
+    const std::string path = penalty_group + name;
+    if (has_sides || file.has(path)) reader.read_columns(path, field);
+  });
+  state.for_each_plate_field([&](const char* name, const char* /*unit*/, auto& field) {
+    if (has_sides) reader.read_columns(plate_group + name, field);
   });
   state.rows.for_each_field([&](std::string_view name, const char* /*unit*/, auto& list) {
     if (has_corrections || (name != "corrected_row" && name != "correction")) {
@@ -242,6 +255,7 @@ std::size_t bytes_of(State<Dim>& state) {
   state.for_each_particle_field(add);
   state.for_each_interface_field(add);
   state.for_each_penalty_field(add);
+  state.for_each_plate_field(add);
   state.rows.for_each_field(add);
   return bytes;
 }

@@ -53,14 +53,17 @@ std::string end_report(const scene::Scene& scene, const std::vector<std::string>
   std::int64_t evaluations = 0;
   for (const record::CurveRow& row : history) evaluations += row.evaluations;
   std::string load = fmt::format("{:.6g} of the programme", last.load_parameter);
-  const bool displaced = scene.drive.kind == scene::DriveKind::displacement;
-  if (displaced || scene::loads_plate(scene.drive)) {
+  // What the last steps reported: the side that moves, or the one that was moved last and is held.
+  const auto reported = scene::reported_drive(scene);
+  if (reported) {
+    const scene::Drive& drive = *reported->drive;
+    const bool displaced = drive.kind == scene::DriveKind::displacement;
     load += fmt::format(", settlement {:.6g} m", last.settlement);
-    if (scene.drive.reference_length) load += fmt::format(", d/B {:.6g}", last.settlement_over_B);
+    if (drive.reference_length) load += fmt::format(", d/B {:.6g}", last.settlement_over_B);
     line("load", load);
     std::string pressure = fmt::format("reaction {:.6g} {}", last.reaction,
                                        scene.geometry.dimension == 2 ? "N/m" : "N");
-    if (scene.drive.width) {
+    if (drive.width) {
       pressure = fmt::format("{:.6g} Pa mean", last.mean_pressure);
       if (displaced)
         pressure += fmt::format(", {:.6g} Pa energy-corrected", last.corrected_pressure);

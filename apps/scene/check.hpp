@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "scene/scene.hpp"
 #include "tables/diagnosis.hpp"
@@ -35,6 +37,7 @@ void check_drive(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_reduction(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_drives(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_stages(const Scene& scene, tables::Diagnosis& diagnosis);
+void check_materials_of_stage(const Scene& scene, std::size_t stage, tables::Diagnosis& diagnosis);
 void check_plate(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_places(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_measures(const Scene& scene, tables::Diagnosis& diagnosis);
@@ -83,6 +86,23 @@ void check_driven_part(const Scene& scene, tables::Diagnosis& diagnosis);
 /// Whether a side exists in this dimension; reports otherwise.
 bool check_side(Side side, const std::string& key, const Scene& scene,
                 tables::Diagnosis& diagnosis);
+
+/// `stage.2.name`.
+[[nodiscard]] std::string key_of_stage(std::size_t stage, const char* name);
+
+/// The names of those that have one.
+template <class Entry>
+std::vector<std::string_view> names_of_all(const std::vector<Entry>& entries) {
+  std::vector<std::string_view> names;
+  for (const Entry& entry : entries) {
+    if (!entry.name.empty()) names.push_back(entry.name);
+  }
+  return names;
+}
+
+/// Whether all of a list are among the known names of `what`; reports the first that is not.
+bool check_known(const std::vector<std::string>& list, const std::vector<std::string_view>& known,
+                 const std::string& key, const char* what, tables::Diagnosis& diagnosis);
 
 /// Refuses a name that an earlier entry of `table` has.
 template <class Entry>

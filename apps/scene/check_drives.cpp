@@ -149,7 +149,7 @@ void check_later(const Scene& scene, const std::vector<NamedDrive>& drives,
     diagnosis.error(
         key, fmt::format("found ghosts, and \"{}\" begins after the first stage", drive.name),
         "images would be where they were before anything moved: allowed are auto, "
-        "direct and contact");
+        "direct, contact and tied");
     return;
   }
 }
@@ -173,13 +173,8 @@ void check_own(const Scene& scene, const NamedDrive& named, std::size_t number,
                tables::Diagnosis& diagnosis) {
   const Scene with_it = as_only_drive(scene, named, number);
   tables::Diagnosis inner = diagnosis.with_table_as(named.key, "drive");
-  if (named.drive->kind == DriveKind::strength) {
-    inner.error("drive.kind", "found strength in a stage",
-                "a stage says to which reduction it goes: give it reduction");
-  } else {
-    check_drive(with_it, inner);
-    check_drive_in_place(with_it, inner);
-  }
+  check_drive(with_it, inner);
+  check_drive_in_place(with_it, inner);
   diagnosis.take(inner, named.key, "drive");
 }
 

@@ -254,11 +254,12 @@ void check_driven_by_ghosts(const Scene& scene, tables::Diagnosis& diagnosis) {
 /// A plate that only touches is driven across its side.
 void check_driven_by_contact(const Scene& scene, tables::Diagnosis& diagnosis) {
   const Drive& drive = scene.drive;
-  if (drive.method != DriveMethod::contact) return;
+  if (!is_rigid_body(drive)) return;
   if (!diagnosis.good({"drive.method", "drive.side", "drive.direction"})) return;
   const auto across = static_cast<std::size_t>(axis_of(drive.side));
   if (across < drive.direction.size() && drive.direction[across] == 0.0) {
-    diagnosis.error("drive.method", "found contact, with a drive along its side",
+    diagnosis.error("drive.method",
+                    fmt::format("found {}, with a drive along its side", name_of(drive.method)),
                     "a plate that touches pushes across its side: use ghosts or direct");
   }
 }

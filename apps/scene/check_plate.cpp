@@ -13,8 +13,10 @@ namespace scene {
 
 namespace {
 
-bool sticks(const Contact& contact) {
-  return contact.friction_angle > 0.0 || contact.adhesion > 0.0;
+bool sticks(const Drive& drive) {
+  const Contact& contact = drive.contact;
+  return drive.method == DriveMethod::tied || contact.friction_angle > 0.0 ||
+         contact.adhesion > 0.0;
 }
 
 // Axes along a side, in their order.
@@ -30,9 +32,9 @@ void check_at(const Scene& scene, tables::Diagnosis& diagnosis) {
   const Drive& drive = scene.drive;
   const std::string key = "drive.at";
   if (drive.at.empty() || !diagnosis.good({key, "drive.side", "drive.method"})) return;
-  if (drive.kind == DriveKind::none || drive.method != DriveMethod::contact) {
+  if (drive.kind == DriveKind::none || !is_rigid_body(drive)) {
     diagnosis.error(key, "found without a plate that only touches",
-                    "a plate turns that is pushed or loaded by method = \"contact\"");
+                    "a plate turns that is pushed or loaded by method = \"contact\", or tied");
     return;
   }
   const auto axes = axes_along(scene, drive.side);
@@ -71,10 +73,10 @@ void check_force(const Scene& scene, tables::Diagnosis& diagnosis) {
                     "give kind = \"load\" and scales = [\"plate\"], or leave it out");
     return;
   }
-  if (drive.method != DriveMethod::contact && diagnosis.good({"drive.method"})) {
+  if (!is_rigid_body(drive) && diagnosis.good({"drive.method"})) {
     diagnosis.error("drive.method",
                     fmt::format("found {} with a loaded plate", name_of(drive.method)),
-                    "it only touches the body: use contact");
+                    "it is a body of its own: use contact, or tied");
   }
   if (drive.force.empty()) {
     diagnosis.error(key, "is missing", "a loaded plate needs its force, [0, -1e3] presses down");
@@ -82,7 +84,7 @@ void check_force(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
   const auto n = static_cast<std::size_t>(scene.geometry.dimension);
   if (!check_length(drive.force, n, key, scene, diagnosis)) return;
-  const bool guided = drive.lateral == Lateral::fixed || !sticks(drive.contact);
+  const bool guided = drive.lateral == Lateral::fixed || !sticks(drive);
   for (const std::size_t axis : axes_along(scene, drive.side)) {
     if (drive.force[axis] == 0.0 || !guided) continue;
     diagnosis.error(

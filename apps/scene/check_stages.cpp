@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "constitutive/parameters.hpp"
 #include "scene/check.hpp"
@@ -18,45 +16,12 @@
 namespace scene {
 namespace {
 
-// Whether a material's strength is made of what stages change.
-bool has_cohesion(const Material& material) {
-  return model_of(material).is_cohesive();
-}
-
 // Whether it has a strength that a reduction divides.
 bool may_be_weaker(const Material& material) {
   return yields(material) && !model_of(material).critical_state;
 }
 
 using Names = std::vector<std::string>;
-
-std::string key_of(std::size_t stage, const char* name) {
-  return fmt::format("stage.{}.{}", stage, name);
-}
-
-template <class Entry>
-std::vector<std::string_view> names_of_all(const std::vector<Entry>& entries) {
-  std::vector<std::string_view> names;
-  for (const Entry& entry : entries) {
-    if (!entry.name.empty()) names.push_back(entry.name);
-  }
-  return names;
-}
-
-// Whether all of a list are names of something.
-bool check_known(const Names& list, const std::vector<std::string_view>& known,
-                 const std::string& key, const char* what, tables::Diagnosis& diagnosis) {
-  if (!diagnosis.good({key})) return false;
-  for (const std::string& name : list) {
-    if (std::ranges::count(known, std::string_view(name)) > 0) continue;
-    diagnosis.error(key, fmt::format("found \"{}\"", name),
-                    known.empty() ? fmt::format("the scene has no {} of a name", what)
-                                  : fmt::format("{}s are {}", what, tables::joined(known)),
-                    tables::nearest_name(name, known));
-    return false;
-  }
-  return true;
-}
 
 // That a thing is there when it is taken away, and not when it is put down.
 void check_order(const Scene& scene, const std::string& name, const char* taken, const char* put,
@@ -66,7 +31,7 @@ void check_order(const Scene& scene, const std::string& name, const char* taken,
     const auto count = [&](const Names& list) { return std::ranges::count(list, name); };
     const auto takes = count(scene.stage[s].*take), gives = count(scene.stage[s].*give);
     if (takes + gives == 0) continue;
-    const std::string key = key_of(s, takes > 0 ? taken : put);
+    const std::string key = key_of_stage(s, takes > 0 ? taken : put);
     if (!diagnosis.good({key})) return;
     if (takes + gives > 1) {
       diagnosis.error(key, fmt::format("found \"{}\" more than once in a stage", name),
@@ -87,8 +52,10 @@ void check_regions(const Scene& scene, tables::Diagnosis& diagnosis) {
   bool all = true;
   for (std::size_t s = 0; s < scene.stage.size(); ++s) {
     all =
-        check_known(scene.stage[s].remove, known, key_of(s, "remove"), "region", diagnosis) && all;
-    all = check_known(scene.stage[s].place, known, key_of(s, "place"), "region", diagnosis) && all;
+        check_known(scene.stage[s].remove, known, key_of_stage(s, "remove"), "region", diagnosis) &&
+        all;
+    all = check_known(scene.stage[s].place, known, key_of_stage(s, "place"), "region", diagnosis) &&
+          all;
   }
   if (!all) return;
   for (const std::string_view name : known) {
@@ -101,7 +68,7 @@ void check_regions(const Scene& scene, tables::Diagnosis& diagnosis) {
         scene.region.empty() ||
         std::ranges::any_of(then.region, [](const Region& region) { return region.present; });
     if (any) continue;
-    diagnosis.error(key_of(s, "remove"), "found every region that is left",
+    diagnosis.error(key_of_stage(s, "remove"), "found every region that is left",
                     "some ground must stay");
     return;
   }
@@ -111,7 +78,8 @@ void check_names_of_regions(const Scene& scene, tables::Diagnosis& diagnosis) {
   for (std::size_t s = 0; s < scene.stage.size(); ++s) {
     for (const std::string& name : scene.stage[s].remove) {
       if (std::ranges::count(scene.region, name, &Region::name) < 2) continue;
-      diagnosis.warning(key_of(s, "remove"), fmt::format("\"{}\" is the name of several", name),
+      diagnosis.warning(key_of_stage(s, "remove"),
+                        fmt::format("\"{}\" is the name of several", name),
                         "all of them are taken away");
     }
   }
@@ -146,8 +114,8 @@ void check_plate_stays(const Scene& scene, tables::Diagnosis& diagnosis) {
         return std::ranges::count(stage.place, name) > 0;
       };
       const auto put = std::ranges::find_if(scene.stage, puts) - scene.stage.begin();
-      const std::string key =
-          takes(taken) ? key_of(taken, "remove") : key_of(static_cast<std::size_t>(put), "place");
+      const std::string key = takes(taken) ? key_of_stage(taken, "remove")
+                                           : key_of_stage(static_cast<std::size_t>(put), "place");
       diagnosis.error(key, fmt::format("found \"{}\"", name),
                       fmt::format("it carries the plate \"{}\" in {}: be it there as long as that "
                                   "is driven or held, which release ends",
@@ -161,7 +129,7 @@ void check_plate_stays(const Scene& scene, tables::Diagnosis& diagnosis) {
 void check_method(const Scene& scene, const Support& support, tables::Diagnosis& diagnosis) {
   if (support.method != SupportMethod::ghosts) return;
   for (std::size_t s = 0; s < scene.stage.size(); ++s) {
-    const std::string key = key_of(s, "hold");
+    const std::string key = key_of_stage(s, "hold");
     if (std::ranges::count(scene.stage[s].hold, support.name) == 0 || !diagnosis.good({key})) {
       continue;
     }
@@ -177,7 +145,7 @@ void check_released_drives(const Scene& scene, const std::vector<NamedDrive>& dr
                            tables::Diagnosis& diagnosis) {
   const auto courses = courses_of_drives(scene);
   for (std::size_t s = 0; s < scene.stage.size(); ++s) {
-    const std::string key = key_of(s, "release");
+    const std::string key = key_of_stage(s, "release");
     for (std::size_t d = 0; d < drives.size(); ++d) {
       if (std::ranges::count(scene.stage[s].release, drives[d].name) == 0) continue;
       if ((s > 0 && courses[s - 1].acts[d]) || !diagnosis.good({key})) continue;
@@ -200,8 +168,8 @@ void check_supports(const Scene& scene, tables::Diagnosis& diagnosis) {
   for (std::size_t s = 0; s < scene.stage.size(); ++s) {
     const Stage& stage = scene.stage[s];
     const char* what = released.size() > known.size() ? "supports' and drives' name" : "support";
-    all = check_known(stage.release, released, key_of(s, "release"), what, diagnosis) && all;
-    all = check_known(stage.hold, known, key_of(s, "hold"), "support", diagnosis) && all;
+    all = check_known(stage.release, released, key_of_stage(s, "release"), what, diagnosis) && all;
+    all = check_known(stage.hold, known, key_of_stage(s, "hold"), "support", diagnosis) && all;
   }
   if (!all) return;
   for (const Support& support : scene.support) {
@@ -209,57 +177,6 @@ void check_supports(const Scene& scene, tables::Diagnosis& diagnosis) {
     check_method(scene, support, diagnosis);
   }
   check_released_drives(scene, drives, diagnosis);
-}
-
-void check_list(const Point& list, const Stage& stage, const std::string& key, double least,
-                double below, tables::Diagnosis& diagnosis) {
-  if (list.empty() || !diagnosis.good({key})) return;
-  if (list.size() != stage.materials.size()) {
-    diagnosis.error(key, fmt::format("found {} values", list.size()),
-                    fmt::format("one for each of materials, {}", stage.materials.size()));
-    return;
-  }
-  for (const double value : list) {
-    if (value >= least && value < below) continue;
-    const std::string allowed = std::isfinite(below)
-                                    ? fmt::format("allowed is {} <= value < {}", least, below)
-                                    : fmt::format("allowed is a number >= {}", least);
-    diagnosis.error(key, fmt::format("found {}", value), allowed);
-    return;
-  }
-}
-
-void check_values(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis) {
-  const Stage& stage = scene.stage[s];
-  const bool any =
-      !stage.cohesion.empty() || !stage.friction_angle.empty() || !stage.dilation_angle.empty();
-  if (stage.materials.empty()) {
-    if (any) {
-      diagnosis.error(key_of(s, "materials"), "is missing", "needed are names of materials");
-    }
-    return;
-  }
-  if (!any) {
-    diagnosis.error(key_of(s, "materials"), "found without a value",
-                    "needed is cohesion, friction_angle or dilation_angle, one for each");
-  }
-  if (!check_known(stage.materials, names_of_all(scene.material), key_of(s, "materials"),
-                   "material", diagnosis)) {
-    return;
-  }
-  for (const std::string& name : stage.materials) {
-    const auto material = std::ranges::find(scene.material, name, &Material::name);
-    if (has_cohesion(*material)) continue;
-    diagnosis.error(key_of(s, "materials"), fmt::format("found \"{}\"", name),
-                    fmt::format("material model {} has no cohesion or friction angle that could "
-                                "change",
-                                material->model));
-  }
-  constexpr double right_angle = 90.0;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  check_list(stage.cohesion, stage, key_of(s, "cohesion"), 0.0, infinity, diagnosis);
-  check_list(stage.friction_angle, stage, key_of(s, "friction_angle"), 0.0, right_angle, diagnosis);
-  check_list(stage.dilation_angle, stage, key_of(s, "dilation_angle"), 0.0, right_angle, diagnosis);
 }
 
 // That values fit each other once they have changed.
@@ -270,14 +187,10 @@ void check_flow(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis)
     const auto index = static_cast<std::size_t>(&material - then.material.data());
     const auto objection = dilation_objection(then, index, diagnosis);
     if (objection.empty()) continue;
-    diagnosis.error(key_of(s, "friction_angle"),
+    diagnosis.error(key_of_stage(s, "friction_angle"),
                     fmt::format("\"{}\" then {}", material.name, objection),
                     "a material dilates by its friction angle at most: give dilation_angle, too");
   }
-}
-
-bool puts_down(const Scene& scene) {
-  return std::ranges::any_of(scene.stage, [](const Stage& s) { return !s.place.empty(); });
 }
 
 // Whether it changes anything but which drive is in force.
@@ -288,12 +201,12 @@ bool changes_besides(Stage stage) {
 
 void check_way(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis) {
   const Stage& stage = scene.stage[s];
-  const std::string to = key_of(s, "to");
+  const std::string to = key_of_stage(s, "to");
   const auto in_force = courses_of_drives(scene)[s].in_force;
   const auto drives = drives_of(scene);
   const DriveKind kind = in_force ? drives[*in_force].drive->kind : DriveKind::none;
   const bool drives_on = kind == DriveKind::displacement || kind == DriveKind::load;
-  if (stage.to && !drives_on && diagnosis.good({to, "drive.kind", key_of(s, "drive")})) {
+  if (stage.to && !drives_on && diagnosis.good({to, "drive.kind", key_of_stage(s, "drive")})) {
     diagnosis.error(to, fmt::format("found {}, and no drive", *stage.to),
                     "what moves or grows is a [drive] of kind displacement or load");
     return;
@@ -301,8 +214,8 @@ void check_way(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis) 
   const bool begins = in_force && drives[*in_force].stage == s && *in_force > 0;
   const bool displaced = (stage.to || begins) && kind == DriveKind::displacement;
   const bool has_steps = stage.steps || scene.programme.steps.value_or(0) > 0;
-  if (!displaced && !has_steps && diagnosis.good({key_of(s, "steps")})) {
-    diagnosis.error(key_of(s, "steps"), "is missing",
+  if (!displaced && !has_steps && diagnosis.good({key_of_stage(s, "steps")})) {
+    diagnosis.error(key_of_stage(s, "steps"), "is missing",
                     "a stage needs the number of its steps, >= 1, unless a displacement goes on");
   }
   if (!diagnosis.errors().empty()) return;
@@ -317,11 +230,12 @@ void check_way(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis) 
 
 void check_stage(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis) {
   const Stage& stage = scene.stage[s];
-  if (stage.name.empty() && diagnosis.good({key_of(s, "name")})) {
-    diagnosis.error(key_of(s, "name"), "found an empty one", "stages are known by their names");
+  if (stage.name.empty() && diagnosis.good({key_of_stage(s, "name")})) {
+    diagnosis.error(key_of_stage(s, "name"), "found an empty one",
+                    "stages are known by their names");
   }
   if (!stage.water_table.empty() && scene.water.table.empty()) {
-    diagnosis.error(key_of(s, "water_table"), "found without water.table",
+    diagnosis.error(key_of_stage(s, "water_table"), "found without water.table",
                     "a table moves that is there from the first: give water.table, below the body "
                     "if it is dry");
   }
@@ -365,17 +279,21 @@ void check_reduction(const Scene& scene, tables::Diagnosis& diagnosis) {
 void check_stages(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (scene.stage.empty()) return;
   const HourglassControl control = scene.hourglass.control;
-  if (puts_down(scene) && diagnosis.good({"hourglass.control"}) &&
+  if (has_new_ground(scene) && diagnosis.good({"hourglass.control"}) &&
       (control == HourglassControl::stiffness || control == HourglassControl::viscosity ||
        control == HourglassControl::none)) {
-    diagnosis.error("hourglass.control",
-                    fmt::format("found {}, and stages that put regions down", name_of(control)),
-                    "allowed are auto, incremental and mixed, which forget where the ground was");
+    diagnosis.error(
+        "hourglass.control",
+        fmt::format("found {}, and stages that put regions down or change what they are "
+                    "made of",
+                    name_of(control)),
+        "allowed are auto, incremental and mixed, which forget where the ground was");
   }
   check_names(scene.stage, "stage", diagnosis);
   // The scene of a stage takes them as they are.
   const std::size_t complaints = diagnosis.errors().size();
-  for (std::size_t s = 0; s < scene.stage.size(); ++s) check_values(scene, s, diagnosis);
+  for (std::size_t s = 0; s < scene.stage.size(); ++s)
+    check_materials_of_stage(scene, s, diagnosis);
   if (diagnosis.errors().size() > complaints) return;
   if (scene.drive.kind == DriveKind::strength && diagnosis.good({"drive.kind"})) {
     diagnosis.error("drive.kind", "found strength with stages",
@@ -391,7 +309,7 @@ void check_stages(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_plate_stays(scene, diagnosis);
   check_supports(scene, diagnosis);
   for (std::size_t s = 0; s < scene.stage.size(); ++s) check_stage(scene, s, diagnosis);
-  const std::string fades = key_of(scene.stage.size() - 1, "fades");
+  const std::string fades = key_of_stage(scene.stage.size() - 1, "fades");
   if (scene.stage.back().fades < 1.0 && diagnosis.good({fades})) {
     diagnosis.warning(fades, fmt::format("found {} in the last stage", scene.stage.back().fades),
                       "the rest of what changes leave unbalanced never fades: the run ends out of "

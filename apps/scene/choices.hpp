@@ -17,7 +17,7 @@ enum class Axis { x, y, z };
 /// z+. Up is y, in 3D as well.
 enum class Side { left, right, bottom, top, front, back };
 enum class SupportMethod { automatic, direct, penalty, ghosts, contact };
-enum class DriveMethod { automatic, direct, ghosts, contact };
+enum class DriveMethod { automatic, direct, ghosts, contact, tied };
 /// How rows see across the interface of two materials: as one body, or each its own.
 enum class InterfaceKind { through, tied, contact };
 /// What happens at the surface that something cut out leaves.

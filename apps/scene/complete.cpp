@@ -340,8 +340,7 @@ void complete_drive(Scene& scene, const shape::Outline& outline, tables::Diagnos
   drive.lateral = footing.base == Base::rough ? Lateral::fixed : Lateral::free;
   const bool later = comes_later(scene, drive);  // which images cannot
   if ((!footing.tension || later) && drive.method == DriveMethod::automatic) {
-    drive.method = DriveMethod::contact;
-    drive.contact.tension = footing.tension;
+    choose_plate(footing, drive);
   }
   if (drive.level && drive.kind == DriveKind::displacement &&
       resolve_drive_method(scene, drive) == DriveMethod::direct) {

@@ -111,8 +111,7 @@ void complete_drive_of_solid(Scene& scene, const ElementBody& body, tables::Diag
   if (!drive.width) drive.width = base->area;
   drive.lateral = side.base == Base::rough ? Lateral::fixed : Lateral::free;
   if (drive.method == DriveMethod::automatic) {
-    drive.method = DriveMethod::contact;
-    drive.contact.tension = side.tension;
+    choose_plate(side, drive);
   }
 }
 

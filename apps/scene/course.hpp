@@ -22,6 +22,24 @@ struct Stage;
 /// Whether some stage does.
 [[nodiscard]] bool changes_ground(const Scene& scene);
 
+/// Whether stages put regions down, or change what they are made of: ground that must not remember
+/// where that of before was.
+[[nodiscard]] bool has_new_ground(const Scene& scene);
+
+/// Whether a region is there, or a support holds, once so many stages have begun: what they put
+/// down or hold before it was taken away or released is not there at first.
+[[nodiscard]] bool region_is_there(const Scene& whole, std::size_t stages,
+                                   const std::string& region);
+[[nodiscard]] bool support_is_there(const Scene& whole, std::size_t stages,
+                                    const std::string& support);
+
+/// Whether a support holds in a stage, by its name; without stages it does.
+[[nodiscard]] bool holds_in_stage(const Scene& whole, std::size_t stage,
+                                  const std::string& support);
+
+/// Whether stages let a support begin, the first time or once more.
+[[nodiscard]] bool begins_later(const Scene& whole, const std::string& support);
+
 /// Whether strength is divided by more and more, in some stage at least.
 [[nodiscard]] bool reduces_strength(const Scene& scene);
 

@@ -82,10 +82,6 @@ bool ends_in_collapse(const Scene& scene) {
          });
 }
 
-bool puts_down(const Scene& scene) {
-  return std::ranges::any_of(scene.stage, [](const Stage& stage) { return !stage.place.empty(); });
-}
-
 }  // namespace
 
 HourglassControl resolve_control(const Scene& scene) {
@@ -95,7 +91,7 @@ HourglassControl resolve_control(const Scene& scene) {
   };
   if (!std::any_of(scene.material.begin(), scene.material.end(), yields)) {
     // What is put down on ground that has moved must not remember where that was.
-    return puts_down(scene) ? HourglassControl::incremental : HourglassControl::stiffness;
+    return has_new_ground(scene) ? HourglassControl::incremental : HourglassControl::stiffness;
   }
   // Loads that grow end in a mechanism of narrow bands, which sub-points bear too well.
   if (ends_in_collapse(scene)) return HourglassControl::incremental;
@@ -115,7 +111,7 @@ double resolve_stiffness_ratio(const Scene& scene) {
       return 0.1;
     case HourglassControl::incremental:
       // No plate keeps what collapses from going on, borne by the control.
-      if (puts_down(scene) && std::ranges::none_of(scene.material, yields)) return 0.1;
+      if (has_new_ground(scene) && std::ranges::none_of(scene.material, yields)) return 0.1;
       return ends_in_collapse(scene) ? 0.001 : 0.1;
     case HourglassControl::mixed:
       return 0.01;
@@ -132,13 +128,31 @@ bool may_have_images(const Scene& scene) {
          resolve_control(scene) != HourglassControl::viscosity;
 }
 
+// Whether a support holds while a drive acts.
+bool acts_beside(const Scene& scene, const Drive& drive, const std::string& support) {
+  const auto drives = drives_of(scene);
+  const auto is_it = [&](const NamedDrive& named) { return named.drive == &drive; };
+  const auto d = static_cast<std::size_t>(std::ranges::find_if(drives, is_it) - drives.begin());
+  if (d == drives.size()) return true;
+  const auto courses = courses_of_drives(scene);
+  for (std::size_t s = 0; s < courses.size(); ++s) {
+    if (courses[s].acts[d] && holds_in_stage(scene, s, support)) return true;
+  }
+  return courses.empty();
+}
+
 bool moves(const Drive& drive, Side side) {
   return (drive.kind == DriveKind::displacement || loads_plate(drive)) && drive.side == side &&
          !drive.level;
 }
 
 bool holds_by_images(const Scene& scene) {
-  return drive_by_images(scene) || std::ranges::any_of(scene.support, [&](const Support& support) {
+  const auto moves_by_images = [&](const Drive* drive) {
+    return drive->kind == DriveKind::displacement &&
+           resolve_drive_method(scene, *drive) == DriveMethod::ghosts;
+  };
+  return std::ranges::any_of(all_drives(scene), moves_by_images) ||
+         std::ranges::any_of(scene.support, [&](const Support& support) {
            return resolve_method(scene, support) == SupportMethod::ghosts;
          });
 }
@@ -147,6 +161,8 @@ bool holds_by_images(const Scene& scene) {
 
 SupportMethod resolve_method(const Scene& scene, const Support& support) {
   if (support.method != SupportMethod::automatic) return support.method;
+  // Images would be where they were before anything moved; particles are held where they are.
+  if (begins_later(scene, support.name)) return SupportMethod::direct;
   const bool free_side =
       support.side && may_have_images(scene) && !is_mirror(scene, *support.side) &&
       std::ranges::none_of(all_drives(scene),
@@ -158,8 +174,16 @@ SupportMethod resolve_method(const Scene& scene, const Support& support) {
         other.method == SupportMethod::automatic || other.method == SupportMethod::ghosts;
     return images && other.side == support.side && std::ranges::count(other.directions, across) > 0;
   };
-  return std::ranges::any_of(scene.support, holds_across) ? SupportMethod::ghosts
-                                                          : SupportMethod::direct;
+  // In all the stages in which it holds.
+  for (std::size_t s = 0; s < stage_count(scene); ++s) {
+    const auto holds_then = [&](const Support& other) {
+      return holds_across(other) && holds_in_stage(scene, s, other.name);
+    };
+    if (holds_in_stage(scene, s, support.name) && std::ranges::none_of(scene.support, holds_then)) {
+      return SupportMethod::direct;
+    }
+  }
+  return SupportMethod::ghosts;
 }
 
 DriveMethod resolve_drive_method(const Scene& scene) {
@@ -178,10 +202,14 @@ std::optional<ActingDrive> drive_by_images(const Scene& scene) {
 
 DriveMethod resolve_drive_method(const Scene& scene, const Drive& drive) {
   if (drive.method != DriveMethod::automatic) return drive.method;
+  // As a support's.
+  if (drive.later || comes_later(scene, drive)) return DriveMethod::direct;
   const auto across = static_cast<std::size_t>(axis_of(drive.side));
   const bool held_across = drive.lateral == Lateral::fixed ||
                            (across < drive.direction.size() && drive.direction[across] != 0.0);
-  const auto is_there = [&](const Support& support) { return support.side == drive.side; };
+  const auto is_there = [&](const Support& support) {
+    return support.side == drive.side && acts_beside(scene, drive, support.name);
+  };
   const bool alone = drive.level || (std::ranges::none_of(scene.support, is_there) &&
                                      !is_mirror(scene, drive.side));
   return held_across && alone && may_have_images(scene) ? DriveMethod::ghosts : DriveMethod::direct;

@@ -56,7 +56,8 @@ struct Support;
 
 /// How a support holds: its method, where `automatic` means ghosts if images can hold its side, and
 /// direct otherwise: the layout is `vertex`, it is no side, a mirror, a side that the drive moves
-/// or one that is not held across, or the paper's viscosity is the control.
+/// or one that is not held across, or the paper's viscosity is the control. In stages one answer
+/// for all of them, direct also where the support begins later.
 [[nodiscard]] SupportMethod resolve_method(const Scene& scene, const Support& support);
 
 /// How a displacement is imposed: likewise.

@@ -102,6 +102,16 @@ class Walk {
 
 }  // namespace
 
+bool is_rigid_body(const Drive& drive) {
+  return drive.method == DriveMethod::contact || drive.method == DriveMethod::tied;
+}
+
+void choose_plate(const OutlineSide& footing, Drive& drive) {
+  const bool ties = footing.base == Base::rough && footing.tension;
+  drive.method = ties ? DriveMethod::tied : DriveMethod::contact;
+  drive.contact.tension = footing.tension;
+}
+
 std::string name_of_drive(const Drive& drive) {
   return own_name(drive, "drive");
 }

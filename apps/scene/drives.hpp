@@ -10,6 +10,7 @@
 namespace scene {
 
 struct Drive;
+struct OutlineSide;
 struct Scene;
 struct Stage;
 
@@ -20,6 +21,13 @@ struct NamedDrive {
   std::string key;      // `drive`, `stage.2.drive`
   std::size_t stage{};  // whose it is; 0 for [drive]
 };
+
+/// Whether a drive's plate is a body of its own on the side, by contact or tied to it.
+[[nodiscard]] bool is_rigid_body(const Drive& drive);
+
+/// Makes the plate of a footing a body of its own: tied where it is rough and holds on, else one
+/// that touches.
+void choose_plate(const OutlineSide& footing, Drive& drive);
 
 /// What a drive of a stage's scene, or the only one, is called.
 [[nodiscard]] std::string name_of_drive(const Drive& drive);

@@ -32,8 +32,8 @@ inline constexpr std::array<std::string_view, 5> sought{"footing", "traction", "
                                                         "strength", "earthquake"};
 inline constexpr std::array<std::string_view, 3> initial_stress{"none", "geostatic", "gravity"};
 inline constexpr std::array<std::string_view, 4> drive{"none", "displacement", "load", "strength"};
-inline constexpr std::array<std::string_view, 4> drive_method{"auto", "direct", "ghosts",
-                                                              "contact"};
+inline constexpr std::array<std::string_view, 5> drive_method{"auto", "direct", "ghosts", "contact",
+                                                              "tied"};
 inline constexpr std::array<std::string_view, 3> interface { "through", "tied", "contact" };
 inline constexpr std::array<std::string_view, 2> lateral{"fixed", "free"};
 inline constexpr std::array<std::string_view, 3> load{"traction", "gravity", "plate"};

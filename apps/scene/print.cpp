@@ -36,6 +36,17 @@ std::string resolution_of(const SceneTable& table, const tables::Field<Scene>& f
       scene.support[index].method == SupportMethod::automatic) {
     return fmt::format("here {}; ", name_of(resolve_method(scene, scene.support[index])));
   }
+  if (table.name == "approximation" && field.key == "consistency" &&
+      scene.approximation.consistency == Switch::automatic && resolve_consistency(scene)) {
+    return "here on; ";
+  }
+  if (table.name == "stage" && field.key == "drive.method") {
+    const auto& drive = scene.stage[index].drive;
+    if (drive && drive->kind == DriveKind::displacement &&
+        drive->method == DriveMethod::automatic) {
+      return fmt::format("here {}; ", name_of(resolve_drive_method(scene, *drive)));
+    }
+  }
   if (table.name == "drive" && field.key == "method" &&
       scene.drive.kind == DriveKind::displacement && scene.drive.method == DriveMethod::automatic) {
     return fmt::format("here {}; ", name_of(resolve_drive_method(scene)));

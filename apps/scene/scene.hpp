@@ -282,6 +282,8 @@ struct Stage {
   Point cohesion;                       // [Pa]
   Point friction_angle;                 // [deg]
   Point dilation_angle;                 // [deg]
+  std::vector<std::string> regions;     // whose material changes, to one each:
+  std::vector<std::string> become;      // materials
   bool operator==(const Stage&) const = default;
 };
 

@@ -12,44 +12,20 @@
 namespace scene {
 namespace {
 
-using Names = std::vector<std::string>;
-
-bool names(const Names& list, const std::string& name) {
-  return std::ranges::count(list, name) > 0;
-}
-
-// Whether what stages take away and put down is there at first: what is put down before it was
-// taken away is not.
-bool is_there_at_first(const Scene& scene, const std::string& name, Names Stage::*take,
-                       Names Stage::*put) {
-  for (const Stage& stage : scene.stage) {
-    if (names(stage.*take, name)) return true;
-    if (names(stage.*put, name)) return false;
-  }
-  return true;
-}
-
-bool is_there(const Scene& scene, std::size_t stages, const std::string& name, Names Stage::*take,
-              Names Stage::*put) {
-  bool there = is_there_at_first(scene, name, take, put);
-  for (std::size_t s = 0; s < stages; ++s) {
-    if (names(scene.stage[s].*take, name)) there = false;
-    if (names(scene.stage[s].*put, name)) there = true;
-  }
-  return there;
-}
-
-bool begins_later(const Scene& scene, const std::string& support) {
-  return std::ranges::any_of(scene.stage,
-                             [&](const Stage& stage) { return names(stage.hold, support); });
-}
-
 // Sides of the outline that hold where a support does go with it.
 void free_sides_of(const Support& support, Scene& scene) {
   if (scene.region.empty() || !support.side) return;
   const OutlineFaces faces(scene, outer_pieces(scene));
   for (const std::size_t s : faces.holders_of(*support.side)) {
     scene.side[s].kind = OutlineKind::free;
+  }
+}
+
+void take_materials(const Stage& stage, Scene& scene) {
+  for (std::size_t k = 0; k < stage.regions.size(); ++k) {
+    for (Region& region : scene.region) {
+      if (region.name == stage.regions[k]) region.material = stage.become[k];
+    }
   }
 }
 
@@ -66,17 +42,13 @@ void take_values(const Stage& stage, Scene& scene) {
 // What the first so many stages have changed.
 void take_changes(const Scene& whole, std::size_t stages, Scene& scene) {
   for (Region& region : scene.region) {
-    region.present = is_there(whole, stages, region.name, &Stage::remove, &Stage::place);
+    region.present = region_is_there(whole, stages, region.name);
   }
   std::vector<Support> holding;
   for (const Support& support : whole.support) {
-    if (is_there(whole, stages, support.name, &Stage::release, &Stage::hold)) {
+    if (support_is_there(whole, stages, support.name)) {
       holding.push_back(support);
-      // Images would be where they were before anything moved; particles are held where they are.
-      SupportMethod& method = holding.back().method;
-      if (begins_later(whole, support.name) && method == SupportMethod::automatic) {
-        method = SupportMethod::direct;
-      }
+      holding.back().method = resolve_method(whole, support);
     } else {
       free_sides_of(support, scene);
     }
@@ -84,6 +56,7 @@ void take_changes(const Scene& whole, std::size_t stages, Scene& scene) {
   scene.support = std::move(holding);
   for (std::size_t s = 0; s < stages; ++s) {
     if (!whole.stage[s].water_table.empty()) scene.water.table = whole.stage[s].water_table;
+    take_materials(whole.stage[s], scene);
     take_values(whole.stage[s], scene);
   }
 }
@@ -96,11 +69,8 @@ void take_drives(const Scene& whole, const StageDrives& course, Scene& scene) {
     drive.name = drives[d].name;
     drive.number = d;
     drive.later = comes_later(whole, *drives[d].drive);
-    // Images would be where they were before anything moved; particles are moved where they are.
-    const bool moves_sides = drive.kind == DriveKind::displacement;
-    const bool has_moved = course.since[d] > 0;
-    if (moves_sides && has_moved && drive.method == DriveMethod::automatic) {
-      drive.method = DriveMethod::direct;
+    if (drive.kind == DriveKind::displacement) {
+      drive.method = resolve_drive_method(whole, *drives[d].drive);
     }
     return drive;
   };
@@ -128,6 +98,7 @@ Scene after_changes(const Scene& whole, std::size_t stages) {
   // Every stage measures the same, be a support there or not.
   scene.measure = resolve_measures(whole);
   // As the whole run has it: stages differ in what is there, not in how it is computed.
+  if (resolve_consistency(whole)) scene.approximation.consistency = Switch::on;
   scene.hourglass.control = resolve_control(whole);
   if (resolve_stiffness_ratio(whole) > 0.0) {
     scene.hourglass.stiffness_ratio = resolve_stiffness_ratio(whole);
@@ -153,10 +124,6 @@ Scene scene_of_stage(const Scene& whole, std::size_t stage) {
   scene.course.fades = now.fades;
   if (now.steps) scene.programme.steps = now.steps;
   return scene;
-}
-
-bool holds_in_stage(const Scene& whole, std::size_t stage, const std::string& support) {
-  return is_there(whole, stage + 1, support, &Stage::release, &Stage::hold);
 }
 
 std::int64_t planned_steps(const Scene& whole) {

@@ -17,10 +17,6 @@ namespace scene {
 /// The scene before its first stage, with nothing changed yet.
 [[nodiscard]] Scene scene_before_stages(const Scene& whole);
 
-/// Whether a support holds in a stage, by its name.
-[[nodiscard]] bool holds_in_stage(const Scene& whole, std::size_t stage,
-                                  const std::string& support);
-
 /// Nominal number of steps of all stages.
 [[nodiscard]] std::int64_t planned_steps(const Scene& whole);
 

@@ -57,8 +57,11 @@ tables::TableBuilder<Root, Drive>& with_motion(tables::TableBuilder<Root, Drive>
                "displacement: direct: the displacements of the particles next to the side are "
                "given. ghosts: those of the side itself are, by images behind it. contact: a rigid "
                "plate pushes the side, which slides along it by Coulomb's law and, without "
-               "tension, opens. auto: ghosts with layout cell; for a side that is moved along "
-               "itself alone, or held as well, and under viscosity, direct."})
+               "tension, opens. tied: it sticks to the plate by stiff springs, or with lateral = "
+               "\"free\" is held by them across. auto: ghosts with layout cell; for a side that is "
+               "moved along itself alone, or held as well, under viscosity, and in stages for a "
+               "drive that begins or comes back after the first, direct; for footings of "
+               "[[side]]s that have no images, tied or contact."})
       .key("target", &Drive::target,
            {.unit = "m",
             .range = tables::at_least(0.0),
@@ -69,7 +72,8 @@ tables::TableBuilder<Root, Drive>& with_motion(tables::TableBuilder<Root, Drive>
 
 /// Adds the keys of a drive, be it [drive] or that of a stage.
 template <class Root>
-tables::TableBuilder<Root, Drive>& with_drive(tables::TableBuilder<Root, Drive>& table) {
+tables::TableBuilder<Root, Drive>& with_drive(tables::TableBuilder<Root, Drive>& table,
+                                              bool of_stage = false) {
   table
       .key("name", &Drive::name,
            {.doc = "By which stages release it, or go on with it, and of its columns in the curve. "
@@ -80,6 +84,7 @@ tables::TableBuilder<Root, Drive>& with_drive(tables::TableBuilder<Root, Drive>&
                    "that grows from 1, in [drive] without stages. none: constant loads, one step; "
                    "of a stage: what was in force stays where it is, and nothing moves or grows. "
                    "[[stage]]s say how far."});
+  if (of_stage) table.without("strength");
   with_motion(table)
       .key("scales", &Drive::scales,
            {.need = tables::Need::optional,

@@ -56,7 +56,17 @@ tables::TableBuilder<Scene, Stage>& with_changes(tables::TableBuilder<Scene, Sta
            {.need = tables::Need::optional,
             .unit = "deg",
             .doc = "Of each of materials.",
-            .absent = "as it was"});
+            .absent = "as it was"})
+      .key("regions", &Stage::regions,
+           {.need = tables::Need::optional,
+            .doc = "Names of regions whose material changes, to one each of become. Their ground "
+                   "keeps its stress and strain and goes on by the new law; weight and strength "
+                   "that it gains or loses come or fade in the stage's steps.",
+            .absent = "none"})
+      .key("become", &Stage::become,
+           {.need = tables::Need::optional,
+            .doc = "Names of the materials that regions are made of from then on, one for each.",
+            .absent = "only without regions"});
 }
 
 SceneTable stage() {
@@ -91,7 +101,7 @@ SceneTable stage() {
                    "begin with a lining."});
   tables::TableBuilder<Drive, Drive> drive("");
   with_changes(table).within(
-      "drive", &Stage::drive, with_drive(drive).build(),
+      "drive", &Stage::drive, with_drive(drive, true).build(),
       "As in [drive], from this stage on. The one before stays where it is, unless it is released. "
       "A name alone goes on with the drive of that name.",
       "as in [drive]");

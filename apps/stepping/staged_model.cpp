@@ -70,11 +70,15 @@ std::optional<equilibrium::InitialBalance<Dim>> StagedModel<Dim>::rest() const {
   here.reaction.setZero(n, Dim);
   here.plane_force = rest_.plane_force;
   here.plane_force.resize(changed_->plane_drive.size(), fpm::Vector<Dim>::Zero());
+  const bool thin = changed_->layout.thin;
+  if (thin) here.side_reaction.setZero(Eigen::NoChange, n);
   const auto source = model::same_particles(*changed_, first_);
   const std::vector<char> held = held_unknowns(*changed_);
   for (Eigen::Index a = 0; a < n; ++a) {
     const fpm::Index b = source[static_cast<std::size_t>(a)];
     if (b < 0) continue;
+    if (thin && rest_.side_reaction.cols() > 0)
+      here.side_reaction.col(a) = rest_.side_reaction.col(b);
     for (int i = 0; i < Dim; ++i) {
       here.load[i * n + a] = rest_.load[i * first + b];
       if (held[static_cast<std::size_t>(i * n + a)] != 0)
@@ -98,8 +102,8 @@ void StagedModel<Dim>::go_on(model::State<Dim>& state) {
   const model::Model<Dim> before = std::move(*changed_);
   build(scene_.course.stage + 1);
   const scene::Stage& next = whole_.stage[scene_.course.stage];
-  const bool keeps_rows =
-      next.remove.empty() && next.place.empty() && next.release.empty() && next.hold.empty();
+  const bool keeps_rows = next.remove.empty() && next.place.empty() && next.release.empty() &&
+                          next.hold.empty() && next.regions.empty();
   state = model::carry_state(before, state, *changed_, keeps_rows, scene_.course.load_begin);
 }
 

@@ -167,6 +167,12 @@ class TableBuilder {
     return *this;
   }
 
+  /// Takes a name from those that the last key, a choice, may be.
+  TableBuilder& without(std::string_view refused) {
+    std::erase(table_.fields.back().choices, refused);
+    return *this;
+  }
+
   /// Says that the last key, a number, is written in this unit of the member's.
   TableBuilder& in(double unit) {
     auto& access = table_.fields.back().access;

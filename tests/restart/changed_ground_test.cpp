@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::IsEmpty;
 
-// A pit is dug, a fill put down, water drawn down, a prop released and a strength lost.
+// A pit is dug, a fill put down, water drawn down, a bench improved and a strength lost.
 const std::string changed_ground = R"(
 title = "small changed ground"
 [geometry]
@@ -31,6 +31,15 @@ friction_angle = 20.0
 dilation_angle = 5.0
 unit_weight = 18e3
 saturated_unit_weight = 20e3
+[[material]]
+name = "improved"
+model = "drucker_prager"
+youngs_modulus = 5e6
+poissons_ratio = 0.2
+cohesion = 20e3
+friction_angle = 30.0
+dilation_angle = 5.0
+unit_weight = 20e3
 [water]
 table = [[0, 0.8], [4, 0.8]]
 [[region]]
@@ -78,6 +87,11 @@ steps = 3
 [[stage]]
 name = "drain"
 water_table = [[0, 0.3], [4, 0.3]]
+steps = 3
+[[stage]]
+name = "improve"
+regions = ["bench"]
+become = ["improved"]
 steps = 3
 [[stage]]
 name = "soften"
@@ -128,7 +142,7 @@ void expect_the_same_after_kills(const std::string& scene) {
     const bool is_last = i + 2 == rows.size() || stage(i + 2) != stage(i);
     if (is_last && stage(i + 1) == stage(i)) lost.push_back(static_cast<int>(rows[i].step));
   }
-  ASSERT_EQ(lost.size(), 4U);
+  ASSERT_EQ(lost.size(), 5U);
   std::vector<std::string> arguments{"--threads", "1"};
   for (const int step : lost) {
     ASSERT_TRUE(killed_at(killed, scene, step, arguments)) << "step " << step;

@@ -71,7 +71,7 @@ TEST(ElementScene, SaysWhatItsSidesComeTo) {
   EXPECT_EQ(scene.drive.level, 1.0);
   EXPECT_THAT(scene.drive.direction, ElementsAre(0.0, -1.0, 0.0));
   EXPECT_NEAR(*scene.drive.width, 2.0, 1e-14);  // the base's area
-  EXPECT_EQ(scene.drive.method, DriveMethod::contact);
+  EXPECT_EQ(scene.drive.method, DriveMethod::tied);
   EXPECT_THAT(errors_of(scene_of(plane)), IsEmpty());
 }
 

@@ -52,7 +52,7 @@ TEST(EffectiveScene, SaysWhatIsMadeOfWhatTheSceneLeavesOpen) {
   EXPECT_THAT(lines_of({}), ContainsRegex("\nmethod = \"auto\" *# here ghosts; one of auto, "
                                           "direct, penalty, ghosts, contact\n"));
   EXPECT_THAT(lines_of({}), ContainsRegex("\nmethod = \"auto\" *# here ghosts; one of auto, "
-                                          "direct, ghosts, contact\n"));
+                                          "direct, ghosts, contact, tied\n"));
   EXPECT_THAT(lines_of({"hourglass.control=viscosity"}),
               ContainsRegex("\nmethod = \"auto\" *# here direct; "));
   EXPECT_THAT(lines_of({"hourglass.control=incremental"}),

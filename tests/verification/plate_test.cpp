@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "measure.hpp"
+#include "model/measures.hpp"
 
 namespace verification {
 namespace {
@@ -79,6 +80,61 @@ TEST(Plate, LoadedByWhatItTookToPushItGoesAsFar) {
       EXPECT_LT(std::abs(result.moment), 1e-9 * result.force);
     }
   }
+}
+
+// A block between a smooth plate and a smooth base, loaded beside its middle: bending with the
+// plane modulus E' = E / (1 - nu^2) over its height H, and the springs of the faces, of 100 E per
+// spacing.
+TEST(Plate, TurnsAsTheBlockBelowItBends) {
+  constexpr double E = 1e6, nu = 0.3, height = 1.0, width = 1.0, force = 1e3, beside = 0.1;
+  std::vector<double> errors;
+  for (const double spacing : {0.125, 0.0625}) {
+    verification::Run<2> run(scene_of(fmt::format(R"(
+[geometry]
+min = [-0.5, 0.0]
+max = [0.5, {}]
+spacing = {}
+[approximation]
+kinematics = "small_strain"
+[[material]]
+name = "m"
+model = "elastic"
+youngs_modulus = {}
+poissons_ratio = {}
+[[support]]
+name = "base"
+side = "bottom"
+directions = ["y"]
+[[support]]
+name = "pin"
+at = [0.0, 0.0]
+directions = ["x"]
+[drive]
+kind = "load"
+scales = ["plate"]
+side = "top"
+method = "contact"
+at = [{}]
+force = [0.0, {}]
+[programme]
+steps = 1
+[solver]
+tolerance = 1e-6
+max_evaluations_per_step = 20000
+)",
+                                                  height, spacing, E, nu, beside, -force)));
+    run.complete();
+    const model::Measures<2> measures(run.scene, run.model);
+    ASSERT_EQ(measures.columns().front(), "plate_rotation_rad");
+    const double inertia = width * width * width / 12.0;
+    const double rotation =
+        -force * beside / inertia * (height * (1.0 - nu * nu) / E + spacing / (100.0 * E));
+    errors.push_back(measures.of(run.state).front() / rotation - 1.0);
+    report(fmt::format("rotation_error_at_{}", spacing), errors.back());
+  }
+  constexpr double second_order_or_nearly = 0.35, coarse = 0.1;
+  EXPECT_LT(std::abs(errors[0]), coarse);
+  EXPECT_LT(std::abs(errors[1]), second_order_or_nearly * std::abs(errors[0]));
 }
 
 const std::string clay = "model = \"von_mises\"\ncohesion = 1e3\n";
