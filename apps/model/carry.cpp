@@ -91,16 +91,60 @@ void settle_new_particles(const Model<Dim>& before, const State<Dim>& state,
   }
 }
 
-// A row that sees new particles has no memory of a shape that they were no part of.
+// Which particles are of another material than they were. Materials of the scene are the same in
+// all stages, and in the same order.
 template <int Dim>
-void forget_shapes(const std::vector<fpm::Index>& source, State<Dim>& carried) {
-  const auto is_new = [&](fpm::Index a) {
-    return a < static_cast<fpm::Index>(source.size()) && source[static_cast<std::size_t>(a)] < 0;
-  };
-  for (fpm::Index a = 0; a < static_cast<fpm::Index>(source.size()); ++a) {
-    const bool sees_new = is_new(a) || std::ranges::any_of(carried.rows.neighbours(a), is_new);
-    if (sees_new && carried.released.size() > 0) carried.released[a] = 1.0;
+std::vector<char> exchanged_particles(const Model<Dim>& before, const Model<Dim>& after,
+                                      const std::vector<fpm::Index>& source) {
+  std::vector<char> exchanged(source.size(), 0);
+  for (std::size_t a = 0; a < source.size(); ++a) {
+    const fpm::Index b = source[a];
+    if (b >= 0) exchanged[a] = before.material[static_cast<std::size_t>(b)] != after.material[a];
   }
+  return exchanged;
+}
+
+// What the former material has suffered is no hardening of the new one.
+template <int Dim>
+void forget_plastic_strains(const std::vector<char>& exchanged, State<Dim>& carried) {
+  for (Eigen::VectorXd* strain : {&carried.plastic_strain, &carried.plastic_volume_strain,
+                                  &carried.plastic_strain_at_search, &carried.plastic_increment}) {
+    for (Eigen::Index a = 0; a < strain->size(); ++a) {
+      if (exchanged[static_cast<std::size_t>(a)] != 0) (*strain)[a] = 0.0;
+    }
+  }
+}
+
+// A row that sees new particles, or others of another material than they were, has no memory of a
+// shape that they, as they are, were no part of.
+template <int Dim>
+void forget_shapes(const Model<Dim>& after, const std::vector<fpm::Index>& source,
+                   const std::vector<char>& exchanged, State<Dim>& carried) {
+  if (carried.released.size() == 0) return;
+  const auto n = static_cast<fpm::Index>(source.size());
+  const auto is_new = [&](fpm::Index b) {
+    const auto a = static_cast<std::size_t>(b < n ? b : after.ghosts.source(b - n));
+    return source[a] < 0 || exchanged[a] != 0;
+  };
+  for (fpm::Index a = 0; a < n; ++a) {
+    if (is_new(a) || std::ranges::any_of(carried.rows.neighbours(a), is_new)) {
+      carried.released[a] = 1.0;
+    }
+  }
+}
+
+// The slip with which springs that have become stiffer or softer bear what they did.
+template <int Dim>
+fpm::Vector<Dim> slip_of_springs(const Interface<Dim>& was, Eigen::Index at,
+                                 const Interface<Dim>& is, Eigen::Index c,
+                                 const fpm::Vector<Dim>& slip, const fpm::Vector<Dim>& traction,
+                                 const fpm::Vector<Dim>& gap) {
+  const double ratio = was.stiffness[at] / is.stiffness[c];
+  const bool closed = is.law.tied || is.law.tension ||
+                      traction.dot(is.faces.points.normal.row(c).transpose()) < 0.0;
+  // A plate's own motion is no part of this gap; what is open has no springs.
+  if (ratio == 1.0 || is.plate || !closed) return slip;
+  return gap - ratio * (gap - slip);
 }
 
 template <int Dim>
@@ -109,14 +153,18 @@ void carry_faces(const Model<Dim>& before, const State<Dim>& state, const Model<
   const auto known = faces_of(before);
   for_each_point(after, [&](const Interface<Dim>& interface, Eigen::Index c, Eigen::Index k) {
     const auto found = known.find(key_of(interface, c));
-    if (found != known.end()) {
-      carried.interface_slip.col(k) = state.interface_slip.col(found->second.second[1]);
-      carried.interface_traction.col(k) = state.interface_traction.col(found->second.second[1]);
+    const fpm::Vector<Dim> motion = interface.held + load * interface.drive;
+    const fpm::Vector<Dim> gap =
+        interface.faces.gap(static_cast<fpm::Index>(c), carried.displacement, motion);
+    if (found == known.end()) {
+      carried.interface_slip.col(k) = gap;
       return;
     }
-    const fpm::Vector<Dim> motion = interface.held + load * interface.drive;
+    const auto& [was, at] = found->second;
+    carried.interface_traction.col(k) = state.interface_traction.col(at[1]);
     carried.interface_slip.col(k) =
-        interface.faces.gap(static_cast<fpm::Index>(c), carried.displacement, motion);
+        slip_of_springs<Dim>(*was, at[0], interface, c, state.interface_slip.col(at[1]),
+                             state.interface_traction.col(at[1]), gap);
   });
 }
 
@@ -223,6 +271,26 @@ void carry_initial_tractions(const Model<Dim>& before, Model<Dim>& after) {
 }
 
 template <int Dim>
+void keep_consolidation(const Model<Dim>& first, Model<Dim>& after) {
+  const std::vector<fpm::Index> source = same_particles(after, first);
+  std::map<LawIndex, LawIndex> known;
+  for (std::size_t a = 0; a < source.size(); ++a) {
+    if (source[a] < 0) continue;
+    const auto b = static_cast<std::size_t>(source[a]);
+    const LawIndex of_first = first.law[b];
+    const bool is_clay =
+        std::holds_alternative<constitutive::ModifiedCamClay>(first.laws[of_first]);
+    if (!is_clay || first.material[b] != after.material[a]) continue;
+    const auto [at, is_new] = known.try_emplace(of_first, static_cast<LawIndex>(after.laws.size()));
+    if (is_new) {
+      after.laws.push_back(first.laws[of_first]);
+      after.youngs_modulus.push_back(first.youngs_modulus[of_first]);
+    }
+    after.law[a] = at->second;
+  }
+}
+
+template <int Dim>
 State<Dim> carry_state(const Model<Dim>& before, State<Dim>& state, const Model<Dim>& after,
                        bool keeps_rows, double load) {
   State<Dim> carried;
@@ -234,10 +302,10 @@ State<Dim> carry_state(const Model<Dim>& before, State<Dim>& state, const Model<
   carried.rows =
       keeps_rows ? state.rows : fpm::Rows<Dim>(after.particles, after.ghosts, after.row_options);
   settle_new_particles(before, state, after, source, carried);
-  if (!keeps_rows) {
-    search_again(state, source, after, load, carried);
-    forget_shapes(source, carried);
-  }
+  if (!keeps_rows) search_again(state, source, after, load, carried);
+  const std::vector<char> exchanged = exchanged_particles(before, after, source);
+  if (!keeps_rows) forget_shapes(after, source, exchanged, carried);
+  forget_plastic_strains(exchanged, carried);
   carry_faces(before, state, after, load, carried);
   carry_penalties(before, state, after, carried);
   carry_plates(before, state, after, carried);
@@ -248,6 +316,8 @@ template std::vector<fpm::Index> same_particles<2>(const Model<2>&, const Model<
 template std::vector<fpm::Index> same_particles<3>(const Model<3>&, const Model<3>&);
 template void carry_initial_tractions<2>(const Model<2>&, Model<2>&);
 template void carry_initial_tractions<3>(const Model<3>&, Model<3>&);
+template void keep_consolidation<2>(const Model<2>&, Model<2>&);
+template void keep_consolidation<3>(const Model<3>&, Model<3>&);
 template State<2> carry_state<2>(const Model<2>&, State<2>&, const Model<2>&, bool, double);
 template State<3> carry_state<3>(const Model<3>&, State<3>&, const Model<3>&, bool, double);
 

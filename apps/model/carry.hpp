@@ -16,6 +16,11 @@ std::vector<fpm::Index> same_particles(const Model<Dim>& of, const Model<Dim>& i
 template <int Dim>
 void carry_initial_tractions(const Model<Dim>& before, Model<Dim>& after);
 
+/// Gives Cam clay that was there at first the preconsolidation it had: whatever lies on it or
+/// stands in it now, that is history.
+template <int Dim>
+void keep_consolidation(const Model<Dim>& first, Model<Dim>& after);
+
 /// The state of a run that goes on with another body, or other values or supports: of particles
 /// that stay all that they had; of new ones no stress, and the displacement of the ground they are
 /// put on, with which they and those around remember no shape. Faces that stay keep slip and

@@ -15,8 +15,8 @@ namespace {
 
 bool sticks(const Drive& drive) {
   const Contact& contact = drive.contact;
-  return drive.method == DriveMethod::tied || contact.friction_angle > 0.0 ||
-         contact.adhesion > 0.0;
+  if (drive.method == DriveMethod::tied) return drive.lateral == Lateral::fixed;
+  return contact.friction_angle > 0.0 || contact.adhesion > 0.0;
 }
 
 // Axes along a side, in their order.

@@ -47,12 +47,24 @@ std::vector<PlanePoint> corners_of_boxes(const Scene& scene, std::size_t index) 
   return corners;
 }
 
+// Whether a region is of a material at first, or becomes so in a stage.
+bool is_ever_of(const Scene& scene, const Region& region, const std::string& material) {
+  if (region.material == material) return true;
+  return std::ranges::any_of(scene.stage, [&](const Stage& stage) {
+    for (std::size_t k = 0; k < std::min(stage.regions.size(), stage.become.size()); ++k) {
+      if (stage.regions[k] == region.name && stage.become[k] == material) return true;
+    }
+    return false;
+  });
+}
+
 // Corners of a solid's elements that are of a material.
 std::vector<PlanePoint> corners_of_elements(const Scene& scene, std::size_t index) {
   std::vector<PlanePoint> corners;
   const ElementBody body = elements_of(scene);
   for (const shape::MeshPart& part : body.joined.parts) {
-    if (material_of(scene, static_cast<std::size_t>(part.region)) != index) continue;
+    const Region& region = scene.region[static_cast<std::size_t>(part.region)];
+    if (!is_ever_of(scene, region, scene.material[index].name)) continue;
     for (const int node : body.mesh.elements[static_cast<std::size_t>(part.element)].nodes) {
       corners.emplace_back(body.mesh.at(node).x(), body.mesh.at(node).y());
     }
@@ -66,7 +78,7 @@ std::vector<PlanePoint> corners_of(const Scene& scene, std::size_t index) {
   if (is_solid(scene)) return corners_of_elements(scene, index);
   std::vector<PlanePoint> corners;
   for (const Region& region : scene.region) {
-    if (region.material != scene.material[index].name) continue;
+    if (!is_ever_of(scene, region, scene.material[index].name)) continue;
     corners.insert(corners.end(), region.outline.begin(), region.outline.end());
   }
   return corners;

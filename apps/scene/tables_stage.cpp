@@ -60,8 +60,9 @@ tables::TableBuilder<Scene, Stage>& with_changes(tables::TableBuilder<Scene, Sta
       .key("regions", &Stage::regions,
            {.need = tables::Need::optional,
             .doc = "Names of regions whose material changes, to one each of become. Their ground "
-                   "keeps its stress and strain and goes on by the new law; weight and strength "
-                   "that it gains or loses come or fade in the stage's steps.",
+                   "keeps its stress, without what the former had hardened, and goes on by the new "
+                   "law; weight and strength that it gains or loses come or fade in the stage's "
+                   "steps.",
             .absent = "none"})
       .key("become", &Stage::become,
            {.need = tables::Need::optional,

@@ -45,6 +45,7 @@ void StagedModel<Dim>::build(std::size_t stage) {
   if (!scene::changes_ground(whole_)) return;
   changed_ = model::build_model<Dim>(scene_);
   model::carry_initial_tractions(first_, *changed_);
+  model::keep_consolidation(first_, *changed_);
 }
 
 template <int Dim>

@@ -42,10 +42,12 @@ jfnk::Options solver_options(const scene::Scene& scene, double rounding) {
   if (settings.jacobian == scene::JacobianKind::finite_difference) {
     options.jacobian.source = jfnk::Jacobian::Source::finite_difference;
   }
-  // Rounded pairs cost no evaluations before a tolerance like this, and half the memory.
+  // Rounded columns take half the memory, and cost hardly an evaluation before such a tolerance;
+  // forcing terms of these presets are coarser by far. The paper's algorithm is left as it is.
   constexpr double finest_for_single_precision = 1e-6;
-  options.multisecant.single_precision = settings.tolerance >= finest_for_single_precision;
-  options.krylov.single_precision = options.multisecant.single_precision;
+  const bool rounds = settings.tolerance >= finest_for_single_precision &&
+                      scene.solver.preset != scene::SolverPreset::appendix_a;
+  options.multisecant.single_precision = options.krylov.single_precision = rounds;
   options.jacobian.length_scale = scene.geometry.spacing;
   options.max_evaluations = scene.solver.max_evaluations_per_step;
   return options;

@@ -46,6 +46,20 @@ void ColumnStore::copy_to(std::size_t slot, Vector& v, const InnerProductRef& pr
   is_single_ ? take(singles_[slot]) : take(doubles_[slot]);
 }
 
+void ColumnStore::rotate(std::size_t i, double c, double s, const InnerProductRef& product) {
+  const auto turn = [&](auto& a, auto& b) {
+    using Scalar = typename std::remove_reference_t<decltype(a)>::Scalar;
+    product.pass(a.size(), 4, [&](Rows rows) {
+      for (Eigen::Index k = rows.begin; k < rows.begin + rows.count; ++k) {
+        const auto upper = static_cast<double>(a[k]), lower = static_cast<double>(b[k]);
+        a[k] = static_cast<Scalar>(c * upper + s * lower);
+        b[k] = static_cast<Scalar>(c * lower - s * upper);
+      }
+    });
+  };
+  is_single_ ? turn(singles_[i], singles_[i + 1]) : turn(doubles_[i], doubles_[i + 1]);
+}
+
 std::size_t ColumnStore::bytes() const {
   return bytes_of(doubles_) + bytes_of(singles_);
 }

@@ -18,6 +18,9 @@ constexpr double reorthogonalise_below = 0.7;
 // After the second sweep what remains of a vector inside the space is a few rounding units of it.
 constexpr double breakdown_ratio = 100.0 * rounding_unit;
 
+// The same where the columns before it are rounded to single precision.
+constexpr double single_breakdown_ratio = 10.0 * std::numeric_limits<float>::epsilon();
+
 // A cycle that keeps more than this of the residual is taken for stagnation.
 constexpr double stagnation_ratio = 0.999;
 
@@ -156,7 +159,8 @@ Gmres::Cycle Gmres::run_cycle(const OperatorRef& A, const PreconditionerRef& P,
       return cycle;
     }
     basis_.assign(column + 1, 1.0, next_, product);
-    const bool exhausted = after <= breakdown_ratio * before;
+    const bool exhausted =
+        after <= (basis_.is_single() ? single_breakdown_ratio : breakdown_ratio) * before;
     rotate_column(k, exhausted ? 0.0 : after);
     cycle.columns = k + 1;
     residual_norm_ = std::abs(rhs_[k + 1]);
@@ -283,10 +287,7 @@ void Gmres::add_combination(int columns, const Eigen::VectorXd& coefficients,
 void Gmres::rotate_basis(int j) {
   const auto at = static_cast<std::size_t>(j);
   basis_.copy_to(at + 1, next_);
-  Vector q;
-  basis_.copy_to(at, q);
-  basis_.assign(at + 1, 1.0, cosines_[j] * next_ - sines_[j] * q);
-  basis_.assign(at, 1.0, cosines_[j] * q + sines_[j] * next_);
+  basis_.rotate(at, cosines_[j], sines_[j]);
 }
 
 // z_j such that A z_j is column j, from v_j in work_.

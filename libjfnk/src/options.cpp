@@ -215,7 +215,6 @@ Options plasticity() {
   options.multisecant.patience = 10;
   options.multisecant.progress = 1.0;
   options.multisecant.scale_mixing = false;
-  options.multisecant.max_condition = 1e6;
   options.multisecant.broyden = false;
   options.multisecant.renew = false;
   options.multisecant.wild_patience = std::numeric_limits<int>::max();

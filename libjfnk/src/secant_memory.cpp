@@ -1,6 +1,5 @@
 #include "secant_memory.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "passes.hpp"
@@ -57,13 +56,18 @@ bool SecantMemory::append(const Vector& du, const ColumnList& q,
   if (size_ == capacity_ || !(length > 0.0) || !std::isfinite(length)) return false;
   r_.col(size_).head(size_ + 1) = column / length;
   if (!well_conditioned(size_ + 1, max_condition)) return false;
-  gram_.col(size_).head(size_ + 1) =
+  gram_.col(size_).head(size_ + 1).noalias() =
       r_.topLeftCorner(size_ + 1, size_ + 1).triangularView<Eigen::Upper>().transpose() *
       r_.col(size_).head(size_ + 1);
   du_.assign(slot(size_), 1.0 / length, du);
   factors_.head(size_ + 1) = r_.col(size_).head(size_ + 1);
   q.combine(product, 0.0, factors_.data(), work_);
-  y_.assign(slot(size_), 1.0, work_);
+  y_.assign(slot(size_), 1.0, work_, product);
+  if (y_.is_single()) {
+    y_.copy_to(slot(size_), work_, product);
+    columns(y_, size_ + 1).dots(product, work_, gram_.col(size_).data());
+    if (!extend_factor(size_, max_condition)) return false;
+  }
   images_are_old_ = true;
   ++size_;
   return true;
@@ -116,11 +120,12 @@ void SecantMemory::find_gamma() {
 
 void SecantMemory::project(const Vector& r, Vector& step, Vector& remainder,
                            const InnerProductRef& product) {
-  columns(y_, size_).dots(product, r, gamma_.data());
+  const ColumnList& ys = columns(y_, size_);
+  ys.dots(product, r, gamma_.data());
   find_gamma();
   factors_.head(size_) = -gamma_.head(size_);
   assign(product, remainder, r);
-  list_.combine(product, 1.0, factors_.data(), remainder);
+  ys.combine(product, 1.0, factors_.data(), remainder);
   step.resize(n_);
   columns(du_, size_).combine(product, 0.0, factors_.data(), step);
 }

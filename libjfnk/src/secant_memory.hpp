@@ -53,7 +53,8 @@ class SecantMemory {
   /// @param du  change of u
   /// @param q  the orthonormal columns of Q up to this one
   /// @param column  the next column of R, down to its diagonal at `size()`
-  /// Images are to be renewed afterwards.
+  /// Images are to be renewed afterwards. Cost: 2 n size() flops, as many again in single
+  /// precision.
   /// @return false, and no pair is taken, if there is no room or the column adds too little
   bool append(const Vector& du, const ColumnList& q,
               const Eigen::Ref<const Eigen::VectorXd>& column, double max_condition,

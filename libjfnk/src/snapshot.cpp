@@ -202,8 +202,9 @@ void Solver::load(const Snapshot& snapshot) {
   read(learnt);
   read(lines);
   const auto held = static_cast<std::int64_t>(snapshot.reals.size());
-  const bool plausible = n >= 0 && n <= held / 5 && (setup_size == 0 || setup_size == n) &&
-                         lines >= 0 && lines <= held && capacity >= 0 && (n > 0 || !learnt);
+  const bool plausible =
+      n >= 0 && n <= held / 5 && (setup_size == 0 || setup_size == n) && lines >= 0 &&
+      lines <= held && capacity >= (method == Method::newton_krylov ? 0 : 1) && (n > 0 || !learnt);
   if (!plausible) detail::Reader::fail();
   if (method != m.options.method || capacity > m.options.multisecant.memory ||
       single_precision != m.options.multisecant.single_precision) {

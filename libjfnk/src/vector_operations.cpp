@@ -1,6 +1,7 @@
 #include "jfnk/vector_operations.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,9 @@ namespace {
 
 // Kernels take so many columns at once: each block of w is then read from the cache that often.
 constexpr std::size_t columns_at_once = 4;
+
+// Sums are made for so many columns at a time, so that little memory holds those of blocks.
+constexpr std::size_t strip = 32;
 
 template <class Columns>
 void dots_of_rows(Rows rows, Columns columns, const Vector& w, std::span<double> sums) {
@@ -43,6 +47,20 @@ void combine_rows(Rows rows, double own, Columns columns, std::span<const double
   }
   for (; j < columns.size(); ++j) {
     detail::add_one(rows.count, columns[j]->data() + rows.begin, factors[j], to);
+  }
+}
+
+// Sums of one thread, without memory.
+template <class Columns>
+void dots_here(Columns columns, const Vector& w, std::span<double> sums) {
+  std::fill_n(sums.begin(), columns.size(), 0.0);
+  std::array<double, strip> part{};
+  for (std::size_t begin = 0; begin < columns.size(); begin += strip) {
+    const std::size_t count = std::min(strip, columns.size() - begin);
+    for (Eigen::Index block = 0; block < blocks_of(w.size()); ++block) {
+      dots_of_rows(rows_of(block, w.size()), columns.subspan(begin, count), w, part);
+      for (std::size_t j = 0; j < count; ++j) sums[begin + j] += part[j];
+    }
   }
 }
 
@@ -79,9 +97,8 @@ void InnerProductRef::share_out(Eigen::Index n, Eigen::Index numbers, BlockWork 
 template <class Columns>
 void InnerProductRef::dots_by_blocks(Columns columns, const Vector& w,
                                      std::span<double> sums) const {
-  // So many columns at a time, so that little memory holds the sums.
-  constexpr std::size_t strip = 32;
   const Eigen::Index n = w.size();
+  if (share_out_ == nullptr) return dots_here(columns, w, sums);
   const auto blocks = static_cast<std::size_t>(blocks_of(n));
   if (block_sums_.size() < blocks * strip) block_sums_.resize(blocks * strip);
   for (std::size_t begin = 0; begin < columns.size(); begin += strip) {
@@ -93,7 +110,7 @@ void InnerProductRef::dots_by_blocks(Columns columns, const Vector& w,
     const auto work = [&](Eigen::Index block) {
       dots_of_rows(rows_of(block, n), some, w, part(static_cast<std::size_t>(block)));
     };
-    share_out(n, static_cast<Eigen::Index>(count) * n, BlockWork(work));
+    share_out(n, static_cast<Eigen::Index>(count + 1) * n, BlockWork(work));
     const std::span<double> total = sums.subspan(begin, count);
     std::fill(total.begin(), total.end(), 0.0);
     for (std::size_t block = 0; block < blocks; ++block) {
@@ -105,7 +122,7 @@ void InnerProductRef::dots_by_blocks(Columns columns, const Vector& w,
 template <class Columns>
 void InnerProductRef::combine_by_blocks(double own, Columns columns,
                                         std::span<const double> factors, Vector& w) const {
-  pass(w.size(), static_cast<Eigen::Index>(columns.size()),
+  pass(w.size(), static_cast<Eigen::Index>(columns.size()) + 1,
        [&](Rows rows) { combine_rows(rows, own, columns, factors, w); });
 }
 

@@ -98,21 +98,24 @@ TEST(Resume, ContinuesBitForBitFromAnyStepOfEveryStage) {
   options.multisecant.patience = 3;
   options.globalisation.window = 3;
   const auto none = [] { return jfnk::Identity{}; };
-  for (const int at : {0, 1, 2, 5, 9, 17, 30, 60}) {
-    Vector whole = Vector::Ones(40);
-    const Report expected = jfnk::solve(hard, whole, options);
-    Vector broken = Vector::Ones(40);
-    const Report report = solve_with_break(hard, broken, options, none, at);
-    EXPECT_EQ(report.reason, expected.reason) << at;
-    EXPECT_EQ(report.history.size(), expected.history.size());
-    EXPECT_TRUE(same_bits(broken, whole)) << at;
+  for (const bool single_precision : {false, true}) {
+    options.multisecant.single_precision = options.krylov.single_precision = single_precision;
+    for (const int at : {0, 1, 2, 5, 9, 17, 30, 60}) {
+      Vector whole = Vector::Ones(40);
+      const Report expected = jfnk::solve(hard, whole, options);
+      Vector broken = Vector::Ones(40);
+      const Report report = solve_with_break(hard, broken, options, none, at);
+      EXPECT_EQ(report.reason, expected.reason) << at;
+      EXPECT_EQ(report.history.size(), expected.history.size());
+      EXPECT_TRUE(same_bits(broken, whole)) << at;
 
-    Vector a(4);
-    a << 3, -1, 0, 1;
-    Vector b = a;
-    const Report alone = jfnk::solve(powell, a, options);
-    EXPECT_EQ(solve_with_break(powell, b, options, none, at).reason, alone.reason);
-    EXPECT_TRUE(same_bits(a, b)) << at;
+      Vector a(4);
+      a << 3, -1, 0, 1;
+      Vector b = a;
+      const Report alone = jfnk::solve(powell, a, options);
+      EXPECT_EQ(solve_with_break(powell, b, options, none, at).reason, alone.reason);
+      EXPECT_TRUE(same_bits(a, b)) << at;
+    }
   }
 }
 

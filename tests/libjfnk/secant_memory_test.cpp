@@ -134,6 +134,39 @@ TEST(SecantMemory, RoundsPairsToSinglePrecisionAndNothingElse) {
   EXPECT_LT(rounded.bytes(), 0.6 * static_cast<double>(exact.bytes()));
 }
 
+TEST(SecantMemory, PairsWhoseFactorsAreKnownAreAsGoodAsOthers) {
+  constexpr int n = 40;
+  constexpr int count = 6;
+  Randoms random;
+  Eigen::MatrixXd columns(n, count);
+  for (int j = 0; j < count; ++j) columns.col(j) = random.vector(n) + 3.0 * Vector::Ones(n);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> factored(columns);
+  const Eigen::MatrixXd Q = factored.householderQ() * Eigen::MatrixXd::Identity(n, count);
+  const Eigen::MatrixXd R = factored.matrixQR().topRows(count).triangularView<Eigen::Upper>();
+  std::vector<Vector> qs;
+  for (int j = 0; j < count; ++j) qs.push_back(Q.col(j));
+  for (const bool single_precision : {false, true}) {
+    SecantMemory memory;
+    memory.resize(n, count, single_precision);
+    jfnk::detail::ColumnList list;
+    for (int j = 0; j < count; ++j) {
+      list.add(qs[static_cast<std::size_t>(j)]);
+      ASSERT_TRUE(
+          memory.append(random.vector(n), list, R.col(j).head(j + 1), loose_condition, euclidean));
+    }
+    const Eigen::MatrixXd Y = columns_of(memory, n);
+    EXPECT_LE((Y - columns * columns.colwise().norm().cwiseInverse().asDiagonal()).norm(),
+              single_precision ? 1e-6 : 1e-13);
+    const Vector r = random.vector(n);
+    Vector step(n);
+    Vector remainder(n);
+    memory.project(r, step, remainder, euclidean);
+    // Of the columns as they are kept, rounded or not.
+    const Vector expected = r - Y * Y.householderQr().solve(r);
+    EXPECT_LE((remainder - expected).norm(), 1e4 * rounding_unit * r.norm()) << single_precision;
+  }
+}
+
 TEST(SecantMemory, EmptyMemoryLeavesTheResidual) {
   SecantMemory memory;
   memory.resize(3, 2);

@@ -138,7 +138,7 @@ bool solve_corner_block(const MohrCoulomb& m, double sin_psi, double trial_press
 template <std::size_t M, int Dim = 2>
 struct [[nodiscard]] MixedCornerResult : MixedResult<M, Dim> {
   std::array<detail::CornerPoint, M>
-      point;         ///< At the block's mean stress; unspecified at the apex.
+      point;         ///< At the block's mean stress; unspecified at the apex and where none yields.
   double slope = 1;  ///< Of the equation for p.
 };
 

@@ -16,6 +16,8 @@ class ColumnStore {
   /// Slot = factor v, rounded to the precision it is kept in.
   void assign(std::size_t slot, double factor, const Vector& v,
               const InnerProductRef& product = {});
+  /// Turns slots i, i + 1: (a, b) becomes (c a + s b, c b - s a).
+  void rotate(std::size_t i, double c, double s, const InnerProductRef& product = {});
   /// What is in a slot. @param[out] v  resized
   void copy_to(std::size_t slot, Vector& v, const InnerProductRef& product = {}) const;
   /// The vector in a slot: itself if it is in double precision, else a copy in `scratch`.

@@ -101,8 +101,8 @@ class Gmres {
 
   /// Hands out the space of the last solve as A Z = Q R: `take(z, q, r)` is called for each column,
   /// q being the columns of Q up to this one and r that of R down to its diagonal, until it returns
-  /// false. Applies P to every
-  /// column unless that is stored. The space is used up. Only if `can_shorten()`.
+  /// false. Applies P to every column unless that is stored. The space is used up. Only if
+  /// `can_shorten()`.
   template <class Take>
   void hand_out_space(const PreconditionerRef& P, Take&& take) {
     can_shorten_ = false;

@@ -36,6 +36,13 @@ concept NamesDots = requires {
   &T::dots;
 };
 template <class T>
+concept NamesCombineOrRotate = requires {
+  &T::combine;
+}
+|| requires {
+  &T::rotate;
+};
+template <class T>
 concept NamesShareOut = requires {
   &T::share_out;
 };
@@ -101,6 +108,9 @@ constexpr void explain_members() {
                 "jfnk::Vector& and a std::span<double>");
   static_assert(!HasDots<F> || HasInnerProduct<F>,
                 "jfnk: a residual with `dots` needs the `dot` that they are many of");
+  static_assert(!NamesCombineOrRotate<F> || HasShareOut<F>,
+                "jfnk: `combine` and `rotate` of the residual are not asked for any more: threads "
+                "come by `share_out(n, numbers, work) const`");
   static_assert(!NamesShareOut<F> || HasShareOut<F>,
                 "jfnk: `share_out` of the residual must be const and take two Eigen::Index and a "
                 "jfnk::BlockWork");

@@ -130,7 +130,8 @@ class InnerProductRef {
   [[nodiscard]] double dot(const Vector& a, const Vector& b) const;
   /// sqrt(<a, a>), free of overflow and underflow for the Euclidean product.
   [[nodiscard]] double norm(const Vector& a) const;
-  /// sums[j] = <columns[j], w>. Cost: one pass over each. No allocation.
+  /// sums[j] = <columns[j], w>. Cost: one pass over each. No allocation, but with `share_out` once
+  /// for the sums of blocks.
   void dots(Vectors columns, const Vector& w, std::span<double> sums) const;
   /// w = own w + sum_j factors[j] columns[j]; w is not read if own = 0. Cost: one pass over each.
   void combine(double own, Vectors columns, std::span<const double> factors, Vector& w) const;
@@ -158,7 +159,7 @@ class InnerProductRef {
                          Vector& w) const;
 
   const void* object_ = nullptr;
-  mutable std::vector<double> block_sums_;  // grown as needed, and kept
+  mutable std::vector<double> block_sums_;  // for share_out: grown as needed, and kept
   double (*dot_)(const void*, const Vector&, const Vector&) = nullptr;
   void (*dots_)(const void*, Vectors, const Vector&, std::span<double>) = nullptr;
   void (*share_out_)(const void*, Eigen::Index, Eigen::Index, BlockWork) = nullptr;
