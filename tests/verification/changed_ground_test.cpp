@@ -6,8 +6,11 @@
 #include <map>
 #include <sstream>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "measure.hpp"
+#include "model/model.hpp"
 #include "staged_run.hpp"
 
 namespace verification {
@@ -341,6 +344,77 @@ steps = 4
   run.stages.go_on(run.state);
   ASSERT_TRUE(run.complete_stage());
   expect_stress(-p + 2.0 * 20e3);
+}
+
+// Water that falls loads the clay; it does not make it a clay that has always borne the load.
+TEST(ChangedGround, LeavesTheHistoryOfClay) {
+  StagedRun run(scene_of(R"(
+[geometry]
+dimension = 2
+min = [0.0, 0.0]
+max = [1.0, 2.0]
+spacing = 0.25
+[approximation]
+kinematics = "small_strain"
+[[material]]
+name = "clay"
+model = "modified_cam_clay"
+youngs_modulus = 10e6
+poissons_ratio = 0.3
+unit_weight = 18e3
+saturated_unit_weight = 18e3
+compression_index = 0.1
+swelling_index = 0.02
+critical_stress_ratio = 1.0
+overconsolidation_ratio = 1.5
+[water]
+table = [[0, 2], [1, 2]]
+[gravity]
+acceleration = [0.0, -9.81]
+[initial_stress]
+kind = "geostatic"
+K0 = 0.6
+surcharge = 100e3
+[[traction]]
+name = "surcharge"
+side = "top"
+value = [0.0, -100e3]
+[[support]]
+name = "base"
+side = "bottom"
+directions = ["x", "y"]
+[[support]]
+name = "left"
+side = "left"
+directions = ["x"]
+[[support]]
+name = "right"
+side = "right"
+directions = ["x"]
+[drive]
+kind = "none"
+[programme]
+steps = 1
+[[stage]]
+name = "drain"
+water_table = [[0, 1.5], [1, 1.5]]
+[[stage]]
+name = "drain on"
+water_table = [[0, 1], [1, 1]]
+)"));
+  const auto of_clay = [&] {
+    std::vector<double> all;
+    const model::Model<2>& model = run.stages.model();
+    for (const model::LawIndex law : model.law) {
+      all.push_back(std::get<constitutive::ModifiedCamClay>(model.laws[law]).preconsolidation);
+    }
+    return all;
+  };
+  const std::vector<double> first = of_clay();
+  ASSERT_EQ(first.size(), 32U);
+  ASSERT_TRUE(run.complete_stage());
+  run.stages.go_on(run.state);
+  EXPECT_EQ(of_clay(), first);
 }
 
 }  // namespace
