@@ -361,19 +361,74 @@ TEST(TensionCutOff, OfNothingIsRefusedWhereAnUprightFaceIsPushedOutwards) {
   std::string shaken = cut(0.0);
   const std::string sought = "sought = \"gravity\"\n";
   shaken.replace(shaken.find(sought), sought.size(), sought + "kh = -0.1\n");
-  EXPECT_THAT(complaint(shaken), HasSubstr("load.kh: an earthquake pushes the upright face at "
-                                           "(0, 1) outwards, where material clay"));
+  EXPECT_THAT(complaint(shaken), HasSubstr("load.kh: found -0.1, which pushes the upright face "
+                                           "at (0, 1) outwards, where material clay"));
   std::string sheared = cut(0.0);
   const std::string all = "along = [[-2, 0], [0, 0], [0, 1], [2, 1]]\n";
   sheared.replace(sheared.find(all), all.size(),
                   "along = [[-2, 0], [0, 0], [0, 1]]\n[[side]]\nname = \"top\"\nkind = \"loaded\"\n"
                   "shear = 0.1\nalong = [[0, 1], [2, 1]]\n");
-  EXPECT_THAT(complaint(sheared), HasSubstr("side.1.shear: the shear on top pushes the upright"));
+  EXPECT_THAT(complaint(sheared), HasSubstr("side.1.shear: found 0.1, which pushes the upright"));
   // Into the ground neither is an error.
   shaken.replace(shaken.find("kh = -0.1"), 9, "kh = 0.1");
   EXPECT_EQ(complaint(shaken), "");
   sheared.replace(sheared.find("shear = 0.1"), 11, "shear = -0.1");
   EXPECT_EQ(complaint(sheared), "");
+}
+
+// What grows by the other sign pushes, too, and is named with its value.
+TEST(TensionCutOff, OfNothingIsRefusedForTheShearThatPushes) {
+  std::string text = cut(0.0);
+  const std::string sought = "\"gravity\"", all = "along = [[-2, 0], [0, 0], [0, 1], [2, 1]]\n";
+  text.replace(text.find(sought), sought.size(), "\"traction\"");
+  text.replace(text.find(all), all.size(),
+               "along = [[-2, 0], [0, 0], [0, 1]]\n[[side]]\nname = \"top\"\nkind = \"loaded\"\n"
+               "shear = -0.1\nlive_shear = 0.2\nalong = [[0, 1], [2, 1]]\n");
+  EXPECT_THAT(complaint(text), HasSubstr("side.1.live_shear: found 0.2, which pushes the upright"));
+}
+
+// What pushes is the weight at the face, whatever it is where it was told.
+TEST(TensionCutOff, OfNothingIsRefusedByTheWeightAtTheFace) {
+  for (const double kh : {-0.1, 0.1}) {
+    std::string text = cut(0.0);
+    const std::string sought = "sought = \"gravity\"\n", weight = "unit_weight = 1\n";
+    text.replace(text.find(sought), sought.size(),
+                 fmt::format("sought = \"gravity\"\nkh = {}\n", kh));
+    text.replace(text.find(weight), weight.size(),
+                 "unit_weight = { at = [3, 0], value = 0, gradient = [-1, 0] }\n");
+    tables::Diagnosis diagnosis("scene");
+    std::optional<tables::Complaint> unreadable;
+    const auto scene = ground::read_ground_scene(text, {}, diagnosis, unreadable);
+    ASSERT_TRUE(scene);
+    const auto made = ground::ground_case(*scene, diagnosis);
+    if (kh < 0.0) {
+      ASSERT_FALSE(diagnosis.errors().empty());
+      EXPECT_THAT(diagnosis.errors().front().text(), HasSubstr("load.kh: found -0.1"));
+      continue;
+    }
+    // Into the ground it is no error, and there are no columns, which bear what acts straight down.
+    ASSERT_TRUE(made);
+    EXPECT_TRUE(std::ranges::none_of(made->associated.lower.soils,
+                                     [](const problem::Soil& soil) { return soil.stands; }));
+  }
+}
+
+// Told before anything is solved.
+TEST(TensionCutOff, OfNothingIsWarnedOfUnderALevelTopThatIsLoaded) {
+  std::string text = cut(0.0);
+  const std::string all = "along = [[-2, 0], [0, 0], [0, 1], [2, 1]]\n";
+  text.replace(text.find(all), all.size(),
+               "along = [[-2, 0], [0, 0], [0, 1]]\n[[side]]\nname = \"top\"\nkind = \"loaded\"\n"
+               "pressure = 0.1\nalong = [[0, 1], [2, 1]]\n");
+  tables::Diagnosis diagnosis("scene");
+  std::optional<tables::Complaint> unreadable;
+  const auto scene = ground::read_ground_scene(text, {}, diagnosis, unreadable);
+  ASSERT_TRUE(scene);
+  EXPECT_TRUE(ground::ground_case(*scene, diagnosis));
+  ASSERT_EQ(diagnosis.warnings().size(), 1U);
+  EXPECT_THAT(diagnosis.warnings().front().text(),
+              HasSubstr("side.1.pressure: found 0.1, on top of the upright face at (0, 1), where "
+                        "material clay bears no tension; a lower bound may"));
 }
 
 TEST(TensionCutOff, ThatLeavesNothingOrIsBesideTheApexIsRefusedInWords) {
