@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "limit/bracket/side.hpp"
+#include "limit/programme/lower_bound.hpp"
 #include "limit/programme/parabola_cones.hpp"
 #include "limit/programme/parabolas.hpp"
 
@@ -188,6 +189,26 @@ TEST(Parabolas, LeaveAFreeFaceItsStressWhateverIsGuessedBesideIt) {
   const bracket::Bracket heap = lower_alone(strip);
   ASSERT_TRUE(heap.lower);
   EXPECT_GT(heap.lower_bound(), unconfined);
+}
+
+// At a face the weight above and what is heaped up elsewhere are no pressure.
+TEST(Parabolas, AreGuessedAtAFaceAsItsTractionSays) {
+  problem::Problem pillar = small_ground(2, 4, true);
+  pillar.soils[0].unit_weight = 1.0;
+  pillar.boundaries[1].normal_stress = -5.0;  // held, but a guess elsewhere counts it
+  const double least = pillar.soils[0].envelope.unconfined() / 2.0;
+  const programme::ConeProgram program = programme::lower_bound_program(pillar);
+  ASSERT_EQ(program.curved.size(), 48U);
+  for (const programme::CurvedPoint& point : program.curved) {
+    // A tenth of the way from a corner to the middle of its triangle.
+    const bool is_given = point.place.x() > 1.9 || point.place.y() > 3.9;
+    const double guess = -program.start[point.variable] - least;
+    if (is_given) {
+      EXPECT_NEAR(guess, 0.0, 1e-9) << point.place.transpose();
+    } else {
+      EXPECT_NEAR(guess, 5.0 + 4.0 - std::round(point.place.y()), 1e-9) << point.place.transpose();
+    }
+  }
 }
 
 // A first programme that comes to nothing is asked once more, with the pressures of a free face.
