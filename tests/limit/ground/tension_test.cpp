@@ -188,30 +188,23 @@ TEST(TensionCutOff, OfNothingIsRefusedForTheShearThatPushes) {
   EXPECT_THAT(complaint(text), HasSubstr("side.1.live_shear: found 0.2, which pushes the upright"));
 }
 
-// What pushes is the weight at the face, whatever it is where it was told.
-TEST(TensionCutOff, OfNothingIsRefusedByTheWeightAtTheFace) {
-  for (const double kh : {-0.1, 0.1}) {
-    std::string text = cut(0.0);
-    const std::string sought = "sought = \"gravity\"\n", weight = "unit_weight = 1\n";
-    text.replace(text.find(sought), sought.size(),
-                 fmt::format("sought = \"gravity\"\nkh = {}\n", kh));
-    text.replace(text.find(weight), weight.size(),
-                 "unit_weight = { at = [3, 0], value = 0, gradient = [-1, 0] }\n");
-    tables::Diagnosis diagnosis("scene");
-    std::optional<tables::Complaint> unreadable;
-    const auto scene = ground::read_ground_scene(text, {}, diagnosis, unreadable);
-    ASSERT_TRUE(scene);
-    const auto made = ground::ground_case(*scene, diagnosis);
-    if (kh < 0.0) {
-      ASSERT_FALSE(diagnosis.errors().empty());
-      EXPECT_THAT(diagnosis.errors().front().text(), HasSubstr("load.kh: found -0.1"));
-      continue;
-    }
-    // Into the ground it is no error, and there are no columns, which bear what acts straight down.
-    ASSERT_TRUE(made);
-    EXPECT_TRUE(std::ranges::none_of(made->associated.lower.soils,
-                                     [](const problem::Soil& soil) { return soil.stands; }));
-  }
+// Water that seeps outwards by 0.15 and an earthquake that pushes inwards by a tenth of the weight:
+// 2 in the middle of the ground and 0.5 at the crest.
+TEST(TensionCutOff, OfNothingIsRefusedByThePushAtTheFaceItself) {
+  std::string text = cut(0.0);
+  const std::string sought = "sought = \"gravity\"\n", weight = "unit_weight = 1\n";
+  text.replace(text.find(sought), sought.size(),
+               sought + "kh = 0.1\n[water]\nunit_weight = 1.0\ntable = [[-2, 2], [2, 2.6]]\n");
+  const auto weighing = [&](const char* value) {
+    std::string weighed = text;
+    return weighed.replace(weighed.find(weight), weight.size(), value);
+  };
+  EXPECT_THAT(
+      complaint(weighing("unit_weight = { at = [0, 0], value = 2, gradient = [0, -1.5] }\n")),
+      HasSubstr("material.0.tension_cutoff: found 0, and water that seeps, -0.15 N/m3"));
+  EXPECT_EQ(
+      complaint(weighing("unit_weight = { at = [0, 0], value = 3.5, gradient = [0, -1.5] }\n")),
+      "");
 }
 
 // Told before anything is solved.

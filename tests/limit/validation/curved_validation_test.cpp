@@ -117,4 +117,25 @@ along = [[0, 0], [2, 0]]
   EXPECT_LE(*found.upper, 0.5 * whole * 1.02);
 }
 
+// A strength that is divided until a block just bears its load: tau over the factor, under every
+// normal stress.
+TEST(CurvedEnvelope, IsDividedUntilABlockJustStands) {
+  for (const bool is_rock : {true, false}) {
+    Envelope envelope = is_rock ? rock_envelope() : power_envelope();
+    std::string text = block(is_rock ? rock : power, 0.0);
+    constexpr double factor = 1.6;
+    envelope.factor = factor;
+    const auto replace = [&](const std::string& what, const std::string& by) {
+      text.replace(text.find(what), what.size(), by);
+    };
+    replace("\"traction\"", "\"strength\"");
+    replace("live_pressure = 1", fmt::format("pressure = {}", envelope.unconfined()));
+    const bracket::Solution found = first_mesh(text);
+    ASSERT_TRUE(found.lower && found.upper) << is_rock;
+    EXPECT_LE(*found.lower, factor * (1.0 + 1e-9));
+    EXPECT_GE(*found.upper, factor * (1.0 - 1e-9));
+    EXPECT_LT(found.gap(), 0.02);  // the default, and all that the search goes for
+  }
+}
+
 }  // namespace
