@@ -143,8 +143,8 @@ void check_push(const GroundScene& scene, const Face& face, std::size_t material
     }
   }
   for (const TopShear& shear : shears_on(scene, face)) {
-    if (shear.along_x * face.inwards < 0.0)
-      refuse(shear.key, fmt::format("found {:g}, which", shear.told));
+    if (shear.along_x * face.inwards >= 0.0) continue;
+    refuse(shear.key, fmt::format("found {:g}, which", shear.told));
   }
 }
 
@@ -172,8 +172,7 @@ void warn_of_load(const GroundScene& scene, const Face& face, std::size_t materi
                   "tension",
                   found, face.crest.x(), face.crest.y(), scene.materials[material].name),
       "a lower bound may not be found under a load there; a trace of tension, as a thousandth of "
-      "the "
-      "cohesion, has one");
+      "the cohesion, has one");
 }
 
 }  // namespace

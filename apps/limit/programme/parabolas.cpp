@@ -15,9 +15,9 @@ double straightening_shift(const problem::Envelope& envelope, double u) {
   return (high.radius() * after - low.radius() * before) / (before - after);
 }
 
-// With R0, s and P0 of the place, (R + h)^2 >= (R0 + h)^2 + 2 (R0 + h) s (P - P0) is h <= (R^2 -
-// R0^2
-// - 2 R0 s (P - P0)) / (2 (R0 + s (P - P0) - R)) in every other place; the tangent is above R.
+// With R0, s and P0 of the place, (R + h)^2 >= (R0 + h)^2 + 2 (R0 + h) s (P - P0) is
+// h <= (R^2 - R0^2 - 2 R0 s (P - P0)) / (2 (R0 + s (P - P0) - R)) in every other place, where the
+// tangent is above R.
 double shift_within(const problem::Envelope& envelope, double u) {
   const problem::Envelope::Place place = envelope.at(u);
   const double touching = place.radius(), sine = std::sin(place.friction_angle());
@@ -30,8 +30,7 @@ double shift_within(const problem::Envelope& envelope, double u) {
     least = std::min(least, more / (2.0 * below));
   };
   look(0.0, -(place.centre() + envelope.apex()));
-  // The quotient is smooth in log(u), its ends are above; a step next to its least value it is
-  // larger by less than what is taken off.
+  // The quotient is smooth in log(u): what it is less between steps is less than is taken off.
   constexpr double step = 1.15, farthest = 1e6, less = 0.99;
   for (double ratio = step; ratio < farthest; ratio *= step) {
     for (const double other : {u * ratio, u / ratio}) {
