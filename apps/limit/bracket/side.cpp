@@ -96,7 +96,7 @@ Attempt Side::ask(solver::ConeForm form, bool is_first, Bracket& bracket,
   const double began = means_.seconds();
   // At first parabolas know nothing but where to look, and roughly is enough; afterwards what one
   // mesh has shown does for the next.
-  const int rounds = is_new_ ? 2 : 1;
+  int rounds = is_new_ ? 2 : 1;
   constexpr double roughly = 1e-2;
   for (int round = 1;; ++round) {
     const programme::ConeProgram program =
@@ -131,7 +131,17 @@ Attempt Side::ask(solver::ConeForm form, bool is_first, Bracket& bracket,
     if (watch) watch(attempt);
     const bool is_solved = attempt.status == solver::SolverStatus::solved ||
                            attempt.status == solver::SolverStatus::acceptable;
-    if (program.curved.empty() || !is_solved) return attempt;
+    if (program.curved.empty()) return attempt;
+    if (!is_solved) {
+      const bool may_retry = is_new_ && !parabolas_.guesses_least() &&
+                             attempt.status != solver::SolverStatus::timed_out &&
+                             means_.seconds() - began < options.max_seconds;
+      if (!may_retry) return attempt;
+      // A guess that was too high leaves no stress in some parabola.
+      parabolas_.guess_least();
+      ++rounds;
+      continue;
+    }
     parabolas_.take(program.curved, solution.variables);
     is_new_ = false;
     if (round == rounds || means_.seconds() - began >= options.max_seconds) return attempt;

@@ -68,40 +68,111 @@ std::vector<Face> faces_of(const GroundScene& scene, const GroundOutline& outlin
   return faces;
 }
 
-// What pushes along x, of an earthquake and of water, per volume.
-double push_on(const GroundScene& scene, const problem::Soil& soil) {
-  return scene.load.kh * soil.unit_weight + soil.seepage.x();
+// The least and the largest of what pushes along x in parts of a region, of an earthquake and of
+// water, per volume: linear, as a weight is, and so largest in corners.
+struct Push {
+  double least = 0.0, largest = 0.0;
+
+  [[nodiscard]] bool is_none() const { return least == 0.0 && largest == 0.0; }
+  [[nodiscard]] bool is_outwards(const Face& face) const {
+    return face.inwards > 0.0 ? least < 0.0 : largest > 0.0;
+  }
+};
+
+Push push_on(const GroundScene& scene, const problem::Soil& soil,
+             const std::vector<GroundPart>& parts) {
+  Push push;
+  for (const GroundPart& part : parts) {
+    for (const mesh::Point& place : part.region.outline) {
+      const double at_place = scene.load.kh * soil.unit_weight_at(place) + soil.seepage.x();
+      push.least = std::min(push.least, at_place);
+      push.largest = std::max(push.largest, at_place);
+    }
+  }
+  return push;
 }
 
-// The shear on top of a face, along x.
-double shear_on(const GroundScene& scene, const Face& face) {
+// A shear on top of a face, and where it was told.
+struct TopShear {
+  std::string key;
+  double along_x = 0.0;
+  double told = 0.0;
+};
+
+// Those that act. Along the outline with the ground to the left, on top towards -x.
+std::vector<TopShear> shears_on(const GroundScene& scene, const Face& face) {
   const problem::Boundary top = boundary_of(scene, scene.sides[face.top_side]);
-  if (top.tangential != problem::Known::traction) return 0.0;
-  // Along the outline with the ground to the left, on top towards -x.
-  return -(top.shear_stress != 0.0 ? top.shear_stress : top.live_shear_stress);
+  std::vector<TopShear> shears;
+  if (top.tangential != problem::Known::traction) return shears;
+  const auto look = [&](const char* name, double shear) {
+    if (shear != 0.0) {
+      shears.push_back({fmt::format("side.{}.{}", face.top_side, name), -shear, shear});
+    }
+  };
+  look("shear", top.shear_stress);
+  look("live_shear", top.live_shear_stress);
+  return shears;
+}
+
+// The scene's own number of a material, parts of which may have others under water and by tables.
+std::size_t told_as(const GroundScene& scene, std::size_t material) {
+  std::size_t first = 0;
+  while (scene.materials[first].name != scene.materials[material].name) ++first;
+  return first;
 }
 
 // No slice along an upright face that cannot pull bears anything that pushes it outwards.
-void check_push(const GroundScene& scene, const Face& face, std::size_t material,
+void check_push(const GroundScene& scene, const Face& face, std::size_t material, const Push& push,
                 tables::Diagnosis& diagnosis) {
-  const double push = push_on(scene, scene.materials[material].soil);
-  const double shear = shear_on(scene, face);
-  const bool is_pushed = push * face.inwards < 0.0;
-  if (!is_pushed && shear * face.inwards >= 0.0) return;
-  const bool is_shaken = is_pushed && scene.load.kh * face.inwards < 0.0;
-  const std::string key = is_shaken   ? "load.kh"
-                          : is_pushed ? fmt::format("material.{}.tension_cutoff", material)
-                                      : fmt::format("side.{}.shear", face.top_side);
-  diagnosis.error(
+  const auto refuse = [&](const std::string& key, const std::string& what) {
+    diagnosis.error(
+        key,
+        fmt::format("{} pushes the upright face at ({:.6g}, {:.6g}) outwards, where material {} "
+                    "bears no tension",
+                    what, face.crest.x(), face.crest.y(), scene.materials[material].name),
+        "a slice of it falls off at once, however little pushes: allowed are a face that leans "
+        "back, a push into the ground, or a trace of tension, as a thousandth of the cohesion");
+  };
+  const problem::Soil& soil = scene.materials[material].soil;
+  if (push.is_outwards(face)) {
+    if (scene.load.kh * face.inwards < 0.0) {
+      refuse("load.kh", fmt::format("found {:g}, which", scene.load.kh));
+    } else {
+      refuse(fmt::format("material.{}.tension_cutoff", told_as(scene, material)),
+             fmt::format("found 0, and water that seeps, {:.6g} N/m3 along x,", soil.seepage.x()));
+    }
+  }
+  for (const TopShear& shear : shears_on(scene, face)) {
+    if (shear.along_x * face.inwards >= 0.0) continue;
+    refuse(shear.key, fmt::format("found {:g}, which", shear.told));
+  }
+}
+
+// Where columns meet what presses on top, few triangles may leave no stress strictly within.
+void warn_of_load(const GroundScene& scene, const Face& face, std::size_t material,
+                  tables::Diagnosis& diagnosis) {
+  const GroundSide& side = scene.sides[face.top_side];
+  const problem::Boundary top = boundary_of(scene, side);
+  std::string key = fmt::format("side.{}.", face.top_side), found;
+  if (top.normal == problem::Known::footing) {
+    key += "kind";
+    found = "found footing";
+  } else if (top.normal_stress != 0.0) {
+    key += "pressure";
+    found = fmt::format("found {:g}", side.pressure);
+  } else if (top.live_normal_stress != 0.0) {
+    key += "live_pressure";
+    found = fmt::format("found {:g}", side.live_pressure);
+  } else {
+    return;
+  }
+  diagnosis.warning(
       key,
-      fmt::format("{} pushes the upright face at ({:.6g}, {:.6g}) outwards, where material {} "
-                  "bears no tension",
-                  is_shaken   ? "an earthquake"
-                  : is_pushed ? "water that seeps"
-                              : "the shear on top",
-                  face.crest.x(), face.crest.y(), scene.materials[material].name),
-      "a slice of it falls off at once, however little pushes: allowed are a face that leans back, "
-      "a push into the ground, or a trace of tension, as a thousandth of the cohesion");
+      fmt::format("{}, on top of the upright face at ({:.6g}, {:.6g}), where material {} bears no "
+                  "tension",
+                  found, face.crest.x(), face.crest.y(), scene.materials[material].name),
+      "a lower bound may not be found under a load there; a trace of tension, as a thousandth of "
+      "the cohesion, has one");
 }
 
 }  // namespace
@@ -120,9 +191,13 @@ bool cut_columns(GroundScene& scene, const GroundOutline& outline, tables::Diagn
       auto columns = parts_within(whole, wedge, ground);
       const problem::Soil& soil = scene.materials[whole.material].soil;
       const bool bears_none = !columns.empty() && soil.tension == 0.0;
-      if (bears_none) check_push(scene, face, whole.material, diagnosis);
+      const Push push = push_on(scene, soil, columns);
+      if (bears_none) {
+        check_push(scene, face, whole.material, push, diagnosis);
+        warn_of_load(scene, face, whole.material, diagnosis);
+      }
       // Columns bear what acts straight down.
-      if (!bears_none || push_on(scene, soil) != 0.0 || shear_on(scene, face) != 0.0) {
+      if (!bears_none || !push.is_none() || !shears_on(scene, face).empty()) {
         regions.push_back(whole);
         continue;
       }

@@ -1,5 +1,6 @@
 #include "limit/problem/envelope.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -97,7 +98,14 @@ double Envelope::unconfined() const {
 }
 
 double Envelope::radius_about(double centre) const {
-  if (centre <= at(tiny).centre()) return 0.0;
+  const Place first = at(tiny);
+  if (centre <= first.centre()) {
+    // Concave from nothing at the apex: where the exponent is 1/2, a tangent of no end of slope
+    // there leaves room for a whole circle.
+    const double reach = first.centre() + apex(), within = centre + apex();
+    if (reach <= 0.0 || within <= 0.0) return 0.0;
+    return std::min(within, within * (first.radius() / reach));
+  }
   const double u = below([this](double v) { return at(v).centre(); }, centre, tiny);
   return at(u).radius();
 }

@@ -33,7 +33,7 @@ void ParabolaCones::add_others() {
   for (Stress& stress : stresses_) {
     const Parabola& parabola = stress.parabola;
     const double scale = cones_[static_cast<std::size_t>(stress.point.variable / 3)].scale;
-    const double radius = scale / 2.0, whole = parabola.touching + parabola.shift;
+    const double radius = parabola.touching / 2.0, whole = parabola.touching + parabola.shift;
     const double z = whole * whole / stress.size;
     stress.radius = add(scale, {-radius, 0.0, 0.0});
     stress.squares = add(

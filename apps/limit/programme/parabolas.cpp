@@ -15,26 +15,44 @@ double straightening_shift(const problem::Envelope& envelope, double u) {
   return (high.radius() * after - low.radius() * before) / (before - after);
 }
 
-double convex_shift(const problem::Envelope& envelope) {
-  constexpr double gentlest = 0.01, farthest = 1e9, step = 1.3;
-  const double steepest = envelope.told_by_circle(-envelope.apex());
-  double least = std::numeric_limits<double>::infinity();
-  for (double u = steepest; u < farthest * steepest; u *= step) {
-    least = std::min(least, straightening_shift(envelope, u));
-    if (envelope.at(u).slope < gentlest) break;
+// With R0, s and P0 of the place, (R + h)^2 >= (R0 + h)^2 + 2 (R0 + h) s (P - P0) is
+// h <= (R^2 - R0^2 - 2 R0 s (P - P0)) / (2 (R0 + s (P - P0) - R)) in every other place, where the
+// tangent is above R.
+double shift_within(const problem::Envelope& envelope, double u) {
+  const problem::Envelope::Place place = envelope.at(u);
+  const double touching = place.radius(), sine = std::sin(place.friction_angle());
+  double least = straightening_shift(envelope, u);
+  const auto look = [&](double radius, double away) {
+    constexpr double straight = 1e-10;
+    const double below = touching + sine * away - radius;
+    if (below <= straight * touching) return;
+    const double more = radius * radius - touching * touching - 2.0 * touching * sine * away;
+    least = std::min(least, more / (2.0 * below));
+  };
+  look(0.0, -(place.centre() + envelope.apex()));
+  // The quotient is smooth in log(u): what it is less between steps is less than is taken off.
+  constexpr double step = 1.15, farthest = 1e6, less = 0.99;
+  for (double ratio = step; ratio < farthest; ratio *= step) {
+    for (const double other : {u * ratio, u / ratio}) {
+      const problem::Envelope::Place there = envelope.at(other);
+      look(there.radius(), there.centre() - place.centre());
+    }
   }
-  return std::max(0.0, least);
+  return std::max(0.0, less * least);
 }
 
 Parabola Parabolas::at(const problem::Soil& soil, const CurvedPoint& point, double guess,
                        problem::Bound bound) const {
   const problem::Envelope& envelope = soil.envelope;
-  const double u = envelope.told_by_circle(pressure_near(point).value_or(guess));
+  // Of the apex' pressure, far more than its rounding and than the reserve of the cones.
+  constexpr double least = 1e-5;
+  const double u = std::max(envelope.told_by_circle(pressure_near(point).value_or(guess)),
+                            least * envelope.cohesive);
   const problem::Envelope::Place place = envelope.at(u);
   // An envelope that is next to straight would have one without end.
   constexpr double most = 1e3;
   const double shift = std::min(
-      bound == problem::Bound::lower ? convex_shift(envelope) : straightening_shift(envelope, u),
+      bound == problem::Bound::lower ? shift_within(envelope, u) : straightening_shift(envelope, u),
       most * place.radius());
   return {shift, place.centre(), place.radius(), std::sin(place.friction_angle())};
 }

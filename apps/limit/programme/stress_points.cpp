@@ -1,5 +1,7 @@
 #include "limit/programme/stress_points.hpp"
 
+#include <algorithm>
+
 #include "limit/problem/local_soil.hpp"
 
 namespace limit::programme {
@@ -22,7 +24,11 @@ StressPoints::StressPoints(const problem::Problem& problem, const Parabolas& par
     : problem_(problem),
       parabolas_(parabolas),
       overburden_(problem),
+      given_pressures_(given_pressures()),
       bare_(problem::bare_corners(problem)) {
+  for (const problem::Soil& soil : problem.soils) {
+    unconfined_.push_back(soil.is_curved() ? soil.envelope.unconfined() : 0.0);
+  }
   add_cones();
   curves_.add_others();
   for (std::size_t point = 0; point < cuts_.size(); ++point) add_cut(point);
@@ -86,15 +92,38 @@ void StressPoints::add_cones() {
   }
 }
 
+std::vector<std::optional<double>> StressPoints::given_pressures() const {
+  std::vector<std::optional<double>> given(problem_.mesh.nodes.size());
+  for (const mesh::BoundaryEdge& edge : problem_.mesh.boundary) {
+    const problem::Boundary& side = problem_.boundaries[static_cast<std::size_t>(edge.boundary)];
+    if (side.normal != problem::Known::traction) continue;
+    for (const int node : {edge.first, edge.second}) {
+      std::optional<double>& pressure = given[static_cast<std::size_t>(node)];
+      pressure = std::min(pressure.value_or(-side.normal_stress), -side.normal_stress);
+    }
+  }
+  return given;
+}
+
+// The parabola that touches at a pressure bears nothing at some lower one, and may end above what a
+// face allows: more than half the unconfined strength above it is no guess there, whatever is
+// heaped up beside it.
+double StressPoints::guess(const problem::Soil& soil, int region, int node) const {
+  const double beside_none = unconfined_[static_cast<std::size_t>(region)] / 2.0;
+  if (parabolas_.guesses_least()) return beside_none;
+  const auto& given = given_pressures_[static_cast<std::size_t>(node)];
+  const mesh::Point& place = problem_.mesh.nodes[static_cast<std::size_t>(node)];
+  return beside_none + (given ? *given : overburden_.at(soil, place));
+}
+
 void StressPoints::add_curved(const mesh::Triangle& triangle, int i) {
   const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(triangle.region)];
   const mesh::Point& place = node_of(triangle, i);
   const mesh::Point centre =
       (node_of(triangle, 0) + node_of(triangle, 1) + node_of(triangle, 2)) / 3.0;
   const CurvedPoint point{0, triangle.region, false, towards(place, centre)};
-  const double load = overburden_.at(soil, place);
-  const double guess = load + soil.envelope.unconfined() / 2.0;
-  curves_.add(soil.envelope, parabolas_.at(soil, point, guess, problem::Bound::lower), point,
+  const double pressure = guess(soil, triangle.region, triangle.nodes[static_cast<std::size_t>(i)]);
+  curves_.add(soil.envelope, parabolas_.at(soil, point, pressure, problem::Bound::lower), point,
               reserve);
   cuts_.emplace_back();
   bare_points_.push_back(nullptr);

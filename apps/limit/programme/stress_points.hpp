@@ -60,6 +60,9 @@ class StressPoints {
   void add_cone(const problem::Soil& local, const mesh::Point& place,
                 const problem::BareCorner* bare);
   void add_curved(const mesh::Triangle& triangle, int i);
+  /// Pressures of nodes on sides whose normal traction is given; elsewhere none.
+  [[nodiscard]] std::vector<std::optional<double>> given_pressures() const;
+  [[nodiscard]] double guess(const problem::Soil& soil, int region, int node) const;
   void add_cut(std::size_t corner);
   void add_pressure(std::size_t point);
   void add_contacts(const mesh::Edge& edge);
@@ -72,6 +75,8 @@ class StressPoints {
   const problem::Problem& problem_;
   const Parabolas& parabolas_;
   Overburden overburden_;
+  std::vector<std::optional<double>> given_pressures_;  // of the nodes
+  std::vector<double> unconfined_;                      // of the soils, where they are curved
   std::vector<YieldCone> cones_;
   std::vector<Eigen::Vector3d> starts_;
   ParabolaCones curves_{cones_, starts_};

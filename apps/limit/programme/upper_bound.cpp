@@ -170,7 +170,7 @@ class Builder {
   }
 
   int add_curved(const problem::Soil& soil, const CurvedPoint& point, const mesh::Point& place) {
-    const double load = overburden_.at(soil, place);
+    const double load = parabolas_.guesses_least() ? 0.0 : overburden_.at(soil, place);
     const double guess = load + soil.envelope.unconfined() / 2.0;
     curves_.add(soil.envelope, parabolas_.at(soil, point, guess, problem::Bound::upper), point,
                 0.0);

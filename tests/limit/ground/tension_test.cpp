@@ -1,5 +1,5 @@
 // Soil whose tension is cut off: Rankine's cone beside Mohr and Coulomb's, in both programmes and
-// both certificates.
+// both certificates. What takes longer is in validation/tension_validation_test.cpp.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -8,9 +8,8 @@
 #include <numbers>
 #include <string>
 
-#include "limit/bracket/side.hpp"
 #include "limit/certificate/lower_certificate.hpp"
-#include "limit/ground/ground_cases.hpp"
+#include "limit/ground/tension_scenes.hpp"
 #include "limit/problem/bare_corners.hpp"
 
 namespace {
@@ -61,27 +60,6 @@ bracket::Solution solution(const std::string& text, double gap = 0.01) {
   return problem ? bracket::solution_of(problem->associated, options, {}) : bracket::Solution{};
 }
 
-bracket::Solution coarse(const std::string& text) {
-  const auto problem = case_of(text);
-  EXPECT_TRUE(problem);
-  bracket::BracketOptions options;
-  options.max_triangles = 1;
-  return problem ? bracket::solution_of(problem->associated, options, {}) : bracket::Solution{};
-}
-
-// The lower bound of the first mesh alone, with its fields.
-bracket::Solution lower_alone(const std::string& text) {
-  bracket::Solution found;
-  const auto problem = case_of(text);
-  EXPECT_TRUE(problem);
-  if (!problem) return found;
-  const problem::Case& whole = problem->associated;
-  bracket::Side side(problem::in_units(whole.lower, whole.units), true);
-  side.attempt(found.bracket, {}, {});
-  if (found.bracket.lower) found.lower = found.bracket.lower_bound() * whole.units.multiplier();
-  return found;
-}
-
 // One state of stress is exact: the least of the cut-off and of Mohr and Coulomb's tension.
 TEST(TensionCutOff, IsAllThatAPulledBlockBears) {
   for (const double friction : {0.0, 20.0}) {
@@ -126,171 +104,6 @@ TEST(TensionCutOff, IsHeldToByTheCertificateOfStresses) {
   EXPECT_LE(certificate.multiplier, 500.0);
 }
 
-// gamma H / c of a vertical cut. Drucker and Prager's (1952) columns stand without tension up to 2;
-// with all of its tension clay comes to 3.776 .. 3.778.
-std::string cut(double tension) {
-  return fmt::format(
-             "[load]\nsought = \"gravity\"\n[[material]]\nname = \"clay\"\ncohesion = 1\n"
-             "friction_angle = 0\nunit_weight = 1\ntension_cutoff = {}\n",
-             tension) +
-         R"([[region]]
-material = "clay"
-outline = [[-2, -1], [2, -1], [2, 1], [0, 1], [0, 0], [-2, 0]]
-[[side]]
-name = "free"
-kind = "free"
-along = [[-2, 0], [0, 0], [0, 1], [2, 1]]
-[[side]]
-name = "rigid"
-kind = "fixed"
-along = [[-2, 0], [-2, -1], [2, -1], [2, 1]]
-)";
-}
-
-TEST(TensionCutOff, LowersAVerticalCut) {
-  // On the first meshes, which are near enough to tell.
-  const bracket::Solution whole = coarse(cut(100.0)), little = coarse(cut(0.01));
-  ASSERT_TRUE(whole.lower && whole.upper && little.lower && little.upper);
-  EXPECT_LE(*whole.lower, 3.778);
-  EXPECT_GE(*whole.upper, 3.776);
-  EXPECT_GE(*little.upper, 2.0);
-  EXPECT_LE(*little.lower, *little.upper);
-  EXPECT_LT(*little.upper, *whole.lower);
-}
-
-// The largest principal stress in any corner.
-double largest_tension(const bracket::Solution& found) {
-  double largest = -INFINITY;
-  for (const problem::StressTriangle& triangle : found.bracket.lower->certificate.field) {
-    for (Eigen::Index i = 0; i < triangle.cols(); ++i) {
-      const auto s = triangle.col(i);
-      largest = std::max(largest, (s[0] + s[1]) / 2.0 + std::hypot((s[0] - s[1]) / 2.0, s[2]));
-    }
-  }
-  return largest;
-}
-
-// Without any tension the columns are all there is: the pressure beside the face cannot be less
-// than that of the weight above, as nothing pulls a column up that does not press it inwards, too,
-// and reaches 2 c at the foot.
-TEST(TensionCutOff, OfNothingLeavesAVerticalCutItsColumns) {
-  const bracket::Solution found = coarse(cut(0.0));
-  ASSERT_TRUE(found.lower && found.upper);
-  EXPECT_LE(*found.lower, 2.0 * (1.0 + 1e-9));
-  EXPECT_GT(*found.lower, 1.999);
-  EXPECT_GE(*found.upper, 2.0);
-  EXPECT_LT(*found.upper, 2.4);
-  EXPECT_LE(largest_tension(found), 1e-11);
-}
-
-// A slope of 60 degrees in the units of its cohesion.
-std::string slope(double tension, bool upside) {
-  std::string text = fmt::format(
-      "[load]\nsought = \"{}\"\n[[material]]\nname = \"soil\"\ncohesion = 1\n"
-      "friction_angle = 20\nunit_weight = {}\ntension_cutoff = {}\n",
-      upside ? "strength" : "gravity", upside ? 7.2 : 1.0, tension);
-  return text + R"([[region]]
-material = "soil"
-outline = [[-0.8, -0.6], [2.2, -0.6], [2.2, 1], [0.5773502691896258, 1], [0, 0], [-0.8, 0]]
-[[side]]
-name = "slope"
-kind = "free"
-along = [[-0.8, 0], [0, 0], [0.5773502691896258, 1], [2.2, 1]]
-[[side]]
-name = "rigid"
-kind = "fixed"
-along = [[-0.8, 0], [-0.8, -0.6], [2.2, -0.6], [2.2, 1]]
-)";
-}
-
-// A trace of tension in stronger soil bears more, and no more than in proportion; on one mesh,
-// where nothing else tells the two apart.
-TEST(TensionCutOff, OfNothingIsWhereATraceOfItLeads) {
-  constexpr double trace = 1e-4;
-  const bracket::Solution none = coarse(slope(0.0, false)), little = coarse(slope(trace, false));
-  ASSERT_TRUE(none.lower && none.upper && little.lower && little.upper);
-  EXPECT_LE(largest_tension(none), 1e-11);
-  EXPECT_LE(*none.lower, *little.lower);
-  EXPECT_GT(*none.lower, *little.lower * (1.0 - 3.0 * trace));
-  EXPECT_LE(*none.upper, *little.upper * (1.0 + 1e-6));
-  // With all of its tension: 10.39 at most, by Chen's spiral.
-  EXPECT_LT(*none.upper, 10.39);
-}
-
-TEST(TensionCutOff, OfNothingHasAFactorOfSafety) {
-  const auto problem = case_of(slope(0.0, true));
-  ASSERT_TRUE(problem);
-  bracket::BracketOptions options;
-  options.gap = 0.03;
-  const bracket::Solution found = bracket::solution_of(problem->associated, options, {});
-  ASSERT_TRUE(found.lower && found.upper);
-  // The bracket of 1.55 % that limit-analysis.md has, 1.170 .. 1.188, with this one's gap besides;
-  // the spiral of the soil with its tension has 1.2519.
-  EXPECT_GT(*found.lower, 1.15);
-  EXPECT_LT(*found.upper, 1.21);
-  EXPECT_LT(found.gap(), 0.05);
-}
-
-// Clay on a rough floor whose weight grows with depth, gamma = 1 + (1 - y) / 2: columns as high as
-// the face bear 2 c at their feet under 1.25 of it.
-TEST(TensionCutOff, OfNothingBearsColumnsOfUnevenWeight) {
-  const bracket::Solution found = lower_alone(R"([load]
-sought = "gravity"
-[[material]]
-name = "clay"
-cohesion = 1
-friction_angle = 0
-unit_weight = { at = [0, 1], value = 1, gradient = [0, -0.5] }
-tension_cutoff = 0
-[[region]]
-material = "clay"
-outline = [[0, 0], [1, 0], [1, 1], [0, 1]]
-[[side]]
-name = "free"
-kind = "free"
-along = [[0, 0], [0, 1], [1, 1]]
-[[side]]
-name = "rigid"
-kind = "fixed"
-along = [[0, 0], [1, 0], [1, 1]]
-)");
-  ASSERT_TRUE(found.lower);
-  EXPECT_LE(*found.lower, 1.6 * (1.0 + 1e-9));
-  EXPECT_GT(*found.lower, 1.6 * 0.999);
-  EXPECT_LE(largest_tension(found), 1e-11);
-}
-
-// Half of a strip that may lift off, on level ground.
-std::string strip(double friction, double weight, const std::string& more) {
-  return "[load]\nsought = \"footing\"\n" + more +
-         fmt::format(
-             "[[material]]\nname = \"soil\"\ncohesion = 1\nfriction_angle = {}\n"
-             "unit_weight = {}\ntension_cutoff = 0\n",
-             friction, weight) +
-         R"([[region]]
-material = "soil"
-outline = [[0, -1.5], [3, -1.5], [3, 0], [0, 0]]
-[[side]]
-name = "base"
-kind = "footing"
-base = "smooth"
-tension = false
-along = [[0, 0], [1, 0]]
-[[side]]
-name = "surface"
-kind = "free"
-along = [[1, 0], [3, 0]]
-[[side]]
-name = "axis"
-kind = "symmetry"
-along = [[0, 0], [0, -1.5]]
-[[side]]
-name = "rigid"
-kind = "fixed"
-along = [[0, -1.5], [3, -1.5], [3, 0]]
-)";
-}
-
 // Prandtl's field has no tension, and of clay weight changes nothing in it.
 TEST(TensionCutOff, OfNothingBearsAStripThatMayLiftOff) {
   const bracket::Solution found = coarse(strip(0.0, 1.0, ""));
@@ -300,18 +113,6 @@ TEST(TensionCutOff, OfNothingBearsAStripThatMayLiftOff) {
   EXPECT_GE(*found.upper, prandtl);
   EXPECT_LT(found.gap(), 0.02);  // 0.9 % on these meshes
   EXPECT_LE(largest_tension(found), 1e-11);
-}
-
-// Flooded ground is dry ground of its weight in water.
-TEST(TensionCutOff, OfNothingIsUnderWaterWhatItIsDryWithLessWeight) {
-  const bracket::Solution dry = coarse(strip(10.0, 1.0, "")),
-                          wet = coarse(strip(
-                              10.0, 2.0, "[water]\nunit_weight = 1\ntable = [[-1, 1], [4, 1]]\n"));
-  ASSERT_TRUE(dry.lower && dry.upper && wet.lower && wet.upper);
-  constexpr double solver = 1e-4;
-  EXPECT_NEAR(*wet.lower, *dry.lower, solver * *dry.lower);
-  EXPECT_NEAR(*wet.upper, *dry.upper, solver * *dry.upper);
-  EXPECT_LE(largest_tension(wet), 1e-11);
 }
 
 // A side that carries nothing of what is sought is as free as a free one.
@@ -361,19 +162,67 @@ TEST(TensionCutOff, OfNothingIsRefusedWhereAnUprightFaceIsPushedOutwards) {
   std::string shaken = cut(0.0);
   const std::string sought = "sought = \"gravity\"\n";
   shaken.replace(shaken.find(sought), sought.size(), sought + "kh = -0.1\n");
-  EXPECT_THAT(complaint(shaken), HasSubstr("load.kh: an earthquake pushes the upright face at "
-                                           "(0, 1) outwards, where material clay"));
+  EXPECT_THAT(complaint(shaken), HasSubstr("load.kh: found -0.1, which pushes the upright face "
+                                           "at (0, 1) outwards, where material clay"));
   std::string sheared = cut(0.0);
   const std::string all = "along = [[-2, 0], [0, 0], [0, 1], [2, 1]]\n";
   sheared.replace(sheared.find(all), all.size(),
                   "along = [[-2, 0], [0, 0], [0, 1]]\n[[side]]\nname = \"top\"\nkind = \"loaded\"\n"
                   "shear = 0.1\nalong = [[0, 1], [2, 1]]\n");
-  EXPECT_THAT(complaint(sheared), HasSubstr("side.1.shear: the shear on top pushes the upright"));
+  EXPECT_THAT(complaint(sheared), HasSubstr("side.1.shear: found 0.1, which pushes the upright"));
   // Into the ground neither is an error.
   shaken.replace(shaken.find("kh = -0.1"), 9, "kh = 0.1");
   EXPECT_EQ(complaint(shaken), "");
   sheared.replace(sheared.find("shear = 0.1"), 11, "shear = -0.1");
   EXPECT_EQ(complaint(sheared), "");
+}
+
+// What grows by the other sign pushes, too, and is named with its value.
+TEST(TensionCutOff, OfNothingIsRefusedForTheShearThatPushes) {
+  std::string text = cut(0.0);
+  const std::string sought = "\"gravity\"", all = "along = [[-2, 0], [0, 0], [0, 1], [2, 1]]\n";
+  text.replace(text.find(sought), sought.size(), "\"traction\"");
+  text.replace(text.find(all), all.size(),
+               "along = [[-2, 0], [0, 0], [0, 1]]\n[[side]]\nname = \"top\"\nkind = \"loaded\"\n"
+               "shear = -0.1\nlive_shear = 0.2\nalong = [[0, 1], [2, 1]]\n");
+  EXPECT_THAT(complaint(text), HasSubstr("side.1.live_shear: found 0.2, which pushes the upright"));
+}
+
+// Water that seeps outwards by 0.15 and an earthquake that pushes inwards by a tenth of the weight:
+// 2 in the middle of the ground and 0.5 at the crest.
+TEST(TensionCutOff, OfNothingIsRefusedByThePushAtTheFaceItself) {
+  std::string text = cut(0.0);
+  const std::string sought = "sought = \"gravity\"\n", weight = "unit_weight = 1\n";
+  text.replace(text.find(sought), sought.size(),
+               sought + "kh = 0.1\n[water]\nunit_weight = 1.0\ntable = [[-2, 2], [2, 2.6]]\n");
+  const auto weighing = [&](const char* value) {
+    std::string weighed = text;
+    return weighed.replace(weighed.find(weight), weight.size(), value);
+  };
+  EXPECT_THAT(
+      complaint(weighing("unit_weight = { at = [0, 0], value = 2, gradient = [0, -1.5] }\n")),
+      HasSubstr("material.0.tension_cutoff: found 0, and water that seeps, -0.15 N/m3"));
+  EXPECT_EQ(
+      complaint(weighing("unit_weight = { at = [0, 0], value = 3.5, gradient = [0, -1.5] }\n")),
+      "");
+}
+
+// Told before anything is solved.
+TEST(TensionCutOff, OfNothingIsWarnedOfUnderALevelTopThatIsLoaded) {
+  std::string text = cut(0.0);
+  const std::string all = "along = [[-2, 0], [0, 0], [0, 1], [2, 1]]\n";
+  text.replace(text.find(all), all.size(),
+               "along = [[-2, 0], [0, 0], [0, 1]]\n[[side]]\nname = \"top\"\nkind = \"loaded\"\n"
+               "pressure = 0.1\nalong = [[0, 1], [2, 1]]\n");
+  tables::Diagnosis diagnosis("scene");
+  std::optional<tables::Complaint> unreadable;
+  const auto scene = ground::read_ground_scene(text, {}, diagnosis, unreadable);
+  ASSERT_TRUE(scene);
+  EXPECT_TRUE(ground::ground_case(*scene, diagnosis));
+  ASSERT_EQ(diagnosis.warnings().size(), 1U);
+  EXPECT_THAT(diagnosis.warnings().front().text(),
+              HasSubstr("side.1.pressure: found 0.1, on top of the upright face at (0, 1), where "
+                        "material clay bears no tension; a lower bound may"));
 }
 
 TEST(TensionCutOff, ThatLeavesNothingOrIsBesideTheApexIsRefusedInWords) {
