@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <omp.h>
+
 #include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
 #include <numeric>
 
 namespace {
@@ -65,6 +68,29 @@ TEST(CoarseFactor, SolvesByRowsWhereTheyAreShort) {
 TEST(CoarseFactor, SolvesByRowsInSpace) {
   const Sparse matrix = lattice_of_springs({5, 6, 9});
   expect_solves(matrix, as_numbered(matrix.rows()), true);
+}
+
+TEST(CoarseFactor, MeetsInTheMiddleWithTheBitsOfOneThread) {
+  // Long enough for two threads, of a length that no register divides.
+  const int before = omp_get_max_threads();
+  for (const std::vector<int>& sizes : {std::vector<int>{16, 407}, {3, 5, 600}}) {
+    const Sparse matrix = lattice_of_springs(sizes);
+    const Eigen::Index n = matrix.rows();
+    const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, -1.0, 200.0).array().cos();
+    const Eigen::VectorXd expected = Eigen::SimplicialLLT<Sparse>(matrix).solve(b);
+    Eigen::VectorXf alone;
+    for (const int threads : {1, 2, 3, 7}) {
+      omp_set_num_threads(threads);
+      CoarseFactor factor(matrix, as_numbered(n));
+      ASSERT_TRUE(factor.from_both_ends());
+      Eigen::VectorXf x = b.cast<float>();
+      factor.solve(x);
+      EXPECT_LE((x.cast<double>() - expected).norm(), 241 * 6e-8 * expected.norm()) << n;
+      if (threads == 1) alone = x;
+      EXPECT_EQ(x, alone) << threads;
+    }
+  }
+  omp_set_num_threads(before);
 }
 
 TEST(CoarseFactor, SolvesByASparseFactorInAnOrderAtRandom) {
