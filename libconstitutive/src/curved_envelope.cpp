@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "accept_return.hpp"
 #include "constitutive/spectral.hpp"
 
 namespace constitutive {
@@ -196,12 +197,7 @@ UpdateOutcome update(const CurvedEnvelope& material,
     s1.stress = trial;
     return {};
   }
-  s1.stress = recompose<Dim>(r.stress, x.directions);
-  const Eigen::Vector3d removed = x.values - r.stress;
-  const double p = removed.mean();
-  const double sqrt_j2 = std::sqrt((removed.array() - p).square().sum() / 2);
-  s1.plastic_strain += equivalent_elastic_strain(material.moduli, p, sqrt_j2);
-  s1.plastic_volume_strain += p / material.moduli.bulk;
+  detail::accept_return(material.moduli, x, r.stress, s1);
   return {.apex = r.regime == detail::MohrCoulombRegime::apex, .plastic = true};
 }
 

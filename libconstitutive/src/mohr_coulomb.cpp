@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "accept_return.hpp"
 #include "constitutive/rankine.hpp"
 #include "constitutive/spectral.hpp"
 
@@ -195,12 +196,7 @@ UpdateOutcome update(const MohrCoulomb& material,
     s1.stress = trial;
     return {};
   }
-  s1.stress = recompose<Dim>(r.stress, x.directions);
-  const Eigen::Vector3d removed = x.values - r.stress;
-  const double p = removed.mean();
-  const double sqrt_j2 = std::sqrt((removed.array() - p).square().sum() / 2);
-  s1.plastic_strain += equivalent_elastic_strain(material.moduli, p, sqrt_j2);
-  s1.plastic_volume_strain += p / material.moduli.bulk;
+  detail::accept_return(material.moduli, x, r.stress, s1);
   const bool apex = r.regime == detail::MohrCoulombRegime::apex;
   return {.apex = apex, .plastic = true};
 }

@@ -76,8 +76,7 @@ constexpr double cover = 0.125;  // [m] above them
 
 constexpr double of_solver = 1e-6;
 
-TEST(Lining, BearsOnlyWhatComesAfterIt) {
-  StagedRun run(scene_of(column(R"(
+const std::string stiffened_under_load = R"(
 [[stage]]
 name = "load"
 to = 0.5
@@ -88,7 +87,10 @@ become = ["stiff"]
 [[stage]]
 name = "load on"
 to = 1.0
-)")));
+)";
+
+TEST(Lining, BearsOnlyWhatComesAfterIt) {
+  StagedRun run(scene_of(column(stiffened_under_load)));
   ASSERT_TRUE(run.complete_stage());
   const double first = 0.5 * load * (half + half - cover) / soft;
   EXPECT_NEAR(settlement(run), first, of_solver * first);
@@ -169,19 +171,7 @@ become = ["stiff", "stiff"]
 // Where materials are bodies of their own the two part, with springs on their common face: 100 E of
 // the softer one over the spacing. What the face bore fades onto them.
 TEST(Lining, IsABodyOfItsOwnThatIsTied) {
-  StagedRun run(scene_of(column(R"(
-[[stage]]
-name = "load"
-to = 0.5
-[[stage]]
-name = "stiffen"
-regions = ["lower"]
-become = ["stiff"]
-[[stage]]
-name = "load on"
-to = 1.0
-)",
-                                "tied")));
+  StagedRun run(scene_of(column(stiffened_under_load, "tied")));
   run.complete();
   const double springs = load * 0.25 / (100.0 * soft);
   const double settled =
