@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <string_view>
 
 #include "model/penalty_targets.hpp"
@@ -123,14 +124,39 @@ Eigen::Index Measures<Dim>::plate_of(const std::string& drive) const {
   return -1;
 }
 
+namespace {
+
+// Stress may jump where the material changes, within one body as well.
+template <int Dim>
+fpm::ParticleSet<Dim> by_material(const Model<Dim>& model) {
+  fpm::ParticleSet<Dim> particles = model.particles;
+  particles.body.resize(model.material.size(), 0);
+  const auto bodies = *std::ranges::max_element(particles.body) + 1;
+  for (std::size_t a = 0; a < particles.body.size(); ++a) {
+    particles.body[a] += bodies * static_cast<fpm::Index>(model.material[a]);
+  }
+  return particles;
+}
+
+}  // namespace
+
 template <int Dim>
 void Measures<Dim>::locate(const scene::Scene& scene, const scene::Measure& asked,
                            Measure& measure) const {
   measure.particle = nearest_particle(scene, asked.at, model_);
-  if (asked.kind != scene::MeasureKind::displacement) return;
+  if (asked.kind != scene::MeasureKind::displacement && asked.kind != scene::MeasureKind::stress) {
+    return;
+  }
   const fpm::Field<Dim> point = Eigen::Map<const Eigen::Matrix<double, 1, Dim>>(asked.at.data());
-  measure.point =
-      fpm::PointOperator<Dim>(model_.particles, model_.ghosts, point, model_.row_options);
+  const bool of_stress = asked.kind == scene::MeasureKind::stress;
+  try {
+    measure.point = fpm::PointOperator<Dim>(of_stress ? by_material(model_) : model_.particles,
+                                            model_.ghosts, point, model_.row_options);
+  } catch (const std::runtime_error&) {
+    // Where they are too few for a gradient the stress is that of the particle.
+    if (!of_stress) throw;
+    measure.kind = scene::MeasureKind::particle_stress;
+  }
 }
 
 template <int Dim>
@@ -210,6 +236,7 @@ void Measures<Dim>::name_columns(const scene::Measure& asked) {
     case scene::MeasureKind::displacement:
       return each("u", "m", axes, Dim);
     case scene::MeasureKind::stress:
+    case scene::MeasureKind::particle_stress:
       return each("s", "Pa", stresses, State<Dim>::stress_rows);
     case scene::MeasureKind::plastic_strain:
       columns_.push_back(asked.name + "_plastic_strain");
@@ -262,6 +289,24 @@ fpm::Vector<Dim> Measures<Dim>::force(const Measure& measure, const State<Dim>& 
   return sum;
 }
 
+// Linear in the particles of the nearest one's body; an image behind a mirror has the stress of its
+// particle seen there.
+template <int Dim>
+constitutive::StressVector<Dim> Measures<Dim>::stress(const Measure& measure,
+                                                      const State<Dim>& state) const {
+  constexpr std::array<std::array<int, 2>, 3> shear_axes{{{0, 1}, {1, 2}, {2, 0}}};
+  constitutive::StressVector<Dim> sum = constitutive::StressVector<Dim>::Zero();
+  measure.point.for_each_value(0, [&](fpm::Index a, double weight, const auto& sign) {
+    constitutive::StressVector<Dim> seen = state.stress.col(a);
+    for (int k = 3; k < constitutive::stress_size<Dim>; ++k) {
+      const auto [i, j] = shear_axes[static_cast<std::size_t>(k - 3)];
+      seen[k] *= sign[i] * sign[j];
+    }
+    sum += weight * seen;
+  });
+  return sum;
+}
+
 template <int Dim>
 std::vector<double> Measures<Dim>::of(const State<Dim>& state) const {
   std::vector<double> values;
@@ -286,6 +331,9 @@ std::vector<double> Measures<Dim>::of(const State<Dim>& state) const {
         add(measure.point.value(0, state.displacement));
         break;
       case scene::MeasureKind::stress:
+        add(stress(measure, state));
+        break;
+      case scene::MeasureKind::particle_stress:
         add(state.stress.col(measure.particle));
         break;
       case scene::MeasureKind::plastic_strain:

@@ -45,8 +45,8 @@ class Measures {
   };
   struct Measure {
     scene::MeasureKind kind;
-    fpm::PointOperator<Dim> point;           // of a displacement
-    Eigen::Index particle = 0;               // of a stress or plastic strain
+    fpm::PointOperator<Dim> point;           // of a displacement or stress
+    Eigen::Index particle = 0;               // of a particle's stress or plastic strain
     typename Holders<Dim>::Shares unknowns;  // of a reaction or resultant
     std::vector<std::size_t> penalties;      // the model's, of a reaction or resultant
     std::vector<Load> loads;                 // of a resultant
@@ -64,6 +64,7 @@ class Measures {
   void find_side(const scene::Scene& scene, scene::Side side, Measure& measure) const;
   void name_columns(const scene::Measure& asked);
   fpm::Vector<Dim> force(const Measure& measure, const State<Dim>& state) const;
+  constitutive::StressVector<Dim> stress(const Measure& measure, const State<Dim>& state) const;
 
   const Model<Dim>& model_;
   Holders<Dim> holders_;

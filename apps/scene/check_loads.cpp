@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "constitutive/parameters.hpp"
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
+#include "scene/drives.hpp"
 #include "scene/names.hpp"
 #include "scene/places.hpp"
 
@@ -24,11 +24,6 @@ std::size_t dimension_of(const Scene& scene) {
   return static_cast<std::size_t>(scene.geometry.dimension);
 }
 
-bool has_gravity(const Scene& scene) {
-  const Point& g = scene.gravity.acceleration;
-  return std::any_of(g.begin(), g.end(), [](double component) { return component != 0.0; });
-}
-
 void check_gravity(const Scene& scene, tables::Diagnosis& diagnosis) {
   const std::string key = "gravity.acceleration";
   if (!check_length(scene.gravity.acceleration, dimension_of(scene), key, scene, diagnosis)) return;
@@ -39,142 +34,6 @@ void check_gravity(const Scene& scene, tables::Diagnosis& diagnosis) {
     if (told.value > 0.0 || told.varies() || !diagnosis.good({density})) continue;
     diagnosis.error(density, "found 0 with gravity",
                     "a body that has weight needs its density: give it, or leave out [gravity]");
-  }
-}
-
-/// Whether the weight above any place can be summed up.
-bool ground_is_good(const Scene& scene, const tables::Diagnosis& diagnosis) {
-  if (!box_is_good(scene, diagnosis) || scene.material.empty() ||
-      !diagnosis.good({"geometry.spacing", "initial_stress"})) {
-    return false;
-  }
-  const auto n = dimension_of(scene);
-  for (std::size_t i = 1; i < scene.material.size(); ++i) {
-    const Material& material = scene.material[i];
-    if (material.region_min.size() != n || material.region_max.size() != n) return false;
-  }
-  constexpr double most_slices = 1e6;
-  const double surface = scene.initial_stress.surface.value_or(scene.geometry.max[1]);
-  return (surface - scene.geometry.min[1]) / scene.geometry.spacing < most_slices;
-}
-
-/// Whether the tractions that act from the start press on the top as much as the ground above the
-/// body that the initial stress speaks of.
-void check_surcharge(const Scene& scene, tables::Diagnosis& diagnosis) {
-  const InitialStress& initial = scene.initial_stress;
-  if (!diagnosis.good({"traction", "initial_stress.surcharge"})) return;
-  Point top = scene.geometry.max;
-  for (std::size_t i = 0; i < top.size(); ++i) {
-    if (i != 1) top[i] = 0.5 * (scene.geometry.min[i] + scene.geometry.max[i]);
-  }
-  const double pressure = -geostatic_stress(scene, top);
-  const auto& scales = scene.drive.scales;
-  const bool grows = scene.drive.kind == DriveKind::load &&
-                     std::find(scales.begin(), scales.end(), LoadKind::traction) != scales.end();
-  const bool carried =
-      std::any_of(scene.traction.begin(), scene.traction.end(), [&](const Traction& traction) {
-        constexpr double of_pressure = 1e-6;  // typed with seven digits
-        return traction.side == Side::top && traction.value.size() > 1 && !grows &&
-               std::abs(traction.value[1] + pressure) <= of_pressure * pressure;
-      });
-  if (pressure <= 0.0 || carried) return;
-  diagnosis.warning(initial.surcharge > 0.0 ? "initial_stress.surcharge" : "initial_stress.surface",
-                    fmt::format("the initial stress carries {:.6g} Pa on the top face, but no "
-                                "traction does from the start",
-                                pressure),
-                    fmt::format("the ground heaves: add a [[traction]] on side = \"top\" with the "
-                                "normal value {:.6g}",
-                                -pressure));
-}
-
-/// Says where the initial stress is more than the ground can bear (Mohr-Coulomb in the plane).
-void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
-  if (!diagnosis.good({"material", "initial_stress.K0"})) return;
-  const Geometry& geometry = scene.geometry;
-  for (std::size_t i = 0; i < scene.material.size(); ++i) {
-    const Material& material = scene.material[i];
-    const std::string table = fmt::format("material.{}", i);
-    // What a clay in critical states bears follows from this stress.
-    if (!model_of(material).is_cohesive() ||
-        !diagnosis.good({table + ".cohesion", table + ".friction_angle", table + ".poissons_ratio",
-                         table + ".region_min", table + ".region_max", table + ".density"})) {
-      continue;
-    }
-    // The deepest place of the material, where the stress is largest.
-    Point deepest = geometry.min;
-    for (std::size_t axis = 0; axis < deepest.size(); ++axis) {
-      const double lower = material.region_min.empty()
-                               ? geometry.min[axis]
-                               : std::max(geometry.min[axis], material.region_min[axis]);
-      const double upper = material.region_max.empty()
-                               ? geometry.max[axis]
-                               : std::min(geometry.max[axis], material.region_max[axis]);
-      deepest[axis] = axis == 1 ? lower : 0.5 * (lower + upper);
-    }
-    const double vertical = -geostatic_stress(scene, deepest);
-    const double horizontal = resolve_k0(scene, material) * vertical;
-    const auto parameters = parameters_at(material, deepest);
-    const double phi = parameters.friction_angle * std::numbers::pi / 180.0;
-    const double Kp = std::pow(std::tan(std::numbers::pi / 4.0 + phi / 2.0), 2);
-    const double cohesion = parameters.cohesion;
-    const double least = vertical / Kp - 2.0 * cohesion / std::sqrt(Kp);
-    const double most = vertical * Kp + 2.0 * cohesion * std::sqrt(Kp);
-    constexpr double round_off = 1e-6;
-    if (vertical <= 0.0 ||
-        (horizontal >= least - round_off * vertical && horizontal <= most + round_off * vertical)) {
-      continue;
-    }
-    diagnosis.warning("initial_stress.K0",
-                      fmt::format("{:.4g} is more than the material \"{}\" bears at y = {:.6g}",
-                                  horizontal / vertical, material.name, deepest[1]),
-                      fmt::format("it yields in the first step; it bears {:.4g} .. {:.4g} there",
-                                  std::max(0.0, least / vertical), most / vertical));
-  }
-}
-
-void check_initial_stress(const Scene& scene, tables::Diagnosis& diagnosis) {
-  const InitialStress& initial = scene.initial_stress;
-  const std::string kind = "initial_stress.kind";
-  if (initial.kind == InitialStressKind::none || !diagnosis.good({kind})) return;
-  if (!diagnosis.good({"gravity.acceleration", "geometry.dimension"})) return;
-  if (!has_gravity(scene)) {
-    diagnosis.error(kind, fmt::format("found {} without gravity", name_of(initial.kind)),
-                    "geostatic stress is carried weight: give gravity.acceleration");
-    return;
-  }
-  const Point& g = scene.gravity.acceleration;
-  bool down = g[1] < 0.0;
-  for (std::size_t i = 0; i < g.size(); ++i) down = down && (i == 1 || g[i] == 0.0);
-  if (initial.kind == InitialStressKind::gravity) {
-    const auto refuse = [&](bool given, const char* key) {
-      if (!given || !diagnosis.good({key})) return;
-      diagnosis.error(key, "found with kind = \"gravity\"",
-                      "it belongs to geostatic: what gravity leaves is what it is");
-    };
-    refuse(initial.surface.has_value(), "initial_stress.surface");
-    refuse(initial.surcharge != 0.0, "initial_stress.surcharge");
-    if (initial.K0 && !down) {
-      diagnosis.error("gravity.acceleration", "found a direction other than -y",
-                      "initial_stress.K0 is horizontal over vertical stress");
-    }
-    return;
-  }
-  if (!down) {
-    diagnosis.error("gravity.acceleration", "found a direction other than -y",
-                    "geostatic stress needs gravity along -y");
-  }
-  if (!diagnosis.good({"initial_stress.surface", "gravity.acceleration", "geometry.spacing"}) ||
-      !box_is_good(scene, diagnosis)) {
-    return;
-  }
-  if (!initial.surface || *initial.surface >= scene.geometry.max[1]) {
-    if (!down || !ground_is_good(scene, diagnosis)) return;
-    check_surcharge(scene, diagnosis);
-    check_k0(scene, diagnosis);
-  } else {
-    diagnosis.error("initial_stress.surface", fmt::format("found {}", *initial.surface),
-                    fmt::format("below the top face, y = {}, the soil above would be in tension",
-                                scene.geometry.max[1]));
   }
 }
 

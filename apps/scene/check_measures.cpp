@@ -17,7 +17,7 @@ namespace {
 
 bool needs_point(MeasureKind kind) {
   return kind == MeasureKind::displacement || kind == MeasureKind::stress ||
-         kind == MeasureKind::plastic_strain;
+         kind == MeasureKind::particle_stress || kind == MeasureKind::plastic_strain;
 }
 
 void check_name(const Scene& scene, std::size_t index, tables::Diagnosis& diagnosis) {

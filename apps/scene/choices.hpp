@@ -38,7 +38,8 @@ enum class MeasureKind {
   plastic_strain,
   reaction,
   resultant,
-  max_displacement
+  max_displacement,
+  particle_stress
 };
 enum class SolverPreset { standard, appendix_a };
 enum class SolverMethod { hybrid, newton_krylov, multisecant };

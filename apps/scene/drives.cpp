@@ -216,4 +216,21 @@ bool grows(const Scene& scene, LoadKind kind, const std::string& name) {
       all_drives(scene), [&](const Drive* drive) { return grows_with(scene, *drive, kind, name); });
 }
 
+bool has_gravity(const Scene& scene) {
+  return std::ranges::any_of(scene.gravity.acceleration, [](double g) { return g != 0.0; });
+}
+
+bool has_dead_loads(const Scene& scene) {
+  const auto grown = [&](const std::string& name) {
+    return grows(scene, LoadKind::traction, name);
+  };
+  const auto loaded = [](const auto& side) { return side.pressure != 0.0 || side.shear != 0.0; };
+  return std::ranges::any_of(scene.side, loaded) ||
+         std::ranges::any_of(scene.traction,
+                             [&](const Traction& traction) { return !grown(traction.name); }) ||
+         std::ranges::any_of(scene.cutout, [&](const Cutout& cutout) {
+           return loaded(cutout) && !grown(cutout.name);
+         });
+}
+
 }  // namespace scene

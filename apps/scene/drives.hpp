@@ -96,4 +96,9 @@ struct LoadShare {
 /// Whether it grows with any drive.
 [[nodiscard]] bool grows(const Scene& scene, LoadKind kind, const std::string& name = "");
 
+/// Whether the body has weight.
+[[nodiscard]] bool has_gravity(const Scene& scene);
+/// Whether anything but weight loads the body from the start.
+[[nodiscard]] bool has_dead_loads(const Scene& scene);
+
 }  // namespace scene

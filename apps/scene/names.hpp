@@ -37,8 +37,9 @@ inline constexpr std::array<std::string_view, 5> drive_method{"auto", "direct", 
 inline constexpr std::array<std::string_view, 3> interface { "through", "tied", "contact" };
 inline constexpr std::array<std::string_view, 2> lateral{"fixed", "free"};
 inline constexpr std::array<std::string_view, 3> load{"traction", "gravity", "plate"};
-inline constexpr std::array<std::string_view, 6> measure{
-    "displacement", "stress", "plastic_strain", "reaction", "resultant", "max_displacement"};
+inline constexpr std::array<std::string_view, 7> measure{
+    "displacement", "stress",           "plastic_strain", "reaction",
+    "resultant",    "max_displacement", "particle_stress"};
 inline constexpr std::array<std::string_view, 2> preset{"default", "appendix_a"};
 inline constexpr std::array<std::string_view, 3> solver{"hybrid", "newton_krylov", "multisecant"};
 inline constexpr std::array<std::string_view, 2> jacobian{"analytic", "finite_difference"};

@@ -115,8 +115,10 @@ SceneTable initial_stress() {
            {.doc =
                 "geostatic: vertical stress from the weight above, horizontal stress K0 times it, "
                 "both effective under a water table, which is level then. "
-                "gravity: what is left when weight and dead loads have been switched on, of a body "
-                "of any shape."})
+                "gravity: what is left when weight and dead loads, or without weight these alone, "
+                "have "
+                "been switched on, of a body of any shape; so with pressures where the ground goes "
+                "on it is the stress in the depth."})
       .key("surface", &InitialStress::surface,
            {.need = tables::Need::optional,
             .unit = "m",

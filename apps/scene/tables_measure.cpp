@@ -19,15 +19,19 @@ SceneTable measure() {
             .doc = "Unique; its columns begin with it, so letters, digits and _ only."})
       .key("kind", &Measure::kind,
            {.need = tables::Need::required,
-            .doc = "displacement, interpolated to a point; stress or plastic_strain of the "
-                   "particle nearest to a point; reaction, the force of a support on the body; "
-                   "resultant, the force on the body at a side, of supports, drive and tractions; "
-                   "max_displacement, the length of the largest one."})
+            .doc =
+                "displacement or stress at a point, interpolated linearly, or extrapolated up "
+                "to a face, by the particles of one material around it, or, if these are too few, "
+                "of the nearest; particle_stress or "
+                "plastic_strain of the particle nearest to a point; reaction, the force of a "
+                "support on the body; resultant, the force on the body at a side, of supports, "
+                "drive and tractions; "
+                "max_displacement, the length of the largest one."})
       .key("at", &Measure::at,
            {.need = tables::Need::optional,
             .unit = "m",
             .doc = "The point, in the initial configuration.",
-            .absent = "only without displacement, stress and plastic_strain"})
+            .absent = "only of kinds without a point"})
       .key("support", &Measure::support,
            {.need = tables::Need::optional,
             .doc = "Name of the support.",

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "model/build.hpp"
 #include "scene/derived.hpp"
+#include "scene/drives.hpp"
 #include "scene/grading.hpp"
 #include "scene/scene.hpp"
 #include "stepping/stepper.hpp"
@@ -11,7 +14,7 @@
 namespace stepping {
 namespace {
 
-// The scene before its drive begins: weight grows on the same particles.
+// The scene before its drive begins: weight, or else its dead loads, grow on the same particles.
 scene::Scene settling(const scene::Scene& scene) {
   scene::Scene ground = scene;
   ground.initial_stress = {};
@@ -41,6 +44,14 @@ scene::Scene settling(const scene::Scene& scene) {
   ground.other_drives.clear();
   ground.drive.kind = scene::DriveKind::load;
   ground.drive.scales = {scene::LoadKind::gravity};
+  if (!scene::has_gravity(scene)) {
+    // Then it is the dead loads that grow.
+    ground.drive.scales = {scene::LoadKind::traction};
+    for (scene::OutlineSide& side : ground.side) {
+      side.live_pressure = std::exchange(side.pressure, 0.0);
+      side.live_shear = std::exchange(side.shear, 0.0);
+    }
+  }
   ground.hourglass.control = scene::resolve_control(scene);
   ground.programme = {};
   ground.programme.steps = 10;

@@ -16,6 +16,18 @@ using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 
 // A box 2 m wide and 1 m high whose tractions grow.
+const std::string supported_right = R"(
+[[support]]
+name = "springs"
+side = "right"
+directions = ["x"]
+method = "penalty"
+)";
+const std::string mirrored_right = R"(
+[[symmetry]]
+axis = "x"
+position = 2.0
+)";
 const std::string box = R"(
 [geometry]
 dimension = 2
@@ -38,11 +50,6 @@ name = "a wall, left"
 side = "left"
 directions = ["x"]
 method = "direct"
-[[support]]
-name = "springs"
-side = "right"
-directions = ["x"]
-method = "penalty"
 [[traction]]
 name = "load"
 side = "top"
@@ -63,8 +70,8 @@ steps = 4
 
 /// The box with measures, and its state at rest.
 struct Box {
-  explicit Box(const std::string& measures)
-      : scene(read(box + measures)),
+  explicit Box(const std::string& measures, const std::string& right = supported_right)
+      : scene(read(box + right + measures)),
         model(build_model<2>(scene)),
         state(initial_state(model)),
         measures(scene, model) {}
@@ -95,7 +102,7 @@ TEST(Measures, InterpolateDisplacementsSoThatALinearOneIsExact) {
 // Of the particle itself, whose law is integrated: nothing is smoothed.
 TEST(Measures, TakeStressAndPlasticStrainOfTheNearestParticle) {
   Box box(
-      "[[measure]]\nname = \"s\"\nkind = \"stress\"\nat = [0.6, 0.4]\n"
+      "[[measure]]\nname = \"s\"\nkind = \"particle_stress\"\nat = [0.6, 0.4]\n"
       "[[measure]]\nname = \"e\"\nkind = \"plastic_strain\"\nat = [0.6, 0.4]\n");
   Eigen::Index nearest = -1;
   for (Eigen::Index a = 0; a < box.model.size(); ++a) {
@@ -108,6 +115,60 @@ TEST(Measures, TakeStressAndPlasticStrainOfTheNearestParticle) {
   EXPECT_THAT(box.measures.columns(),
               ElementsAre("s_sxx_Pa", "s_syy_Pa", "s_szz_Pa", "s_sxy_Pa", "e_plastic_strain"));
   EXPECT_THAT(box.measures.of(box.state), ElementsAre(-1.0, -2.0, -3.0, 0.5, 0.25));
+}
+
+// On a face as well, where particles are on one side only.
+TEST(Measures, InterpolateStressSoThatALinearOneIsExact) {
+  Box box("[[measure]]\nname = \"s\"\nkind = \"stress\"\nat = [1.03, 1.0]\n");
+  const auto& x = box.model.particles.position;
+  for (int k = 0; k < 4; ++k) {
+    box.state.stress.row(k) =
+        ((k + 1.0) + 0.2 * x.col(0).array() - k * x.col(1).array()).matrix().transpose();
+  }
+  constexpr double round_off = 1e-12;  // of a sum of a few dozen terms of size 10
+  const auto exact = [&](int k) { return DoubleNear((k + 1.0) + 0.2 * 1.03 - k, round_off); };
+  EXPECT_THAT(box.measures.of(box.state), ElementsAre(exact(0), exact(1), exact(2), exact(3)));
+}
+
+// On a mirror there is no shear stress, whatever the particles beside it have; normal stresses even
+// out across it.
+TEST(Measures, SeeStressInAMirror) {
+  Box box("[[measure]]\nname = \"s\"\nkind = \"stress\"\nat = [2.0, 0.5]\n", mirrored_right);
+  const auto& x = box.model.particles.position;
+  for (const int k : {0, 3})
+    box.state.stress.row(k) = (7.0 - x.col(0).array()).matrix().transpose();
+  const auto values = box.measures.of(box.state);
+  constexpr double round_off = 1e-12;
+  EXPECT_NEAR(values[3], 0.0, round_off);
+  EXPECT_GT(values[0], 5.0);
+  EXPECT_LT(values[0], 5.0 + 2.0 * box.model.spacing);
+}
+
+// Of one of two bodies that adjoin there nothing is taken from the other.
+TEST(Measures, InterpolateStressWithinABody) {
+  Box box(
+      "[[material]]\nname = \"rock\"\nmodel = \"elastic\"\nyoungs_modulus = 1e9\n"
+      "poissons_ratio = 0.3\nregion_min = [1.0, 0.0]\nregion_max = [2.0, 1.0]\n"
+      "[[measure]]\nname = \"s\"\nkind = \"stress\"\nat = [1.01, 0.5]\n");
+  const auto& x = box.model.particles.position;
+  for (Eigen::Index a = 0; a < box.model.size(); ++a) {
+    box.state.stress.col(a).setConstant(x(a, 0) > 1.0 ? 100.0 : -1.0);
+  }
+  constexpr double round_off = 1e-10;
+  for (const double value : box.measures.of(box.state)) EXPECT_NEAR(value, 100.0, round_off);
+}
+
+// A seam of one row has no gradient across it.
+TEST(Measures, TakeStressOfTheNearestParticleWhereABodyIsTooThin) {
+  Box box(
+      "[[material]]\nname = \"seam\"\nmodel = \"elastic\"\nyoungs_modulus = 1e6\n"
+      "poissons_ratio = 0.3\nregion_min = [1.0, 0.0]\nregion_max = [1.25, 1.0]\n"
+      "[[measure]]\nname = \"s\"\nkind = \"stress\"\nat = [1.1, 0.6]\n");
+  const auto& x = box.model.particles.position;
+  for (Eigen::Index a = 0; a < box.model.size(); ++a) {
+    box.state.stress.col(a).setConstant(std::abs(x(a, 0) - 1.125) < 0.1 ? x(a, 1) : -1.0);
+  }
+  for (const double value : box.measures.of(box.state)) EXPECT_EQ(value, 0.625);
 }
 
 TEST(Measures, HalfwayBetweenParticlesAreOfTheFirst) {
