@@ -273,11 +273,11 @@ void check_water(const GroundScene& scene, tables::Diagnosis& diagnosis) {
   const problem::UnitNames si;
   const bool is_si = scene.units.stress == si.stress && scene.units.length == si.length;
   if (scene.water.table.empty() || is_si || diagnosis.given("water.unit_weight")) return;
-  diagnosis.error("water.unit_weight",
-                  fmt::format("absent, and the scene's unit weights are in {}",
-                              scene.units.unit_weight()),
-                  "the default, 9810, is in N/m3: give that of water in the scene's unit, as 9.81 "
-                  "for kPa and m, 62.4 for psf and ft");
+  diagnosis.error(
+      "water.unit_weight",
+      fmt::format("absent, and the scene's unit weights are in {}", scene.units.unit_weight()),
+      "the default, 9810, is in N/m3: give that of water in the scene's unit, as 9.81 "
+      "for kPa and m, 62.4 for psf and ft");
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <ranges>
 #include <utility>
 
 namespace limit::problem {
@@ -105,11 +104,10 @@ class BareCorners {
   }
 
   // From a free face on, from one triangle without cohesion to the next.
-  template <class Corners>
-  void empty_loose(const Corners& corners) {
-    for (const auto& corner : corners) {
-      if (!is_loose(corner.first)) return;
-      corner_of(corner).bears = BareCorner::Bears::nothing;
+  template <class Corner>
+  void empty_loose(Corner corner, const Corner& end) {
+    for (; corner != end && is_loose(corner->first); ++corner) {
+      corner_of(*corner).bears = BareCorner::Bears::nothing;
     }
   }
 
@@ -138,8 +136,8 @@ class BareCorners {
     if (!fan.first.is_bare && !fan.last.is_bare) return;
     if (fan.first.is_bare) bind(corner_of(fan.corners.front()), fan.first.normal);
     if (fan.last.is_bare) bind(corner_of(fan.corners.back()), fan.last.normal);
-    if (fan.first.is_bare) empty_loose(fan.corners);
-    if (fan.last.is_bare) empty_loose(std::views::reverse(fan.corners));
+    if (fan.first.is_bare) empty_loose(fan.corners.begin(), fan.corners.end());
+    if (fan.last.is_bare) empty_loose(fan.corners.rbegin(), fan.corners.rend());
     const bool is_pure = std::ranges::all_of(
         fan.corners, [&](const auto& corner) { return bears_no_tension(corner.first); });
     const bool mirrors = fan.first.is_mirror || fan.last.is_mirror;
