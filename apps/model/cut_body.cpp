@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "model/cut_cells.hpp"
 #include "model/surface.hpp"
@@ -71,14 +73,14 @@ std::vector<SurfacePiece<2>> pieces_of(const shape::Body& body, const CutCells& 
   return pieces;
 }
 
-// Cuts a joint into pieces as long as the cells beside it are wide.
-std::vector<double> joint_cuts(const shape::Joint& joint, const fpm::Cells<2>& cells) {
-  const Place along = joint.to - joint.from;
+// Cuts a line into pieces as long as the cells beside it are wide.
+std::vector<double> even_cuts(const Place& from, const Place& to, const fpm::Cells<2>& cells) {
+  const Place along = to - from;
   const double length = along.norm();
   std::vector<double> cuts{0.0};
   while (cuts.back() < length) {
     const double next = cuts.back() + 0.5 * cells.lattice().spacing;
-    const fpm::Index cell = cells.containing(joint.from + std::min(1.0, next / length) * along);
+    const fpm::Index cell = cells.containing(from + std::min(1.0, next / length) * along);
     cuts.push_back(cuts.back() + (cell < 0 ? cells.lattice().spacing : cells.width(cell)));
   }
   // Stretched or shrunk to its length, whichever is less.
@@ -87,17 +89,53 @@ std::vector<double> joint_cuts(const shape::Joint& joint, const fpm::Cells<2>& c
   return cuts;
 }
 
+// The same of a joint, none of whose pieces changes hands: bodies would not close there.
+// @param owners  of a place on it -> whose it is, comparable
+template <class Owners>
+std::vector<double> joint_cuts(const shape::Joint& joint, const fpm::Cells<2>& cells,
+                               const Owners& owners) {
+  constexpr double sliver = 1e-9;  // spacings
+  const Place along = joint.to - joint.from;
+  const auto lines = crossings(cells.lattice(), joint.from, joint.to);
+  std::vector<double> ends{0.0};
+  std::optional<decltype(owners(joint.from))> last;
+  for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
+    if ((lines[k + 1] - lines[k]) * along.norm() <= sliver * cells.lattice().spacing) continue;
+    const auto here = owners(joint.from + 0.5 * (lines[k] + lines[k + 1]) * along);
+    if (last && *last != here) ends.push_back(lines[k]);
+    last = here;
+  }
+  if (ends.size() == 1) return even_cuts(joint.from, joint.to, cells);
+  ends.push_back(1.0);
+  std::vector<double> cuts{0.0};
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    const Place from = joint.from + ends[k] * along, to = joint.from + ends[k + 1] * along;
+    for (const double cut : even_cuts(from, to, cells)) {
+      if (cut > 0.0) cuts.push_back(ends[k] + cut * (ends[k + 1] - ends[k]));
+    }
+    cuts.back() = ends[k + 1];
+  }
+  return cuts;
+}
+
+int owner_region(fpm::Index particle, const std::vector<int>& regions) {
+  return particle < 0 ? -1 : regions[static_cast<std::size_t>(particle)];
+}
+
 // Of two regions one of which is not there the joint is surface.
 std::vector<SurfacePiece<2>> exposed(const shape::Body& body, const CutCells& cut,
                                      const fpm::Cells<2>& cells, const std::vector<char>& present) {
   std::vector<SurfacePiece<2>> pieces;
+  const std::vector<int> regions = cut.regions(cells);
   for (const shape::Joint& joint : body.joints()) {
     const bool left = present[static_cast<std::size_t>(joint.left)] != 0;
     if (left == (present[static_cast<std::size_t>(joint.right)] != 0)) continue;
     const int region = left ? joint.left : joint.right;
     const Place from = left ? joint.from : joint.to, to = left ? joint.to : joint.from;
     const Place within = left_of(from, to) * (inward * cells.lattice().spacing);
-    const auto cuts = joint_cuts(joint, cells);
+    const auto cuts = joint_cuts({from, to, joint.left, joint.right}, cells, [&](const Place& at) {
+      return owner_region(cut.particle_at(at + within, region, cells), regions);
+    });
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
       const Place middle = from + 0.5 * (cuts[k] + cuts[k + 1]) * (to - from);
       SurfacePiece<2> piece{from + cuts[k] * (to - from), from + cuts[k + 1] * (to - from),
@@ -112,6 +150,7 @@ std::vector<SurfacePiece<2>> exposed(const shape::Body& body, const CutCells& cu
 std::vector<JointPiece<2>> joints_of(const shape::Body& body, const CutCells& cut,
                                      const fpm::Cells<2>& cells, const std::vector<char>& present) {
   std::vector<JointPiece<2>> pieces;
+  const std::vector<int> regions = cut.regions(cells);
   for (const shape::Joint& joint : body.joints()) {
     if (present[static_cast<std::size_t>(joint.left)] == 0 ||
         present[static_cast<std::size_t>(joint.right)] == 0) {
@@ -119,7 +158,10 @@ std::vector<JointPiece<2>> joints_of(const shape::Body& body, const CutCells& cu
     }
     const Place along = joint.to - joint.from;
     const Place left = left_of(joint.from, joint.to) * (inward * cells.lattice().spacing);
-    const auto cuts = joint_cuts(joint, cells);
+    const auto cuts = joint_cuts(joint, cells, [&](const Place& at) {
+      return std::pair(owner_region(cut.particle_at(at + left, joint.left, cells), regions),
+                       owner_region(cut.particle_at(at - left, joint.right, cells), regions));
+    });
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
       const Place middle = joint.from + 0.5 * (cuts[k] + cuts[k + 1]) * along;
       pieces.push_back({joint.from + cuts[k] * along, joint.from + cuts[k + 1] * along,
@@ -128,6 +170,32 @@ std::vector<JointPiece<2>> joints_of(const shape::Body& body, const CutCells& cu
     }
   }
   return pieces;
+}
+
+// A region's share of a cell that goes to another cell's particle: to one of the region, and the
+// two are of one body; or, where its tip is less than particles wide, to one of its neighbour: then
+// bodies meet in the midst of the region as well.
+void hand_over(const shape::Body& body, const CutCells& cut, const fpm::Cells<2>& cells,
+               Model<2>& model) {
+  constexpr double sliver = 1e-9;  // spacings
+  const std::vector<int> regions = cut.regions(model.cells);
+  cut.for_each_handed_over(model.cells, [&](fpm::Index a, fpm::Index b, int axis, int region,
+                                            fpm::Index first, fpm::Index second) {
+    const bool is_first = cells.width(a) <= cells.width(b);
+    const fpm::Index narrow = is_first ? a : b;
+    Place low = cells.lower(narrow), high = cells.upper(narrow);
+    (is_first ? low : high)[axis] = (is_first ? high : low)[axis];
+    // With the first to the left.
+    const Place from = axis == 0 ? low : high, to = axis == 0 ? high : low;
+    const shape::Stretch within = body.along(from, to, region);
+    if (within.length <= sliver * cells.lattice().spacing) return;
+    if (owner_region(first, regions) == owner_region(second, regions)) {
+      model.meeting.emplace_back(first, second);
+      return;
+    }
+    const Place half = 0.5 * within.length * (to - from).normalized();
+    model.joints.push_back({within.middle - half, within.middle + half, first, second});
+  });
 }
 
 fpm::Index nearest_to(const Place& place, const fpm::Field<2>& position) {
@@ -186,6 +254,7 @@ void cut_plane_body(const scene::Scene& scene, Model<2>& model) {
   find_owners(model.particles.position, model.surface);
   if (scene.region.empty()) return;
   model.joints = joints_of(body, cut, model.cells, present);
+  hand_over(body, cut, whole, model);
   find_owners(model.particles.position, model.joints);
   for (const int region : cut.regions(model.cells)) {
     model.material.push_back(

@@ -204,6 +204,8 @@ struct Model {
   std::vector<Interface<Dim>> interfaces;
   std::vector<SurfacePiece<Dim>> surface;  // of a body with cutouts or regions only
   std::vector<JointPiece<Dim>> joints;     // of a body of regions only
+  // Particles of one region that meet where cells between them have gone to one of them; likewise.
+  std::vector<std::pair<fpm::Index, fpm::Index>> meeting;
 
   /// [Pa] Young's modulus of a particle.
   double youngs_modulus_of(Eigen::Index particle) const {

@@ -356,7 +356,8 @@ SceneTable interface() {
   tables::TableBuilder<Scene, Interface> table(
       "interface", &Scene::interface,
       "What happens where two materials meet: on the faces of the lattice's cells between them. A "
-      "material thinner than three particles goes with its neighbour.");
+      "material thinner than three particles goes with its neighbour, and so does a tied one that "
+      "runs out into a tip too thin for rows of its own: rows see through all of that face.");
   table
       .key("between", &Interface::between,
            {.need = tables::Need::required, .doc = "Names of the two materials."})

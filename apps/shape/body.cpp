@@ -347,9 +347,10 @@ Part Body::within(const Point& lower, const Point& upper, int region) const {
   return part;
 }
 
-Stretch Body::along(const Point& from, const Point& to) const {
+Stretch Body::along(const Point& from, const Point& to, int region) const {
   Lines inside;
-  geometry::intersection(Line{corner(from), corner(to)}, shape_->regions.front().polygons, inside);
+  geometry::intersection(Line{corner(from), corner(to)},
+                         shape_->regions[static_cast<std::size_t>(region)].polygons, inside);
   Stretch stretch;
   for (const Line& line : inside) {
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {

@@ -70,8 +70,8 @@ class Body {
   [[nodiscard]] int regions() const;
 
   [[nodiscard]] Part within(const Point& lower, const Point& upper, int region = 0) const;
-  /// What of a straight line is in the first region.
-  [[nodiscard]] Stretch along(const Point& from, const Point& to) const;
+  /// What of a straight line is in a region.
+  [[nodiscard]] Stretch along(const Point& from, const Point& to, int region = 0) const;
   [[nodiscard]] const std::vector<SurfaceSegment>& surface() const;
   [[nodiscard]] const std::vector<Joint>& joints() const;
   /// Distance of a box from the surface that cuts made or that is hollow.

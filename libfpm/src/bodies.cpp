@@ -114,14 +114,17 @@ std::vector<Index> bodies_of(const std::vector<Index>& label,
 
 template <int Dim>
 std::vector<Index> bodies_of(const Cells<Dim>& cells, const std::vector<Index>& label,
-                             const std::function<bool(Index, Index)>& joined, Index thickness) {
+                             const std::function<bool(Index, Index)>& joined, Index thickness,
+                             const std::vector<std::pair<Index, Index>>& meeting) {
   require_size("labels", static_cast<Eigen::Index>(label.size()), cells.size());
   Union bodies(cells.size());
-  cells.for_each_pair([&](Index a, Index b, int /*axis*/) {
+  const auto unite = [&](Index a, Index b) {
     const auto [low, high] =
         std::minmax(label[static_cast<std::size_t>(a)], label[static_cast<std::size_t>(b)]);
     if (low == high || joined(low, high)) bodies.unite(a, b);
-  });
+  };
+  cells.for_each_pair([&](Index a, Index b, int /*axis*/) { unite(a, b); });
+  for (const auto& [a, b] : meeting) unite(a, b);
   const std::vector<char> thick = of_any_thick(bodies, thin_cells(cells, bodies, thickness));
   cells.for_each_pair([&](Index a, Index b, int /*axis*/) {
     if (thick[static_cast<std::size_t>(a)] == 0 || thick[static_cast<std::size_t>(b)] == 0) {
@@ -157,10 +160,11 @@ CommonFaces<Dim> outer_faces(const Cells<Dim>& cells, const Face& face) {
   return faces;
 }
 
-#define FPM_INSTANTIATE(Dim)                                                                   \
-  template std::vector<Index> bodies_of<Dim>(const Cells<Dim>&, const std::vector<Index>&,     \
-                                             const std::function<bool(Index, Index)>&, Index); \
-  template CommonFaces<Dim> common_faces<Dim>(const Cells<Dim>&, const std::vector<Index>&);   \
+#define FPM_INSTANTIATE(Dim)                                                                  \
+  template std::vector<Index> bodies_of<Dim>(const Cells<Dim>&, const std::vector<Index>&,    \
+                                             const std::function<bool(Index, Index)>&, Index, \
+                                             const std::vector<std::pair<Index, Index>>&);    \
+  template CommonFaces<Dim> common_faces<Dim>(const Cells<Dim>&, const std::vector<Index>&);  \
   template CommonFaces<Dim> outer_faces<Dim>(const Cells<Dim>&, const Face&);
 FPM_INSTANTIATE(2)
 FPM_INSTANTIATE(3)

@@ -178,9 +178,9 @@ PointOperator<Dim>::PointOperator(const ParticleSet<Dim>& particles, const Ghost
     while (!append_point(particles, ghosts, found, offset, radius, options)) {
       radius *= growth;
       if (radius > options.max_enlargement * narrowest) {
-        throw std::runtime_error("point " + std::to_string(c) + " has no well-conditioned " +
-                                 "neighbourhood within " + std::to_string(options.max_enlargement) +
-                                 " support radii");
+        throw PoorNeighbourhood("point " + std::to_string(c) + " has no well-conditioned " +
+                                "neighbourhood within " + std::to_string(options.max_enlargement) +
+                                " support radii");
       }
       search_within();
     }

@@ -34,7 +34,7 @@ TEST(FpmLimit, RefusesWhatItCannotBracketWithTheReason) {
        std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{}, "SCENE or --strip is missing"},
            {{"--strip"}, "neither cohesion nor friction"},
-           {{"--strip", "--phi", "30", "--gamma", "18e3"}, "no strength"},
+           {{"--strip", "--phi", "30"}, "the soil bears nothing"},
            {{"--strip", "--c", "-1"}, "cohesion: found -1; allowed is at least 0"},
            {{"--strip", "--c", "1", "--phi", "60"},
             "friction_angle: found 60; allowed is 0 .. 50 [deg]"},

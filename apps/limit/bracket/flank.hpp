@@ -53,9 +53,15 @@ class Flank {
   /// @param reach  how far off it may be, as a factor
   void start_from(double factor, double reach) { search_ = FactorSearch(factor, reach); }
 
+  /// Where no factor was certified, that of stresses which carry less than the loads at a factor
+  /// tried: enlarged until they carry them, they lie within a strength that is as much more.
+  [[nodiscard]] std::optional<double> enlarged_factor() const {
+    return enlarged_ > 0.0 && !factor_ ? std::optional(enlarged_) : std::nullopt;
+  }
+
   /// With the best fields so far.
   void give(Bracket& bracket) const {
-    if (best_.lower) bracket.lower = best_.lower;
+    if (best_.lower || less_.lower) bracket.lower = best_.lower ? best_.lower : less_.lower;
     if (best_.upper) bracket.upper = best_.upper;
   }
 
@@ -214,7 +220,10 @@ class Flank {
     }
     failures_ = 0;
     constexpr double rounding = 1e-3;
-    const double multiplier = last.certified.value_or(last.proposed);
+    // Without any cohesion next to nothing may be left at once.
+    constexpr double next_to_nothing = 1e-3;
+    const double multiplier =
+        std::max(last.certified.value_or(last.proposed), next_to_nothing * one_);
     const bool has_no_end = multiplier >= (1.0 - rounding) * most_;
     search_.saw(factor, std::min(multiplier, most_) / one_, has_no_end);
   }
@@ -223,11 +232,32 @@ class Flank {
   void keep(double factor, const Bracket& found) {
     const bool carries = is_lower_ && found.lower && found.lower_bound() >= one_;
     const bool fails = !is_lower_ && found.upper && found.upper_bound() <= one_;
+    if (is_lower_ && !carries && found.lower) enlarge(factor, found);
     if (!carries && !fails) return;
     excess_ = std::abs(std::log((is_lower_ ? found.lower_bound() : found.upper_bound()) / one_));
     if (factor_ && (is_lower_ ? factor <= *factor_ : factor >= *factor_)) return;
     factor_ = factor;
     best_ = found;
+  }
+
+  // Enlarged, pressures add to friction's share, which is at the factor that is less in proportion
+  // more than that; tensions would take more of it than cohesion gives.
+  [[nodiscard]] static bool may_be_enlarged(const problem::Soil& soil) {
+    if (soil.is_curved() || soil.variation) return false;
+    return soil.friction_angle == 0.0 || soil.is_loose() || soil.tension == 0.0;
+  }
+
+  void enlarge(double factor, const Bracket& found) {
+    const double share = found.lower_bound() / one_;
+    if (!std::ranges::all_of(problem_.soils, may_be_enlarged) || !(factor * share > enlarged_)) {
+      return;
+    }
+    enlarged_ = factor * share;
+    less_ = found;
+    for (auto& stresses : less_.lower->certificate.field) stresses /= share;
+    less_.lower->certificate.multiplier = one_;
+    less_.lower->certificate.residual /= share;
+    less_.lower->certificate.yield_excess /= share;
   }
 
   bool is_lower_;
@@ -240,6 +270,8 @@ class Flank {
   std::optional<double> factor_;
   double excess_ = 0.0;  // how far the multiplier is from one where it last decided, as a logarithm
   Bracket best_;
+  double enlarged_ = 0.0;
+  Bracket less_;  // the same stresses, enlarged
   int failures_ = 0;
   enum class Resting { none, buried, all };
   Resting resting_ = Resting::none;    // which steep soils have been put to rest

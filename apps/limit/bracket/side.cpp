@@ -69,8 +69,9 @@ void Side::attempt(Bracket& bracket, const BracketOptions& options,
     return std::find(given_up_.begin(), given_up_.end(), form) != given_up_.end();
   });
   // Stresses that bear no tension lie in no cone's inside at free faces, which Ipopt's forms want.
-  const bool bears_none = std::ranges::any_of(
-      problem_.soils, [](const problem::Soil& soil) { return soil.tension == 0.0; });
+  const bool bears_none = std::ranges::any_of(problem_.soils, [](const problem::Soil& soil) {
+    return soil.tension == 0.0 || soil.is_loose();
+  });
   if (is_lower_ && bears_none && options.engine != Engine::ipopt) forms.resize(1);
   ++failures_;
   work_ = 0.0;

@@ -30,6 +30,7 @@ class Reduction {
   Solution solution() {
     if (!(case_.known_lower && case_.known_upper)) search();
     result_.lower = larger(below_.factor(), case_.known_lower);
+    result_.lower = larger(result_.lower, below_.enlarged_factor());
     result_.upper = smaller(upper(), case_.known_upper);
     if (result_.block && result_.upper && result_.block->factor > *result_.upper) {
       result_.block.reset();
@@ -52,18 +53,17 @@ class Reduction {
 
   void search() {
     look_for_block();
-    if (!result_.block) settle(above_);
+    if (!upper()) settle(above_);
     if (upper()) below_.start_from(*upper(), close);
-    if (case_.has_lower) settle(below_);
-    // A block that is not the right mechanism at all. It mostly is, closer than a mesh can be.
+    settle(below_);
+    // A block that is not the right mechanism at all. It mostly is, closer than a mesh can be; a
+    // skin often is not.
     constexpr double far = 0.1;
-    if (result_.block && (gap() > far || !case_.has_lower)) begin_above();
-    if (case_.has_lower) {
-      try_long(below_, case_.lower, case_.long_lower, far);
-      try_long(above_, case_.upper, case_.long_upper, far);
-    }
-    while (case_.has_lower && gap() > options_.gap && remaining() > 0.0) {
-      if (result_.block && !has_begun_above_ && below_.triangles() > most_without_above) {
+    if (waits_above() && gap() > (result_.block ? far : options_.gap)) begin_above();
+    try_long(below_, case_.lower, case_.long_lower, far);
+    try_long(above_, case_.upper, case_.long_upper, far);
+    while (gap() > options_.gap && remaining() > 0.0) {
+      if (waits_above() && below_.triangles() > most_without_above) {
         begin_above();
         continue;
       }
@@ -116,10 +116,13 @@ class Reduction {
     return options_.max_seconds - (means_.seconds() - began_);
   }
   [[nodiscard]] std::optional<double> upper() const {
-    std::optional<double> least = above_.factor();
-    if (result_.block)
-      least = std::min(least.value_or(result_.block->factor), result_.block->factor);
+    std::optional<double> least = smaller(above_.factor(), case_.known_upper);
+    if (result_.block) least = smaller(least, result_.block->factor);
     return least;
+  }
+  // Whether a mechanism that is no mesh's has spared the search for others so far.
+  [[nodiscard]] bool waits_above() const {
+    return (result_.block || case_.known_upper) && !has_begun_above_;
   }
   [[nodiscard]] double gap() const {
     if (!below_.factor() || !upper()) return std::numeric_limits<double>::infinity();
@@ -129,7 +132,7 @@ class Reduction {
   Flank* next_to_refine() {
     Flank* next = nullptr;
     for (Flank* flank : {&below_, &above_}) {
-      if (result_.block && !has_begun_above_ && flank == &above_) continue;
+      if (waits_above() && flank == &above_) continue;
       if (!flank->can_refine() || flank->triangles() >= options_.max_triangles) continue;
       if (next == nullptr || flank->promise() > next->promise()) next = flank;
     }

@@ -20,6 +20,7 @@ void add_ceilings(Eigen::Index point, const problem::Soil& soil, const problem::
   ceiling.cohesive = soil.cohesion_at(place) * std::cos(soil.friction_angle);
   ceiling.sine = std::sin(soil.friction_angle);
   ceiling.tension = soil.tension;
+  ceiling.is_loose = whole.is_loose();
   if (whole.is_curved()) ceiling.curve = &whole.envelope;
   ceilings.push_back(ceiling);
   if (!soil.cuts_tension()) return;
@@ -34,7 +35,9 @@ void keep_to_bare_points(const problem::Problem& problem, const StressLayout& la
   const std::map<Eigen::Index, problem::BareCorner> bare = bare_points(problem, layout);
   std::erase_if(ceilings, [&](Ceiling& ceiling) {
     const auto found = bare.find(ceiling.point);
-    if (ceiling.kind != Ceiling::Kind::tension || found == bare.end()) return false;
+    if (found == bare.end()) return false;
+    if (ceiling.kind == Ceiling::Kind::yield) return ceiling.is_loose;
+    if (ceiling.kind != Ceiling::Kind::tension) return false;
     ceiling.kind = Ceiling::Kind::along;
     ceiling.normal = found->second.normal;
     return found->second.bears == problem::BareCorner::Bears::nothing;
@@ -81,6 +84,9 @@ std::vector<Ceiling> ceilings_of(const problem::Problem& problem) {
   for (const mesh::Edge& edge : mesh::edges_of(mesh)) {
     if (edge.boundary < 0) continue;
     if (!problem.boundaries[static_cast<std::size_t>(edge.boundary)].may_open) continue;
+    // Soil without cohesion bears no tension: yield says so.
+    const auto left = static_cast<std::size_t>(edge.left);
+    if (problem.soils[static_cast<std::size_t>(mesh.triangles[left].region)].is_loose()) continue;
     const mesh::Point along = (node_at(mesh, edge.second) - node_at(mesh, edge.first)).normalized();
     Ceiling ceiling{0, Ceiling::Kind::contact};
     ceiling.normal = {along.y(), -along.x()};

@@ -24,6 +24,7 @@ struct Ceiling {
   double cohesive = 0.0, sine = 0.0;         // c cos(phi), linear as the stress between points is
   double tension = 0.0;                      // the soil's
   mesh::Point normal{0.0, 0.0};              // of a contact, of a face
+  bool is_loose = false;                     // of a yield: of soil without cohesion
   const problem::Envelope* curve = nullptr;  // of a yield that is not c and phi's
 };
 

@@ -112,6 +112,28 @@ void require_live_load(const GroundScene& scene, const std::optional<Base>& base
   diagnosis.error("load.sought", "nothing in the scene would grow", allowed);
 }
 
+// Ground whose strength is friction alone bears in proportion to what presses on it: where all of
+// that grows, or is nothing, so does what it bears.
+void require_strength(const GroundScene& scene, const problem::Problem& problem,
+                      tables::Diagnosis& diagnosis) {
+  if (scene.load.sought == Sought::strength) return;
+  const bool bears_more =
+      std::ranges::any_of(problem.soils,
+                          [](const problem::Soil& soil) {
+                            return !soil.is_loose() || soil.unit_weight > 0.0 ||
+                                   soil.has_uneven_weight();
+                          }) ||
+      std::ranges::any_of(problem.boundaries, [](const problem::Boundary& boundary) {
+        return boundary.normal_stress != 0.0;
+      });
+  if (bears_more) return;
+  diagnosis.error("load.sought",
+                  "no material has a cohesion, and what friction bears is in proportion to the "
+                  "load that grows",
+                  "allowed is strength, the factor of safety; or a load that is given beside, a "
+                  "weight or a pressure");
+}
+
 // Half a footing's width, else half the height of the part of the outline that is free to move.
 double length_of(const GroundScene& scene, const GroundOutline& outline,
                  const std::optional<Base>& base) {
@@ -207,6 +229,7 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
   describe(scene, result);
   result.lower = loads_of(scene, base, reduce, diagnosis);
   if (diagnosis.errors().empty()) require_live_load(scene, base, result.lower, diagnosis);
+  if (diagnosis.errors().empty()) require_strength(scene, result.lower, diagnosis);
   if (!diagnosis.errors().empty()) return result;
   result.assumptions = assumptions_of(scene, result.lower, base);
   const double length = length_of(scene, outline, base);
@@ -214,11 +237,6 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
   result.upper = result.lower;
   if (result.seeks_strength) {
     say_skins(scene, outline, result.lower, result);
-    constexpr double trace = 0.01;
-    if (!result.has_lower && !result.known_lower) {
-      strengthen(result.upper, trace * live_stress(result.upper, length), result.names,
-                 result.notes);
-    }
   }
   try {
     result.lower.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, true));

@@ -268,6 +268,18 @@ void check_side(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnosis)
   if (side.kind == SideKind::symmetry) side.kind = SideKind::roller;
 }
 
+// The default is in newtons and metres.
+void check_water(const GroundScene& scene, tables::Diagnosis& diagnosis) {
+  const problem::UnitNames si;
+  const bool is_si = scene.units.stress == si.stress && scene.units.length == si.length;
+  if (scene.water.table.empty() || is_si || diagnosis.given("water.unit_weight")) return;
+  diagnosis.error(
+      "water.unit_weight",
+      fmt::format("absent, and the scene's unit weights are in {}", scene.units.unit_weight()),
+      "the default, 9810, is in N/m3: give that of water in the scene's unit, as 9.81 "
+      "for kPa and m, 62.4 for psf and ft");
+}
+
 }  // namespace
 
 std::optional<GroundScene> read_ground_scene(std::string_view text,
@@ -286,6 +298,7 @@ std::optional<GroundScene> read_ground_scene(std::string_view text,
   for (std::size_t i = 0; i < scene.regions.size(); ++i) find_material(scene, i, diagnosis);
   if (diagnosis.errors().empty()) tell_soils(scene, diagnosis);
   for (std::size_t i = 0; i < scene.sides.size(); ++i) check_side(scene, i, diagnosis);
+  check_water(scene, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   return scene;
 }

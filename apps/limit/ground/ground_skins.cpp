@@ -24,7 +24,6 @@ bool presses(const GroundSide& side) {
 void say_skins(const GroundScene& scene, const GroundOutline& outline,
                const problem::Problem& soils, problem::Case& result) {
   double steepest = 0.0, gentlest = INFINITY;
-  std::vector<std::string> said;
   for (const GroundSegment& segment : outline.segments) {
     if (segment.right >= 0) continue;
     const GroundSide& side = scene.sides[static_cast<std::size_t>(segment.side)];
@@ -39,13 +38,7 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
     }
     // The ground is to the left: what runs towards +x hangs over.
     if (outline.at(segment.second).x() > outline.at(segment.first).x()) gentlest = 0.0;
-    if (soil.cohesion > 0.0) continue;
-    result.has_lower = false;
-    const std::string note = fmt::format(
-        "material \"{}\" has no cohesion and so no strength at side \"{}\", where nothing presses "
-        "on it: no stress there is strictly within yield, and no stress field can be certified",
-        scene.materials[m].name, side.name);
-    if (std::find(said.begin(), said.end(), note) == said.end()) said.push_back(note);
+    if (!soil.is_loose()) continue;
     // The weight, aslant in an earthquake, along the skin and across it.
     const mesh::Point way = (outline.at(segment.second) - outline.at(segment.first)).normalized();
     const mesh::Point force = soils.live_force(soil, soil.centre);
@@ -57,15 +50,12 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
     const double slides = std::tan(soil.friction_angle) * across / along;
     result.known_upper = std::min(result.known_upper.value_or(INFINITY), slides);
   }
-  if (result.has_lower) return;
+  if (!result.known_upper) return;
   const bool is_shaken = soils.live_pull.x() != 0.0;
-  if (result.known_upper) {
-    result.notes.push_back(fmt::format(
-        "a skin of a face without cohesion slides parallel to it at tan(friction angle) / "
-        "tan({}) = {:.7g}",
-        is_shaken ? "angle of the shaken weight to its normal" : "inclination",
-        *result.known_upper));
-  }
+  result.notes.push_back(fmt::format(
+      "a skin of a face without cohesion slides parallel to it at tan(friction angle) / "
+      "tan({}) = {:.7g}",
+      is_shaken ? "angle of the shaken weight to its normal" : "inclination", *result.known_upper));
   const bool is_dry_sand =
       !is_shaken && !scene.water.is_there() && gentlest == steepest && steepest > 0.0 &&
       std::none_of(
@@ -74,29 +64,10 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
       std::all_of(soils.soils.begin(), soils.soils.end(), [&](const problem::Soil& soil) {
         return soil.cohesion == 0.0 && soil.friction_angle == soils.soils[0].friction_angle;
       });
-  if (is_dry_sand) {
-    result.known_lower = result.known_upper;
-    result.notes.emplace_back(
-        "which is exact for a face of one inclination in soil without cohesion throughout");
-    return;
-  }
-  result.notes.insert(result.notes.end(), said.begin(), said.end());
-}
-
-void strengthen(problem::Problem& problem, double least, const problem::UnitNames& names,
-                std::vector<std::string>& notes) {
-  bool is_any = false;
-  for (problem::Soil& soil : problem.soils) {
-    is_any = is_any || soil.cohesion == 0.0;
-    if (soil.cohesion == 0.0) soil.cohesion = least;
-  }
-  if (is_any) {
-    notes.push_back(fmt::format(
-        "mechanisms are those of soil with a cohesion of {:.3g} {} where there is none: "
-        "an upper bound "
-        "of the given soil, too",
-        least, names.stress));
-  }
+  if (!is_dry_sand) return;
+  result.known_lower = result.known_upper;
+  result.notes.emplace_back(
+      "which is exact for a face of one inclination in soil without cohesion throughout");
 }
 
 }  // namespace limit::ground

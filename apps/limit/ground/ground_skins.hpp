@@ -5,17 +5,11 @@
 
 namespace limit::ground {
 
-/// Faces of soil without cohesion, with nothing on them: no stress there is strictly within yield,
-/// so that no stress field can be certified, and a skin, however thin, slides parallel to a face as
-/// soon as tan(friction angle) is less than tan(inclination). Says so in the notes of a case that
-/// seeks the factor of its strength, with what is known of it in closed form.
+/// Faces of soil without cohesion, with nothing on them: a skin, however thin, slides parallel to a
+/// face as soon as tan(friction angle) is less than tan(inclination). Says so in the notes of a
+/// case that seeks the factor of its strength, with what is known of it in closed form.
 /// @param soils  of the problem, by material
 void say_skins(const GroundScene& scene, const GroundOutline& outline,
                const problem::Problem& soils, problem::Case& result);
-
-/// Gives soils without cohesion that much: what the stronger soil does not carry, the given one
-/// does not, either, and its programme has an interior.
-void strengthen(problem::Problem& problem, double least, const problem::UnitNames& names,
-                std::vector<std::string>& notes);
 
 }  // namespace limit::ground

@@ -95,6 +95,25 @@ const GroundMaterial* first_of_uneven_weight(const GroundScene& scene) {
   return nullptr;
 }
 
+// Ground that floats mostly is a number in another unit.
+void warn_of_light_ground(const GroundScene& scene, tables::Diagnosis& diagnosis) {
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const GroundMaterial& material = scene.materials[m];
+    const bool is_first = std::none_of(
+        scene.materials.begin(), scene.materials.begin() + static_cast<std::ptrdiff_t>(m),
+        [&](const GroundMaterial& other) { return other.name == material.name; });
+    const bool is_wet = material.saturated_unit_weight.has_value();
+    const tables::VaryingNumber& weight =
+        is_wet ? *material.saturated_unit_weight : material.unit_weight;
+    const double water = scene.water.unit_weight;
+    if (!is_first || weight.varies() || weight.value == 0.0 || weight.value >= water) continue;
+    diagnosis.warning(
+        fmt::format("material.{}.{}", m, is_wet ? "saturated_unit_weight" : "unit_weight"),
+        fmt::format("found {:g}, less than that of water, {:g}", weight.value, water),
+        "such ground floats where it is under water; are both in one unit, stress over length?");
+  }
+}
+
 }  // namespace
 
 void wet(GroundScene& scene, tables::Diagnosis& diagnosis) {
@@ -115,6 +134,7 @@ void wet(GroundScene& scene, tables::Diagnosis& diagnosis) {
   } else if (scene.water.r_u) {
     wet_by_overburden(scene, ground, diagnosis);
   } else if (shape::is_water_table(scene.water.table, ground.low, ground.high, diagnosis)) {
+    warn_of_light_ground(scene, diagnosis);
     wet_below_table(scene, ground);
   }
 }

@@ -64,7 +64,10 @@ class BareCorners {
     const int region = problem_.mesh.triangles[static_cast<std::size_t>(triangle)].region;
     return problem_.soils[static_cast<std::size_t>(region)];
   }
-  bool bears_no_tension(int triangle) const { return soil_of(triangle).tension == 0.0; }
+  bool is_loose(int triangle) const { return soil_of(triangle).is_loose(); }
+  bool bears_no_tension(int triangle) const {
+    return soil_of(triangle).tension == 0.0 || is_loose(triangle);
+  }
 
   static void bind(BareCorner& corner, const mesh::Point& normal) {
     if (corner.bears == BareCorner::Bears::nothing) return;
@@ -95,7 +98,17 @@ class BareCorners {
     if (!end.is_bare) return;
     const int t = left_of_.at(edge);
     const int i = mesh::corner_of(problem_.mesh.triangles[static_cast<std::size_t>(t)], edge.first);
-    bind(corner_of({t, 3 + i}), end.normal);
+    BareCorner& middle = corner_of({t, 3 + i});
+    bind(middle, end.normal);
+    if (is_loose(t)) middle.bears = BareCorner::Bears::nothing;
+  }
+
+  // From a free face on, from one triangle without cohesion to the next.
+  template <class Corner>
+  void empty_loose(Corner corner, const Corner& end) {
+    for (; corner != end && is_loose(corner->first); ++corner) {
+      corner_of(*corner).bears = BareCorner::Bears::nothing;
+    }
   }
 
   Fan fan_from(int node, int next) const {
@@ -123,6 +136,8 @@ class BareCorners {
     if (!fan.first.is_bare && !fan.last.is_bare) return;
     if (fan.first.is_bare) bind(corner_of(fan.corners.front()), fan.first.normal);
     if (fan.last.is_bare) bind(corner_of(fan.corners.back()), fan.last.normal);
+    if (fan.first.is_bare) empty_loose(fan.corners.begin(), fan.corners.end());
+    if (fan.last.is_bare) empty_loose(fan.corners.rbegin(), fan.corners.rend());
     const bool is_pure = std::ranges::all_of(
         fan.corners, [&](const auto& corner) { return bears_no_tension(corner.first); });
     const bool mirrors = fan.first.is_mirror || fan.last.is_mirror;
@@ -168,8 +183,8 @@ bool is_free(const Boundary& boundary) {
 }
 
 std::vector<BareTriangle> bare_corners(const Problem& problem) {
-  const bool is_any =
-      std::ranges::any_of(problem.soils, [](const Soil& soil) { return soil.tension == 0.0; });
+  const bool is_any = std::ranges::any_of(
+      problem.soils, [](const Soil& soil) { return soil.tension == 0.0 || soil.is_loose(); });
   if (!is_any) return {};
   return BareCorners(problem).found();
 }

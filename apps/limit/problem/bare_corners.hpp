@@ -24,8 +24,12 @@ using BareTriangle = std::array<BareCorner, 6>;
 /// Whether nothing acts on a side, neither given nor growing, and nothing holds it.
 [[nodiscard]] bool is_free(const Boundary& boundary);
 
-/// Where soil that bears no tension at all has no choice at free faces, triangle by triangle; empty
-/// if no soil is such.
+/// Where soil that bears no tension at all, or has no cohesion, has no choice at free faces,
+/// triangle by triangle; empty if no soil is such.
+///
+/// Soil without cohesion bears nothing in any corner at a free face: there is no traction on the
+/// face, nor then on the next side around the node, and a stress without traction on one plane is
+/// along it, which friction alone does not bear.
 ///
 /// A stress that is linear in triangles, carries no tension and leaves a straight free face alone
 /// is, in all corners at a node of it, a pressure along the face: from side to side around the node

@@ -31,7 +31,6 @@ struct Case {
   std::vector<std::string> notes;  // on the bounds, beside them
   // Bounds that are known in closed form, in the case's unit.
   std::optional<double> known_lower, known_upper;
-  bool has_lower = true;  // whether a stress field can be certified at all
   std::vector<HandFormula> hand;
   Units units;
   Problem lower, upper;  // in SI units, on the meshes to begin with

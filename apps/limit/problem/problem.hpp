@@ -44,6 +44,10 @@ struct Soil {
 
   [[nodiscard]] bool cuts_tension() const { return std::isfinite(tension); }
   [[nodiscard]] bool is_curved() const { return envelope.is_there(); }
+  /// Whether it has no cohesion anywhere: it bears nothing where nothing presses on it.
+  [[nodiscard]] bool is_loose() const {
+    return cohesion == 0.0 && cohesion_gradient.isZero(0.0) && variation == nullptr && !is_curved();
+  }
   /// Whether its strength or its weight changes from place to place.
   [[nodiscard]] bool varies() const {
     return variation != nullptr || !cohesion_gradient.isZero(0.0) || has_uneven_weight();

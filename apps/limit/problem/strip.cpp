@@ -36,13 +36,9 @@ std::optional<Objection> objection_to(const Strip& strip) {
     return Objection{"cohesion", "the soil has neither cohesion nor friction: it bears nothing",
                      "one of them is more than 0"};
   }
-  if (strip.surcharge > 0.0) return std::nullopt;
-  return Objection{
-      "cohesion",
-      "without cohesion and surcharge the soil at the surface has no strength: no stress is "
-      "strictly inside yield and neither bound can be certified",
-      "approach the case with a small surcharge or cohesion, e.g. a hundredth of unit weight x "
-      "half width, and extrapolate"};
+  if (strip.surcharge > 0.0 || soil.unit_weight > 0.0) return std::nullopt;
+  return Objection{"cohesion", "without cohesion, weight and surcharge the soil bears nothing",
+                   "one of them is more than 0"};
 }
 
 Box box_of(const Strip& strip) {

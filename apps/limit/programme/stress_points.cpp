@@ -134,6 +134,8 @@ void StressPoints::add_cone(const problem::Soil& local, const mesh::Point& place
   const problem::Soil soil = local.with_cohesion(local.cohesion_at(place));
   const double load = overburden_.at(soil, place);
   cones_.push_back(yield_cone(soil, load, reserve));
+  // What is nothing anyway is to lie within a cone.
+  if (bare != nullptr && soil.is_loose()) cones_.back() = {1.0, cones_.back().slope, 1.0};
   starts_.push_back(inner_point(cones_.back(), load));
   const bool is_cut = soil.cuts_tension() && bare == nullptr;
   cuts_.push_back(is_cut ? std::optional(tension_cone(soil, load, reserve)) : std::nullopt);
@@ -162,6 +164,9 @@ void StressPoints::add_pressure(std::size_t point) {
 void StressPoints::add_contacts(const mesh::Edge& edge) {
   if (edge.boundary < 0) return;
   if (!problem_.boundaries[static_cast<std::size_t>(edge.boundary)].may_open) return;
+  // Soil without cohesion bears no tension by itself.
+  const mesh::Triangle& left = problem_.mesh.triangles[static_cast<std::size_t>(edge.left)];
+  if (problem_.soils[static_cast<std::size_t>(left.region)].is_loose()) return;
   const mesh::Point normal = SideFrame(problem_.mesh, edge).normal;
   std::vector<Eigen::Index> stresses{corner(edge.left, edge.first), corner(edge.left, edge.second)};
   if (is_quadratic(edge.left)) stresses.push_back(middle(edge.left, edge).front().first);
@@ -195,8 +200,10 @@ void StressPoints::bare_corners(algebra::EquationBuilder& equations) const {
     const problem::BareCorner* bare = bare_points_[point];
     if (bare == nullptr) continue;
     const auto stress = static_cast<Eigen::Index>(3 * point);
-    const mesh::Point &normal = bare->normal, along(-normal.y(), normal.x());
     const bool is_nothing = bare->bears == problem::BareCorner::Bears::nothing;
+    // A corner between others may have no face of its own.
+    const mesh::Point normal = is_nothing ? mesh::Point(1.0, 0.0) : bare->normal,
+                      along(-normal.y(), normal.x());
     const mesh::Point axes[] = {normal, along};
     for (const mesh::Point& direction : axes) {
       equations.begin(0.0);

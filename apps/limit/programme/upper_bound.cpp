@@ -79,9 +79,10 @@ struct Loads {
   }
 };
 
-// Of the cohesion, of the tension of soil without any: what a stronger soil does not carry, a
-// softer one does not, and there is a stress strictly within yield at free faces. The certificate
-// knows what the mechanism dissipates without it.
+// Of the cohesion, of the tension of soil without any; of the unit of stress, of the cohesion of
+// soil without any: what a stronger soil does not carry, a softer one does not, and there is a
+// stress strictly within yield at free faces. The certificate knows what the mechanism dissipates
+// without it.
 constexpr double trace = 1e-4;
 
 class Builder {
@@ -156,7 +157,7 @@ class Builder {
  private:
   // First variable of a new cone.
   int add_cone(const problem::Soil& local, const mesh::Point& place, double cohesion) {
-    const problem::Soil soil = local.with_cohesion(cohesion);
+    const problem::Soil soil = local.with_cohesion(local.is_loose() ? trace : cohesion);
     const double load = overburden_.at(soil, place);
     cones_.push_back(yield_cone(soil, load, 0.0));
     starts_.push_back(inner_point(cones_.back(), load));

@@ -18,11 +18,13 @@ namespace fpm {
 /// @param joined  whether cells with two different labels, the smaller first, are of one body
 /// @param thickness  [cells] a body that is thinner than that, along any axis, everywhere
 ///   joins its neighbours: rows of its own would be singular
+/// @param meeting  pairs of cells that meet though they share no face, as if they did
 /// @returns a body for each particle, numbered by first appearance; jitter does not matter.
 /// @throws ShapeError if there is not one label per particle.
 template <int Dim>
 std::vector<Index> bodies_of(const Cells<Dim>& cells, const std::vector<Index>& label,
-                             const std::function<bool(Index, Index)>& joined, Index thickness);
+                             const std::function<bool(Index, Index)>& joined, Index thickness,
+                             const std::vector<std::pair<Index, Index>>& meeting = {});
 
 /// The same of particles around which there are no cells, however thin their bodies.
 /// @param meeting  pairs of particles whose elements share a face

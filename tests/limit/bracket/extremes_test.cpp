@@ -113,13 +113,30 @@ TEST(Extremes, ASurchargeInsteadOfCohesion) {
   EXPECT_GT(found.upper, exact);
 }
 
-TEST(Extremes, NeitherCohesionNorSurchargeIsRefusedWithTheReason) {
+// N_gamma of sand of 30 degrees, times gamma b, b the half width: 14.7543 under a rough base and
+// 7.6532 under a smooth one (method of characteristics, Martin 2005).
+// No stress at the surface lies strictly within yield.
+TEST(Extremes, SandIsBoundedByItsWeightAlone) {
+  const double weight = 18e3;
+  for (const auto& [is_rough, tension] :
+       {std::pair(true, true), std::pair(false, true), std::pair(true, false)}) {
+    problem::Strip strip = strip_of(0.0, 30.0, weight);
+    strip.rough = is_rough;
+    strip.tension = tension;
+    const Found found = bounds(strip, problem::Box{6.0, 2.5});
+    const double exact = weight * (is_rough ? 14.7543 : 7.6532);
+    EXPECT_LT(found.lower, exact);
+    EXPECT_GT(found.upper, exact);
+  }
+}
+
+TEST(Extremes, NeitherCohesionNorWeightNorSurchargeIsRefusedWithTheReason) {
   for (const double phi : {0.0, 30.0}) {
     try {
-      (void)problem::strip_case(strip_of(0.0, phi, 18e3), std::nullopt);
+      (void)problem::strip_case(strip_of(0.0, phi, 0.0), std::nullopt);
       ADD_FAILURE() << "not refused";
     } catch (const std::invalid_argument& refusal) {
-      EXPECT_THAT(refusal.what(), ::testing::HasSubstr(phi > 0.0 ? "no strength" : "friction"));
+      EXPECT_THAT(refusal.what(), ::testing::HasSubstr(phi > 0.0 ? "weight" : "friction"));
     }
   }
 }

@@ -170,11 +170,11 @@ TEST(SceneCase, RefusesWhatIsNoSuchFootingByFileLineAndKey) {
   EXPECT_THAT(refusal({"drive.range_min=0.5"}), HasSubstr("drive.range_min"));
   EXPECT_THAT(refusal({"support.1.side=left"}), HasSubstr("support.1"));
   EXPECT_THAT(refusal({"support.1.directions=[\"y\"]"}), HasSubstr("test.toml"));
-  // A soil that bears nothing at the surface is refused where its cohesion is written.
+  // A soil that bears nothing is refused where its cohesion is written.
   EXPECT_THAT(refusal({"material.0.model=mohr_coulomb", "material.0.friction_angle=30",
                        "material.0.dilation_angle=30", "material.0.cohesion=0"}),
               AllOf(HasSubstr("--set material.0.cohesion=0: material.0.cohesion"),
-                    HasSubstr("no strength")));
+                    HasSubstr("the soil bears nothing")));
   // All of them at once.
   EXPECT_THAT(refusal({"symmetry.0.position=5.0", "drive.side=bottom", "support.0.side=top"}),
               AllOf(HasSubstr("the left side is no mirror"), HasSubstr("nothing is pressed")));

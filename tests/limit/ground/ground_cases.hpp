@@ -48,6 +48,7 @@ inline std::vector<KnownGround> known_grounds() {
       {"slope", 0.0, 10.3907, "the best logarithmic spiral through the toe (Chen 1975)"},
       {"slope_safety", 1.0, 1.25189, "the same spiral with the strength divided"},
       {"slope_gentle", 1.0, 1.3540, "the best logarithmic spiral with the strength divided"},
+      {"acads_layers", 1.357, 1.405, "methods of slices, Janbu to Bishop (ACADS 1c, 1.39)"},
       {"earthquake", 0.425, 0.435, "critical kh to two digits (Loukidis et al. 2003)"},
       // Circle about (1.2067, 0.2917) B off the edge: 2 R^2 (c1 t1 + c2 t2) / (B (x - B/2)), t the
       // half angles in crust and clay.

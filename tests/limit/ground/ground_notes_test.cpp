@@ -2,12 +2,11 @@
 #include <gmock/gmock.h>
 
 #include "limit/ground/ground_cases.hpp"
-#include "limit/ground/ground_skins.hpp"
 
 namespace {
 
 using namespace limit;
-using ::testing::ElementsAre;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(Ground, IsReportedInTheUnitsOfItsScene) {
@@ -25,20 +24,30 @@ TEST(Ground, IsReportedInTheUnitsOfItsScene) {
   EXPECT_EQ(shipped("slope_safety", {"units.stress=psf"})->associated.unit, "");
 }
 
-// A trace of cohesion where there is none is said, in the scene's unit; where there is some,
-// neither given nor said.
-TEST(Ground, SaysWhatCohesionItsMechanismsHave) {
-  problem::Problem problem;
-  problem.soils = {{0.0, 0.6, 18.0}, {5.0, 0.0, 18.0}};
-  std::vector<std::string> notes;
-  ground::strengthen(problem, 0.25, {"psf", "ft"}, notes);
-  EXPECT_EQ(problem.soils[0].cohesion, 0.25);
-  EXPECT_EQ(problem.soils[1].cohesion, 5.0);
-  EXPECT_THAT(notes, ElementsAre(HasSubstr("a cohesion of 0.25 psf where there is none")));
-  notes.clear();
-  ground::strengthen(problem, 0.5, {"psf", "ft"}, notes);
-  EXPECT_THAT(notes, ElementsAre());
-  EXPECT_EQ(problem.soils[0].cohesion, 0.25);
+// 9810 is N/m3: in other units its default would be a thousand times too much.
+TEST(Ground, InOtherUnitsWantsTheWeightOfWater) {
+  const auto read = [](const std::vector<std::string>& settings) {
+    tables::Diagnosis diagnosis("scene");
+    std::optional<tables::Complaint> unreadable;
+    const auto file = std::filesystem::path(FPM_SHARE_DIR) / "scenes/limit/slope_water.toml";
+    std::string text = std::get<std::string>(scene::text_of(file));
+    const std::string given = "unit_weight = 10e3 ";
+    text.erase(text.find(given), given.size());
+    const auto scene = ground::read_ground_scene(text, settings, diagnosis, unreadable);
+    if (scene) static_cast<void>(ground::ground_case(*scene, diagnosis));
+    std::string said;
+    for (const tables::Complaint& one : diagnosis.errors()) said += one.text() + '\n';
+    for (const tables::Complaint& one : diagnosis.warnings()) said += one.text() + '\n';
+    return said;
+  };
+  EXPECT_EQ(read({}), "");
+  EXPECT_THAT(read({"units.stress=kPa"}),
+              AllOf(HasSubstr("water.unit_weight: absent"), HasSubstr("kPa/m"), HasSubstr("9.81")));
+  EXPECT_EQ(read({"units.stress=kPa", "water.unit_weight=9.81"}), "");
+  // Ground that floats is a mistake, mostly.
+  EXPECT_THAT(read({"material.silty sand.unit_weight=20"}),
+              AllOf(HasSubstr("material.0.unit_weight: found 20, less than that of water, 9810"),
+                    HasSubstr("in one unit")));
 }
 
 }  // namespace

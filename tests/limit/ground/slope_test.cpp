@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "limit/bracket/flank.hpp"
 #include "limit/bracket/side.hpp"
 #include "limit/bracket/weakened.hpp"
 #include "limit/ground/ground_cases.hpp"
@@ -158,20 +160,78 @@ TEST(Slope, OfDrySandIsThatOfASkinOfIt) {
   EXPECT_TRUE(found.bracket.reached);
 }
 
-// A cohesive cap over sand: the face of the sand decides, and says why nothing is certified below.
-TEST(Slope, OfASandyFaceNamesMaterialAndSideAndHasAnUpperBound) {
-  const auto problem =
-      shipped("slope_gentle", {"material.soil.cohesion=0", "material.soil.friction_angle=40",
-                               "side.right.kind=loaded", "side.right.pressure=100"});
+// Nothing known in closed form, stresses of sand come as close to its skin as they are asked to.
+TEST(Slope, OfDrySandBearsByCertifiedStressesWhatItsSkinDoes) {
+  auto problem =
+      shipped("slope_gentle", {"material.soil.cohesion=0", "material.soil.friction_angle=40"});
   ASSERT_TRUE(problem);
+  problem->associated.known_lower.reset();
   const bracket::Solution found = bracket::solution_of(problem->associated, options(), {});
-  EXPECT_FALSE(found.lower);
-  ASSERT_TRUE(found.upper);
-  constexpr double rounding = 1e-12;
-  EXPECT_LE(*found.upper, 2.0 * std::tan(40.0 * std::numbers::pi / 180.0) * (1.0 + rounding));
-  EXPECT_THAT(problem->associated.notes,
-              ::testing::Contains(::testing::AllOf(::testing::HasSubstr("\"soil\""),
-                                                   ::testing::HasSubstr("\"surface\""))));
+  ASSERT_TRUE(found.lower && found.bracket.lower);
+  const double exact = 2.0 * std::tan(40.0 * std::numbers::pi / 180.0);
+  EXPECT_LT(*found.lower, exact);
+  EXPECT_LE(found.gap(), options().gap);
+  EXPECT_GE(found.bracket.lower_bound(), 1.0 / problem->associated.units.multiplier());
+}
+
+// Sand over two soils with cohesion: a mechanism through all of them is weaker than the sand's
+// skin.
+TEST(Slope, OfSandOverClaysHasBothBounds) {
+  const auto problem = shipped("acads_layers");
+  ASSERT_TRUE(problem);
+  bracket::BracketOptions roughly;
+  roughly.gap = 0.1;
+  const bracket::Solution found = bracket::solution_of(problem->associated, roughly, {});
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_LE(found.gap(), roughly.gap);
+  EXPECT_LT(*found.upper, *problem->associated.known_upper);
+  // Methods of slices, 1.357 (Janbu) to 1.405 (Bishop).
+  EXPECT_LT(*found.lower, 1.405);
+  EXPECT_GT(*found.upper, 1.357);
+}
+
+// At a factor that clay does not have the loads are not carried, but stresses under less of them,
+// enlarged, are within a strength that is divided by less.
+TEST(Slope, HasALowerBoundFromStressesThatCarryLess) {
+  const auto problem = shipped("vertical_cut", {"load.sought=strength"});
+  ASSERT_TRUE(problem);
+  const problem::Case& cut = problem->associated;
+  problem::Problem scaled = problem::in_units(cut.lower, cut.units);
+  const double one = 1.0 / cut.units.multiplier();
+  const bracket::Means means;
+  bracket::Flank flank(scaled, true, one, means);
+  std::vector<bracket::Attempt> attempts;
+  flank.solve_at(6.0, {}, {}, attempts);
+  EXPECT_FALSE(flank.factor());
+  ASSERT_TRUE(flank.enlarged_factor());
+  const double factor = *flank.enlarged_factor();
+  // gamma H / c is one here.
+  EXPECT_LT(factor, 3.778);
+  EXPECT_GT(factor, 3.0);
+  bracket::Bracket found;
+  flank.give(found);
+  ASSERT_TRUE(found.lower);
+  scaled.mesh = found.lower->mesh;
+  scaled.soils = bracket::weakened(scaled.soils, factor);
+  const auto certificate = certificate::certify_lower(scaled, found.lower->certificate.field, one);
+  EXPECT_TRUE(certificate.holds);
+  EXPECT_EQ(certificate.kept, 1.0);
+}
+
+TEST(Slope, OfSandWhoseWeightAloneGrowsIsRefused) {
+  tables::Diagnosis diagnosis("scene");
+  std::optional<tables::Complaint> unreadable;
+  const auto file = std::filesystem::path(FPM_SHARE_DIR) / "scenes" / "limit" / "slope_gentle.toml";
+  const std::vector<std::string> settings{"material.soil.cohesion=0", "load.sought=gravity"};
+  const auto scene = ground::read_ground_scene(std::get<std::string>(scene::text_of(file)),
+                                               settings, diagnosis, unreadable);
+  ASSERT_TRUE(scene);
+  EXPECT_FALSE(ground::ground_case(*scene, diagnosis));
+  ASSERT_EQ(diagnosis.errors().size(), 1U);
+  EXPECT_THAT(diagnosis.errors()[0].text(),
+              ::testing::AllOf(::testing::HasSubstr("load.sought"),
+                               ::testing::HasSubstr("in proportion to the load that grows"),
+                               ::testing::HasSubstr("strength")));
 }
 
 // Soft clay is squeezed out under strong ground, whose friction is 80 degrees and more at such a

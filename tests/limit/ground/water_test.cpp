@@ -121,6 +121,11 @@ TEST(Water, ThatSeepsAlongAFaceLetsItsSkinSlide) {
   const double ratio = of_water / 20e3, cosine = std::cos(20 * degree);
   EXPECT_NEAR(*problem->associated.known_upper, tangent * (1.0 - ratio / (cosine * cosine)), 1e-9);
   EXPECT_FALSE(problem->associated.known_lower);
+  // Which stresses come up to.
+  const bracket::Solution found = solution(slope(0.0, along_the_face()));
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_LE(*found.lower, *problem->associated.known_upper);
+  EXPECT_LE(found.gap(), 0.07);
 }
 
 // With a little cohesion both bounds are there: above the skin's factor, and below that of dry
