@@ -221,7 +221,8 @@ Reading value_in(const Columns& table, const Quantity& quantity) {
     return Reading{{},
                    fmt::format("there is no column {}{}; columns are {}", wanted,
                                nearest.empty() ? "" : " (did you mean \"" + nearest + "\"?)",
-                               fmt::join(table.names, ", "))};
+                               fmt::join(table.names, ", ")),
+                   true};
   };
   const std::vector<double>* values = values_of(quantity.column);
   if (values == nullptr) return none(quantity.column);

@@ -56,6 +56,7 @@ struct Quantity {
 struct Reading {
   std::optional<double> value;
   std::string obstacle;
+  bool no_such_column = false;
 };
 [[nodiscard]] Reading value_in(const Columns& table, const Quantity& quantity);
 
