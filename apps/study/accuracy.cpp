@@ -70,11 +70,16 @@ class Runs {
     }
     const double tolerance = scene::resolve_solver(*plain).tolerance * fineness.tolerance;
     settings.push_back(fmt::format("solver.tolerance={}", tolerance));
+    // A tighter tolerance takes more of them, and must not be stopped by a limit made for less.
+    constexpr std::int64_t more = 10;
+    const std::int64_t most =
+        (fineness.tolerance != 1.0 ? more : 1) * plain->solver.max_evaluations_per_step;
     if (fineness.tolerance != 1.0) {
-      // A tighter tolerance takes more of them, and must not be stopped by a limit made for less.
-      settings.push_back(fmt::format("solver.max_evaluations_per_step={}",
-                                     10 * plain->solver.max_evaluations_per_step));
+      settings.push_back(fmt::format("solver.max_evaluations_per_step={}", most));
     }
+    // Steps that are halved where they are hard, and grow again, would differ from run to run, and
+    // the load with them.
+    settings.push_back(fmt::format("programme.hard_evaluations={}", most));
     if (fineness.control != 1.0) {
       settings.push_back(fmt::format("hourglass.stiffness_ratio={}",
                                      scene::resolve_stiffness_ratio(*plain) * fineness.control));
@@ -294,7 +299,7 @@ program::ExitCode find_accuracy(const AccuracyRequest& request, std::ostream& ou
   Wish wish;
   wish.accuracy = request.accuracy;
   wish.budget = request.budget;
-  wish.spacings = spacings_of_a_ladder(*base);
+  wish.spacings = spacings_of_a_ladder(*base, request.budget.has_value());
   wish.formal = formal_order(*base, quantity);
   wish.box = !request.far.empty();
   wish.growth = base->geometry.dimension + 1.0;

@@ -88,10 +88,10 @@ class Climb {
     return fineness;
   }
 
-  /// What the first three spacings of a fineness are expected to take still.
+  /// What the first spacings of a fineness are expected to take still.
   [[nodiscard]] double descent(Fineness fineness) const {
     double seconds = 0.0;
-    for (std::size_t k = 0; k < first_levels; ++k) {
+    for (std::size_t k = 0; k < kept_levels_; ++k) {
       fineness.level = std::min(first_ + k, wish_.spacings.size() - 1);
       if (!expense_.knows(fineness)) seconds += expense_.expected(fineness);
     }
@@ -128,12 +128,20 @@ class Climb {
           fineness_ = second;
           if (!value(second)) fineness_.level = first_;
         }
+        keep_levels();
         return true;
       }
       if (why.empty()) why = reply_.obstacle;
       if (reply_.of_any_run || reply_.out_of_time) break;
     }
     return give_up(reply_.out_of_time ? reply_.obstacle : why);
+  }
+
+  /// Where the budget is too short for three spacings, two say at least how far they are apart.
+  void keep_levels() {
+    Fineness twice = fineness_;
+    twice.steps *= 2.0;
+    if (expense_.expected(twice) + reserve(fineness_) > left()) kept_levels_ = 2;
   }
 
   bool give_up(const std::string& why) {
@@ -143,8 +151,8 @@ class Climb {
   bool too_short_for(const char* what) {
     return give_up(
         fmt::format("the budget of {:.3g} s leaves too little, after {:.3g} s spent, "
-                    "for {} and three spacings",
-                    *wish_.budget, expense_.spent(), what));
+                    "for {} and {} spacings",
+                    *wish_.budget, expense_.spent(), what, kept_levels_ == 2 ? "two" : "three"));
   }
   /// Goes on with what is known.
   bool without(const char* finer) {
@@ -328,11 +336,12 @@ class Climb {
   const Ask& ask_;
   Expense expense_;
   Answer answer_;
-  Reply reply_;              // the last one
-  Fineness fineness_;        // of the answer's run, but for its level
-  std::size_t first_ = 0;    // level of the ladder's coarsest run
-  double resolution_ = 0.0;  // of the scene's own steps
-  std::string short_of_;     // what the budget has left no room for
+  Reply reply_;                             // the last one
+  Fineness fineness_;                       // of the answer's run, but for its level
+  std::size_t first_ = 0;                   // level of the ladder's coarsest run
+  std::size_t kept_levels_ = first_levels;  // that part of the budget is kept back for
+  double resolution_ = 0.0;                 // of the scene's own steps
+  std::string short_of_;                    // what the budget has left no room for
   std::optional<Known> steps_, tolerance_, control_, box_;
 };
 

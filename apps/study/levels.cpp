@@ -146,9 +146,8 @@ std::string list_of(const scene::Point& point) {
   return fmt::format("[{}]", fmt::join(point, ", "));
 }
 
-}  // namespace
-
-std::vector<double> spacings_on_offer(const scene::Scene& scene) {
+/// @param finest  times finer than the scene's own
+std::vector<double> spacings_down_to(const scene::Scene& scene, std::int64_t finest) {
   if (scene::has_elements(scene)) {
     throw program::UsageError(
         "the scene's particles are the elements of its mesh: no spacing makes them finer, a finer "
@@ -157,7 +156,6 @@ std::vector<double> spacings_on_offer(const scene::Scene& scene) {
   const WholeNumbers numbers = whole_numbers_of(scene);
   const std::int64_t divisor = numbers.divisor();
   constexpr double ratio = 1.5;
-  constexpr std::int64_t finest = 8;  // times finer than the scene's own
   std::vector<double> spacings;
   auto k = static_cast<std::int64_t>(
       std::ceil(fewest * static_cast<double>(divisor) / static_cast<double>(numbers.least())));
@@ -169,10 +167,18 @@ std::vector<double> spacings_on_offer(const scene::Scene& scene) {
   return spacings;
 }
 
-std::vector<double> spacings_of_a_ladder(const scene::Scene& scene) {
+}  // namespace
+
+std::vector<double> spacings_on_offer(const scene::Scene& scene) {
+  constexpr std::int64_t finest = 8;
+  return spacings_down_to(scene, finest);
+}
+
+std::vector<double> spacings_of_a_ladder(const scene::Scene& scene, bool budget) {
   constexpr double round_off = 1e-9;
+  constexpr std::int64_t finest = 8, with_a_budget = 64;
   const double coarsest = least_width(scene) / fewest * (1.0 + round_off);
-  std::vector<double> spacings = spacings_on_offer(scene);
+  std::vector<double> spacings = spacings_down_to(scene, budget ? with_a_budget : finest);
   std::erase_if(spacings, [&](double spacing) { return spacing > coarsest; });
   return spacings;
 }

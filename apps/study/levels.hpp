@@ -18,8 +18,9 @@ namespace study {
 [[nodiscard]] std::vector<double> spacings_on_offer(const scene::Scene& scene);
 
 /// Those of them at which a body of regions, its holes, and what is pressed on are some cells wide:
-/// coarser ones are not on their way to a limit yet, though they may do for a draft.
-[[nodiscard]] std::vector<double> spacings_of_a_ladder(const scene::Scene& scene);
+/// coarser ones are not on their way to a limit yet, though they may do for a draft. Where a budget
+/// is what ends the ladder they go on beyond an eighth of the scene's.
+[[nodiscard]] std::vector<double> spacings_of_a_ladder(const scene::Scene& scene, bool budget);
 
 /// Settings that take a scene to a spacing: where particles are graded, all of them become as much
 /// finer or coarser.

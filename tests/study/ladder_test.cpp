@@ -330,8 +330,16 @@ TEST(SpacingsOnOffer, MakeScenesThatAreAccepted) {
 // Six particles across a region, a hole, or what is pressed on: the footing of half width 1.
 TEST(SpacingsOnOffer, ResolveWhatABodyOfRegionsIsMadeOf) {
   for (const char* name : {"crest.toml", "tunnel.toml", "strength_with_depth.toml"}) {
-    EXPECT_LE(spacings_of_a_ladder(shipped(name))[0], 1.0 / 6.0) << name;
+    EXPECT_LE(spacings_of_a_ladder(shipped(name), false)[0], 1.0 / 6.0) << name;
   }
+}
+
+TEST(SpacingsOnOffer, EndWithABudgetAndElseAtAnEighth) {
+  const scene::Scene strip = shipped("prandtl_phi0.toml");
+  const auto without = spacings_of_a_ladder(strip, false), with = spacings_of_a_ladder(strip, true);
+  EXPECT_EQ(without, spacings_on_offer(strip));
+  EXPECT_GE(without.back(), strip.geometry.spacing / 8.0);
+  EXPECT_LT(with.back(), strip.geometry.spacing / 32.0);
 }
 
 // Where only the finest of graded particles became finer, what the others leave would stay unseen.
