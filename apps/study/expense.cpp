@@ -26,13 +26,18 @@ double Expense::ratio(const Fineness& to, const Fineness& from) const {
 }
 
 double Expense::expected(const Fineness& fineness) const {
+  // A run of the same tolerance and steps tells more than one of the same spacing.
+  constexpr double of_tolerance = 10.0, of_steps = 3.0;
+  const auto far = [](double one, double other) { return std::abs(std::log(one / other)); };
   double best = 0.0, seconds = 0.0;
   for (const Paid& paid : paid_) {
-    const double times = ratio(fineness, paid.fineness);
-    const double distance = std::abs(std::log(times));
+    const double distance = of_tolerance * far(paid.fineness.tolerance, fineness.tolerance) +
+                            of_steps * far(paid.fineness.steps, fineness.steps) +
+                            far(paid.fineness.box, fineness.box) +
+                            far(spacings_[paid.fineness.level], spacings_[fineness.level]);
     if (seconds > 0.0 && distance > best) continue;
     best = distance;
-    seconds = paid.seconds * times;
+    seconds = paid.seconds * ratio(fineness, paid.fineness);
   }
   return seconds;
 }
