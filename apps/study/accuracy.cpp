@@ -296,6 +296,7 @@ program::ExitCode find_accuracy(const AccuracyRequest& request, std::ostream& ou
   const auto base = read_varied(request.scene_file, request.settings, {}, err);
   if (!base) return program::ExitCode::input_refused;
   const Quantity quantity = request.quantity ? *request.quantity : quantity_of(*base);
+  check_quantity(*base, quantity);
   Wish wish;
   wish.accuracy = request.accuracy;
   wish.budget = request.budget;

@@ -137,11 +137,15 @@ class Climb {
     return give_up(reply_.out_of_time ? reply_.obstacle : why);
   }
 
-  /// Where the budget is too short for three spacings, two say at least how far they are apart.
+  /// As many spacings as the budget has room for, up to the number of which an order is believed in
+  /// any case: finer steps at too few spacings tell less than coarser ones at more.
   void keep_levels() {
     Fineness twice = fineness_;
     twice.steps *= 2.0;
-    if (expense_.expected(twice) + reserve(fineness_) > left()) kept_levels_ = 2;
+    const double study = expense_.expected(twice);
+    for (kept_levels_ = more_levels; kept_levels_ > 2; --kept_levels_) {
+      if (study + reserve(fineness_) <= left()) return;
+    }
   }
 
   bool give_up(const std::string& why) {
@@ -152,7 +156,7 @@ class Climb {
     return give_up(
         fmt::format("the budget of {:.3g} s leaves too little, after {:.3g} s spent, "
                     "for {} and {} spacings",
-                    *wish_.budget, expense_.spent(), what, kept_levels_ == 2 ? "two" : "three"));
+                    *wish_.budget, expense_.spent(), what, kept_levels_));
   }
   /// Goes on with what is known.
   bool without(const char* finer) {
@@ -184,10 +188,10 @@ class Climb {
     return without(way.needed);
   }
 
-  /// Takes the coarsest of the last runs that is good enough, or else the finest that can still be
-  /// afforded at three spacings; the coarsest where they do not settle, since finer ones are no
-  /// better then. What is a little too much is good enough where none of them is: spacings cost
-  /// less then than more of the same.
+  /// Takes the coarsest of the runs that is good enough, by what the last three say, or else the
+  /// finest that can still be afforded at three spacings; the coarsest where they do not settle,
+  /// since finer ones are no better then. What is a little too much is good enough where none of
+  /// them is: spacings cost less then than more of the same.
   /// @return whether no more runs are needed, or would help
   bool choose(const Refinement& way, const std::vector<double>& times,
               const std::vector<double>& all, std::optional<Known>& known) {
@@ -196,10 +200,10 @@ class Climb {
     for (std::size_t i = begin; i < times.size(); ++i) samples.push_back({1.0 / times[i], all[i]});
     const convergence::Extrapolation found = convergence::extrapolate(samples, 1.0);
     for (const double part : {share, most_share}) {
-      for (std::size_t i = begin; i < times.size(); ++i) {
+      for (std::size_t i = 0; i < times.size(); ++i) {
         Fineness one = fineness_;
         one.*way.member = times[i];
-        if (i > begin && (!settles(found.course) || reserve(one) > left())) break;
+        if (i > 0 && (!settles(found.course) || reserve(one) > left())) break;
         // The extrapolation speaks of the finest; this run's is farther by what lies between.
         double error = found.uncertainty + std::abs(all[i] - all.back());
         if (!settles(found.course)) error = std::max(error, cautious * range_of(all));
@@ -220,9 +224,12 @@ class Climb {
     constexpr double least = 1e-5, half = 0.5;
     constexpr const char* needed = "a tighter tolerance";
     while (true) {
-      const Fineness now = fineness_;
-      Fineness finer = now;
+      Fineness now = fineness_, finer = fineness_;
       finer.tolerance *= tenth;
+      if (!tolerance_ && !allowed(finer, descent(now))) {
+        // The coarsest spacing tells of it as well, if less surely.
+        now.level = finer.level = first_;
+      }
       const auto of_now = value(now);
       if (!of_now) return give_up(reply_.obstacle);
       if (!allowed(finer, descent(now)))
@@ -336,12 +343,12 @@ class Climb {
   const Ask& ask_;
   Expense expense_;
   Answer answer_;
-  Reply reply_;                             // the last one
-  Fineness fineness_;                       // of the answer's run, but for its level
-  std::size_t first_ = 0;                   // level of the ladder's coarsest run
-  std::size_t kept_levels_ = first_levels;  // that part of the budget is kept back for
-  double resolution_ = 0.0;                 // of the scene's own steps
-  std::string short_of_;                    // what the budget has left no room for
+  Reply reply_;                            // the last one
+  Fineness fineness_;                      // of the answer's run, but for its level
+  std::size_t first_ = 0;                  // level of the ladder's coarsest run
+  std::size_t kept_levels_ = more_levels;  // that part of the budget is kept back for
+  double resolution_ = 0.0;                // of the scene's own steps
+  std::string short_of_;                   // what the budget has left no room for
   std::optional<Known> steps_, tolerance_, control_, box_;
 };
 

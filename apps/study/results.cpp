@@ -79,6 +79,7 @@ Result result_of(const campaign::Status& status, const Quantity& quantity) {
 Reference richardson_reference(const std::vector<Vary>& varied, std::size_t key,
                                const std::vector<Result>& results) {
   std::vector<convergence::Sample> samples;
+  std::string why;
   for (const Result& result : results) {
     bool finest = true;
     for (std::size_t k = 0; k < varied.size(); ++k) {
@@ -87,12 +88,13 @@ Reference richardson_reference(const std::vector<Vary>& varied, std::size_t key,
     if (finest && result.value) {
       samples.push_back({varied[key].numbers[result.combination[key]], *result.value});
     }
+    if (finest && !result.value && why.empty()) why = ": " + result.obstacle;
   }
   if (samples.size() < 2) {
     throw program::UsageError(
         fmt::format("--reference richardson: {} of the runs along {} has a value; two are needed "
-                    "at least",
-                    samples.size(), varied[key].key));
+                    "at least{}",
+                    samples.size(), varied[key].key, why));
   }
   const convergence::Extrapolation found = convergence::extrapolate(samples);
   std::string words =
