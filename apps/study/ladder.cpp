@@ -204,8 +204,9 @@ class Climb {
         Fineness one = fineness_;
         one.*way.member = times[i];
         if (i > 0 && (!settles(found.course) || reserve(one) > left())) break;
-        // The extrapolation speaks of the finest; this run's is farther by what lies between.
-        double error = found.uncertainty + std::abs(all[i] - all.back());
+        // The extrapolation speaks of the finest; this run's is farther by all that lies between.
+        const auto from = all.begin() + static_cast<std::ptrdiff_t>(i);
+        double error = found.uncertainty + range_of({from, all.end()});
         if (!settles(found.course)) error = std::max(error, cautious * range_of(all));
         error += resolution_ / times[i];
         known = Known{{way.source, error,

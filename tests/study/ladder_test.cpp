@@ -159,6 +159,18 @@ TEST(TheLadder, CountsAllThatStepsHaveChangedWhereTheyDoNotSettle) {
   EXPECT_GE(answer.parts[1].error, 42687.27 - 42202.17);
 }
 
+// The first lies near the last, but those between do not: it is not as good as the last by that.
+TEST(TheLadder, CountsAllThatLiesBetweenStepsAndTheFinest) {
+  const std::vector<double> made{1.0, 0.95, 0.96, 0.99, 1.0, 1.004, 1.0045, 1.0045, 1.0045};
+  const Wish wish{0.02, std::nullopt, {0.25, 0.2, 0.15}, 2.0, 3.0};
+  const Answer answer = climb(wish, [&](const Fineness& one, double /*allowance*/) {
+    return Reply{made.at(static_cast<std::size_t>(std::log2(one.steps))), 1.0};
+  });
+  ASSERT_GE(answer.parts.size(), 2U);
+  EXPECT_GE(answer.fineness.steps, 8.0);
+  EXPECT_LE(std::abs(answer.value - made.back()), answer.parts[1].error);
+}
+
 // Three values of order 0.3 tell less than a third of the way that is left.
 TEST(TheLadder, BelievesNoThreeSpacingsThatDoNotSettle) {
   std::size_t finest = 0;
