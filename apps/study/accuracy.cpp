@@ -16,6 +16,7 @@
 #include "program/command_line.hpp"
 #include "program/stop_signals.hpp"
 #include "scene/derived.hpp"
+#include "scene/drives.hpp"
 #include "scene/names.hpp"
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
@@ -218,6 +219,22 @@ bool is_of_nearest_particle(const scene::Scene& scene, const Quantity& quantity)
   });
 }
 
+/// Whether something that is moved or loaded ends on a side.
+bool has_an_edge(const scene::Scene& scene) {
+  const auto drives = scene::all_drives(scene);
+  return std::ranges::any_of(drives,
+                             [](const scene::Drive* drive) {
+                               return !drive->range_min.empty() || scene::is_rigid_body(*drive);
+                             }) ||
+         std::ranges::any_of(
+             scene.traction,
+             [](const scene::Traction& traction) { return !traction.range_min.empty(); }) ||
+         std::ranges::any_of(scene.side, [](const scene::OutlineSide& side) {
+           return side.kind == scene::OutlineKind::footing ||
+                  side.kind == scene::OutlineKind::loaded;
+         });
+}
+
 }  // namespace
 
 double parse_accuracy(const std::string& text) {
@@ -288,7 +305,10 @@ double formal_order(const scene::Scene& scene, const Quantity& quantity) {
   const bool between = std::ranges::any_of(scene.support, [&](const scene::Support& support) {
     return !support.at.empty() && scene.geometry.layout == scene::Layout::cell;
   });
-  return between || std::ranges::any_of(scene.material, scene::yields) ? 1.0 : 2.0;
+  if (between) return 1.0;
+  constexpr double of_kinks = 1.5;
+  if (std::ranges::none_of(scene.material, scene::yields)) return 2.0;
+  return has_an_edge(scene) ? 1.0 : of_kinks;
 }
 
 program::ExitCode find_accuracy(const AccuracyRequest& request, std::ostream& out,

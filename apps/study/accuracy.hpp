@@ -46,9 +46,10 @@ struct AccuracyRequest {
 [[nodiscard]] Quantity quantity_of(const scene::Scene& scene);
 
 /// The order with which a spacing's error can be trusted to fall: displacements of what is elastic
-/// converge with second order, but a collapse load only with first, however fast it seems to come
-/// down to it at first, since the edge of a plate is known to half a spacing; and so does whatever
-/// hangs on a support at a point between particles. What is read from the particle nearest to a
+/// converge with second order, but the load of a plate on what yields only with first, however fast
+/// it seems to come down to it at first, since its edge is known to half a spacing; and so does
+/// whatever hangs on a support at a point between particles. What yields without such an edge is in
+/// between, for the kinks where yielding begins. What is read from the particle nearest to a
 /// point is that of a place up to half a spacing off.
 [[nodiscard]] double formal_order(const scene::Scene& scene, const Quantity& quantity);
 

@@ -442,6 +442,9 @@ TEST(TheFormalOrder, IsTheFirstWhereAPlaceIsKnownToHalfASpacing) {
   const Quantity moved = parse_quantity("displacement_x@1,0");
   EXPECT_EQ(formal_order(shipped("block3d.toml"), moved), 2.0);
   EXPECT_EQ(formal_order(shipped("prandtl_phi0.toml"), moved), 1.0) << "the edge of its plate";
+  EXPECT_EQ(formal_order(shipped("strength_with_depth.toml"), moved), 1.0) << "of a side";
+  EXPECT_EQ(formal_order(shipped("compression.toml"), moved), 1.5) << "a plate without an edge";
+  EXPECT_EQ(formal_order(shipped("slope.toml"), moved), 1.5);
   scene::Scene held = shipped("cylinder.toml");
   EXPECT_EQ(formal_order(held, moved), 2.0);
   held.support.emplace_back().at = {1.5, 0.0};
