@@ -114,7 +114,7 @@ class Runs {
     reply.evaluations = result.evaluations;
     reply.obstacle = result.obstacle;
     reply.of_any_run = result.no_such_column;
-    reply.out_of_time = !campaign.status().front().outcome.finished();
+    reply.out_of_time = campaign.status().front().stage == campaign::Status::Stage::waiting;
     if (failing) judge_failure(*scene, result, reply);
     if (said_.insert(name).second) say(name, reply);
     return reply;

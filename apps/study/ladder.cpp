@@ -73,7 +73,7 @@ class Climb {
   std::optional<double> value(const Fineness& fineness) {
     reply_ = ask_(fineness, std::max(left(), 0.0));
     if (expense_.note(fineness, reply_.seconds)) answer_.evaluations += reply_.evaluations;
-    if (reply_.out_of_time) {
+    if (reply_.out_of_time && wish_.budget) {
       reply_.obstacle = fmt::format(
           "the budget of {:.3g} s was spent in the run with spacing {:.4g}, which goes on from "
           "there if there is more of it",
