@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "study/ladder.hpp"
+#include "study/fineness.hpp"
 
 namespace study {
 
