@@ -204,6 +204,7 @@ void Campaign::look_at(std::size_t task) {
   if (const auto code = process.child.exit_code()) return end(task, *code);
   if (status.elapsed < process.looked + look_every) return;
   process.looked = status.elapsed;
+  status.cpu = process.child.cpu_so_far();
   status.fraction = fraction_reached(status.folder / "curve.csv");
 }
 

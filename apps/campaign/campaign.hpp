@@ -44,6 +44,7 @@ struct Status {
   Outcome outcome;               // once it has ended
   double fraction = 0.0;         // 0 .. 1 of its programme
   double elapsed = 0.0;          // [s] of the process that runs
+  double cpu = 0.0;              // [s] of processor time of it
   std::int64_t bytes = 0;        // what fpm-run --check says it needs; 0: not known
   std::int64_t steps = 0;        // planned, likewise
   std::string complaint;         // why it failed or was refused: the last word of fpm-run

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <ctime>
 
 #include "files/durable_file.hpp"
 
@@ -102,6 +103,17 @@ std::optional<int> ChildProcess::exit_code() {
     use_ = use_of(use);
   }
   return code_;
+}
+
+double ChildProcess::cpu_so_far() const {
+  constexpr double nano = 1e-9;
+  if (code_) return use_.cpu;
+  clockid_t clock{};
+  timespec time{};
+  if (::clock_getcpuclockid(process_, &clock) != 0 || ::clock_gettime(clock, &time) != 0) {
+    return 0.0;
+  }
+  return static_cast<double>(time.tv_sec) + nano * static_cast<double>(time.tv_nsec);
 }
 
 void ChildProcess::ask_to_stop() {

@@ -31,6 +31,8 @@ class ChildProcess {
   [[nodiscard]] std::optional<int> exit_code();
   /// What it took, once `exit_code` has told its end; zeros before.
   [[nodiscard]] const ResourceUse& use() const { return use_; }
+  /// Processor time it has taken so far [s]; 0 where the system does not say.
+  [[nodiscard]] double cpu_so_far() const;
   /// Asks it to end, as the user's Ctrl-C does, without waiting for it.
   void ask_to_stop();
 

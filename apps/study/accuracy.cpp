@@ -9,15 +9,19 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <set>
+#include <sstream>
 
 #include "campaign/campaign.hpp"
 #include "files/durable_file.hpp"
 #include "program/command_line.hpp"
 #include "program/stop_signals.hpp"
 #include "scene/derived.hpp"
+#include "scene/drives.hpp"
+#include "scene/names.hpp"
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
+#include "study/failure.hpp"
 #include "study/final_run.hpp"
 #include "study/ladder.hpp"
 #include "study/levels.hpp"
@@ -29,6 +33,10 @@ namespace study {
 namespace {
 
 struct Interrupted {};
+
+std::string first_line(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
 
 /// Makes the runs of the ladder and remembers what they said.
 class Runs {
@@ -45,24 +53,34 @@ class Runs {
         out_(out),
         err_(err) {}
 
-  /// Settings of the scene, as --set takes them.
-  [[nodiscard]] std::vector<std::string> settings_of(const Fineness& fineness) const {
-    std::vector<std::string> settings{
-        fmt::format("geometry.spacing={}", spacings_[fineness.level])};
+  /// Settings of the scene, as --set takes them; nothing, and why, where it is refused.
+  [[nodiscard]] std::optional<std::vector<std::string>> settings_of(const Fineness& fineness,
+                                                                    std::string& refusal) const {
+    std::vector<std::string> settings = settings_of_spacing(base_, spacings_[fineness.level]);
     for (std::string& setting : widened(base_, far_, fineness.box)) {
       settings.push_back(std::move(setting));
     }
-    const auto plain = read_varied(request_.scene_file, request_.settings, settings, err_);
-    if (!plain) throw program::UsageError("no run with such a spacing");
-    const auto steps = static_cast<double>(scene::nominal_steps(*plain)) * fineness.steps;
-    settings.push_back(fmt::format("programme.steps={}", std::llround(steps)));
+    std::ostringstream complaints;
+    const auto plain = read_varied(request_.scene_file, request_.settings, settings, complaints);
+    if (!plain) {
+      refusal = first_line(complaints.str());
+      return std::nullopt;
+    }
+    for (std::string& setting : settings_of_steps(*plain, fineness.steps)) {
+      settings.push_back(std::move(setting));
+    }
     const double tolerance = scene::resolve_solver(*plain).tolerance * fineness.tolerance;
     settings.push_back(fmt::format("solver.tolerance={}", tolerance));
+    // A tighter tolerance takes more of them, and must not be stopped by a limit made for less.
+    constexpr std::int64_t more = 10;
+    const std::int64_t most =
+        (fineness.tolerance != 1.0 ? more : 1) * plain->solver.max_evaluations_per_step;
     if (fineness.tolerance != 1.0) {
-      // A tighter tolerance takes more of them, and must not be stopped by a limit made for less.
-      settings.push_back(fmt::format("solver.max_evaluations_per_step={}",
-                                     10 * plain->solver.max_evaluations_per_step));
+      settings.push_back(fmt::format("solver.max_evaluations_per_step={}", most));
     }
+    // Steps that are halved where they are hard, and grow again, would differ from run to run, and
+    // the load with them.
+    settings.push_back(fmt::format("programme.hard_evaluations={}", most));
     if (fineness.control != 1.0) {
       settings.push_back(fmt::format("hourglass.stiffness_ratio={}",
                                      scene::resolve_stiffness_ratio(*plain) * fineness.control));
@@ -70,39 +88,64 @@ class Runs {
     return settings;
   }
 
-  std::vector<std::optional<Reply>> operator()(const std::vector<Fineness>& asked) {
-    std::vector<campaign::Task> tasks;
-    for (const Fineness& one : asked) {
-      const auto scene =
-          read_varied(request_.scene_file, request_.settings, settings_of(one), err_);
-      if (!scene) throw program::UsageError("a run of the ladder is refused");
-      std::string name = fmt::format("spacing {}, steps x {}, tolerance x {}, control x {}",
-                                     spacings_[one.level], one.steps, one.tolerance, one.control);
-      if (one.box != 1.0) name += fmt::format(", box x {}", one.box);
-      tasks.push_back({std::move(name), campaign::task_scene(with_measure(*scene, quantity_))});
+  Reply operator()(const Fineness& one, double allowance) {
+    Reply reply;
+    std::ostringstream complaints;
+    auto settings = settings_of(one, reply.obstacle);
+    if (!settings) return reply;
+    // The failure that is sought ends a run; one without it has no answer.
+    const bool failing = is_of_a_failure(quantity_);
+    if (failing) settings->emplace_back("programme.stop_at_failure=true");
+    const auto scene = read_varied(request_.scene_file, request_.settings, *settings, complaints);
+    if (!scene) {
+      reply.obstacle = first_line(complaints.str());
+      return reply;
     }
+    const std::string name = name_of(one);
     campaign::Campaign campaign(
-        tasks, {request_.programs / "fpm-run", folder_ / "runs", request_.jobs, request_.threads});
-    campaign.run([&](const auto&) { return signals_.received() == 0; });
+        {{name, campaign::task_scene(with_measure(*scene, quantity_))}},
+        {request_.programs / "fpm-run", folder_ / "runs", request_.jobs, request_.threads});
+    const auto in_time = [&](const campaign::Status& run) { return run.cpu < allowance; };
+    campaign.run([&](const auto& all) { return signals_.received() == 0 && in_time(all.front()); });
     if (signals_.received() != 0) throw Interrupted{};
-    std::vector<std::optional<Reply>> replies;
-    for (std::size_t i = 0; i < tasks.size(); ++i) {
-      const Result result = result_of(campaign.status()[i], quantity_);
-      replies.push_back(
-          result.value ? std::optional(Reply{*result.value, result.cost.cpu, result.evaluations})
-                       : std::nullopt);
-      if (said_.insert(tasks[i].name).second) say(tasks[i].name, result);
-    }
-    return replies;
+    const Result result = result_of(campaign.status().front(), quantity_);
+    reply.value = result.value;
+    reply.seconds = result.cost.cpu;
+    reply.evaluations = result.evaluations;
+    reply.obstacle = result.obstacle;
+    reply.of_any_run = result.no_such_column;
+    reply.out_of_time = campaign.status().front().stage == campaign::Status::Stage::waiting;
+    if (failing) judge_failure(*scene, result, reply);
+    if (said_.insert(name).second) say(name, reply);
+    return reply;
   }
 
  private:
-  void say(const std::string& name, const Result& result) {
+  [[nodiscard]] std::string name_of(const Fineness& one) const {
+    std::string name = fmt::format("spacing {:.4g}, steps x {}, tolerance x {:.3g}, control x {}",
+                                   spacings_[one.level], one.steps, one.tolerance, one.control);
+    if (one.box != 1.0) name += fmt::format(", box x {}", one.box);
+    return name;
+  }
+
+  /// A failure is met in the smallest increments; what bears all of its load has none.
+  void judge_failure(const scene::Scene& scene, const Result& result, Reply& reply) const {
+    reply.resolution = failure_resolution(scene, quantity_);
+    if (!result.value || result.exit_code != 0) return;
+    reply.value.reset();
+    reply.obstacle = fmt::format(
+        "it bears all that it is loaded with, and {} = {} is where its programme ends, not where "
+        "it fails",
+        quantity_.text, *result.value);
+  }
+
+  void say(const std::string& name, const Reply& reply) {
     if (request_.quiet) return;
-    const std::string value = result.value
-                                  ? fmt::format("{:.7g}, {:.2f} s", *result.value, result.cost.cpu)
-                                  : result.obstacle;
-    out_ << fmt::format("  {}: {}", name, value) << std::endl;
+    const std::string words = reply.value
+                                  ? fmt::format("{:.7g}, {:.2f} s", *reply.value, reply.seconds)
+                              : reply.out_of_time ? "stopped, the budget is spent"
+                                                  : reply.obstacle;
+    out_ << fmt::format("  {}: {}", name, words) << std::endl;
   }
 
   const AccuracyRequest& request_;
@@ -166,6 +209,32 @@ std::string answer_json(const AccuracyRequest& request, const Quantity& quantity
   return all.dump(1) + "\n";
 }
 
+/// Whether it is a stress or plastic strain, which measures take from the nearest particle.
+bool is_of_nearest_particle(const scene::Scene& scene, const Quantity& quantity) {
+  if (!quantity.field.empty()) return quantity.field != "displacement";
+  return std::ranges::any_of(scene.measure, [&](const scene::Measure& measure) {
+    const bool nearest = measure.kind == scene::MeasureKind::stress ||
+                         measure.kind == scene::MeasureKind::plastic_strain;
+    return nearest && quantity.column.starts_with(measure.name + "_");
+  });
+}
+
+/// Whether something that is moved or loaded ends on a side.
+bool has_an_edge(const scene::Scene& scene) {
+  const auto drives = scene::all_drives(scene);
+  return std::ranges::any_of(drives,
+                             [](const scene::Drive* drive) {
+                               return !drive->range_min.empty() || scene::is_rigid_body(*drive);
+                             }) ||
+         std::ranges::any_of(
+             scene.traction,
+             [](const scene::Traction& traction) { return !traction.range_min.empty(); }) ||
+         std::ranges::any_of(scene.side, [](const scene::OutlineSide& side) {
+           return side.kind == scene::OutlineKind::footing ||
+                  side.kind == scene::OutlineKind::loaded;
+         });
+}
+
 }  // namespace
 
 double parse_accuracy(const std::string& text) {
@@ -215,19 +284,31 @@ Quantity quantity_of(const scene::Scene& scene) {
     if (scene.drive.width) return parse_quantity("mean_pressure_Pa");
     return parse_quantity(scene.geometry.dimension == 2 ? "reaction_N_per_m" : "reaction_N");
   }
+  if (scene.drive.kind == scene::DriveKind::strength) return parse_quantity("strength_reduction");
+  std::string measured;
   for (const scene::Measure& measure : scene::resolve_measures(scene)) {
-    if (measure.kind != scene::MeasureKind::max_displacement) continue;
-    return parse_quantity(measure.name + "_max_displacement_m");
+    if (measure.kind == scene::MeasureKind::max_displacement) {
+      return parse_quantity(measure.name + "_max_displacement_m");
+    }
+    measured += fmt::format(", {} of its measure {}",
+                            scene::names_of(measure.kind)[static_cast<std::size_t>(measure.kind)],
+                            measure.name);
   }
-  throw program::UsageError(
-      "--quantity is missing: the scene measures several things, and any of them may be meant");
+  throw program::UsageError(fmt::format(
+      "--quantity is missing: several may be meant{}; load_parameter, where what grows fails; or a "
+      "field at a point, as displacement_y@1,0",
+      measured));
 }
 
-double formal_order(const scene::Scene& scene) {
+double formal_order(const scene::Scene& scene, const Quantity& quantity) {
+  if (is_of_nearest_particle(scene, quantity)) return 1.0;
   const bool between = std::ranges::any_of(scene.support, [&](const scene::Support& support) {
     return !support.at.empty() && scene.geometry.layout == scene::Layout::cell;
   });
-  return between || std::ranges::any_of(scene.material, scene::yields) ? 1.0 : 2.0;
+  if (between) return 1.0;
+  constexpr double of_kinks = 1.5;
+  if (std::ranges::none_of(scene.material, scene::yields)) return 2.0;
+  return has_an_edge(scene) ? 1.0 : of_kinks;
 }
 
 program::ExitCode find_accuracy(const AccuracyRequest& request, std::ostream& out,
@@ -235,11 +316,12 @@ program::ExitCode find_accuracy(const AccuracyRequest& request, std::ostream& ou
   const auto base = read_varied(request.scene_file, request.settings, {}, err);
   if (!base) return program::ExitCode::input_refused;
   const Quantity quantity = request.quantity ? *request.quantity : quantity_of(*base);
+  check_quantity(*base, quantity);
   Wish wish;
   wish.accuracy = request.accuracy;
   wish.budget = request.budget;
-  wish.spacings = spacings_on_offer(*base);
-  wish.formal = formal_order(*base);
+  wish.spacings = spacings_of_a_ladder(*base, request.budget.has_value());
+  wish.formal = formal_order(*base, quantity);
   wish.box = !request.far.empty();
   wish.growth = base->geometry.dimension + 1.0;
   if (wish.spacings.size() < 3) {
@@ -252,8 +334,11 @@ program::ExitCode find_accuracy(const AccuracyRequest& request, std::ostream& ou
   std::vector<std::string> settings;
   try {
     Runs runs(request, quantity, *base, wish.spacings, folder / "accuracy", out, err);
-    answer = climb(wish, [&](const std::vector<Fineness>& asked) { return runs(asked); });
-    settings = runs.settings_of(answer->fineness);
+    answer =
+        climb(wish, [&](const Fineness& one, double allowance) { return runs(one, allowance); });
+    std::string refusal;
+    settings = runs.settings_of(answer->fineness, refusal).value_or(std::vector<std::string>{});
+    if (is_of_a_failure(quantity)) settings.emplace_back("programme.stop_at_failure=false");
   } catch (const Interrupted&) {
     err << "interrupted; the same command goes on, what is finished is not run again\n";
     return program::ExitCode::interrupted;

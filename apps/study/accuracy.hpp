@@ -40,15 +40,18 @@ struct AccuracyRequest {
 [[nodiscard]] double parse_budget(const std::string& text);
 
 /// What a scene is run for: the mean pressure of a footing, the reaction of another displacement,
-/// the largest displacement of a load.
-/// @throws UsageError if the scene measures something else: then the user must say.
+/// what strength is divided by when it no longer bears, the largest displacement of a load.
+/// @throws UsageError if the scene measures something else: then the user must say, and is told
+/// what there is.
 [[nodiscard]] Quantity quantity_of(const scene::Scene& scene);
 
 /// The order with which a spacing's error can be trusted to fall: displacements of what is elastic
-/// converge with second order, but a collapse load only with first, however fast it seems to come
-/// down to it at first, since the edge of a plate is known to half a spacing; and so does whatever
-/// hangs on a support at a point between particles.
-[[nodiscard]] double formal_order(const scene::Scene& scene);
+/// converge with second order, but the load of a plate on what yields only with first, however fast
+/// it seems to come down to it at first, since its edge is known to half a spacing; and so does
+/// whatever hangs on a support at a point between particles. What yields without such an edge is in
+/// between, for the kinks where yielding begins. What is read from the particle nearest to a
+/// point is that of a place up to half a spacing off.
+[[nodiscard]] double formal_order(const scene::Scene& scene, const Quantity& quantity);
 
 /// Finds the cheapest setting that meets the wish, says the answer with its error bar and the parts
 /// of it, writes accuracy.json, and becomes the run of that setting in the output folder.

@@ -7,28 +7,24 @@
 #include <vector>
 
 #include "convergence/convergence.hpp"
+#include "study/fineness.hpp"
 
 namespace study {
 
-/// How fine a run is, beside the scene's own settings.
-struct Fineness {
-  std::size_t level = 0;   // of the spacings on offer, coarsest first
-  double steps = 1.0;      // times the scene's at that spacing
-  double tolerance = 1.0;  // times the scene's
-  double control = 1.0;    // times the scene's stiffness of the zero-energy control
-  double box = 1.0;        // times as far to the sides that are far
-  bool operator==(const Fineness&) const = default;
-};
-
-/// What a run says; nothing if it has no such value.
+/// What a run says.
 struct Reply {
-  double value = 0.0;
+  std::optional<double> value;
   double seconds = 0.0;  // of processor time
   std::int64_t evaluations = 0;
+  double resolution = 0.0;   // how far the value may be off, since a failure is met in increments
+  std::string obstacle{};    // why there is no value
+  bool of_any_run = false;   // and no other run will have one
+  bool out_of_time = false;  // it was stopped when its allowance was spent
 };
 
-/// Makes runs, all of a list at a time; each is made once, however often it is asked for.
-using Ask = std::function<std::vector<std::optional<Reply>>(const std::vector<Fineness>&)>;
+/// Makes a run within an allowance of processor time [s]; each is made once, however often it is
+/// asked for.
+using Ask = std::function<Reply(const Fineness&, double allowance)>;
 
 struct Wish {
   double accuracy = 0.02;        // of the value
@@ -61,7 +57,9 @@ struct Answer {
 /// Climbs the ladder: first the steps and the tolerance are made fine enough, and the box wide
 /// enough, by runs at a coarse spacing, each to a quarter of what is wished at most; then spacings
 /// fall until the rest of it is not exceeded by what Richardson's safeguarded extrapolation leaves
-/// of them.
+/// of them. A budget is kept: no run begins that is not expected to fit into what is left of it,
+/// three spacings' worth of it are kept back while the rest is looked at, and a run that takes
+/// longer all the same is stopped.
 [[nodiscard]] Answer climb(const Wish& wish, const Ask& ask);
 
 }  // namespace study

@@ -17,6 +17,19 @@ namespace study {
 /// @throws UsageError if the particles are the elements of a mesh
 [[nodiscard]] std::vector<double> spacings_on_offer(const scene::Scene& scene);
 
+/// Those of them at which a body of regions, its holes, and what is pressed on are some cells wide:
+/// coarser ones are not on their way to a limit yet, though they may do for a draft. Where a budget
+/// is what ends the ladder they go on beyond an eighth of the scene's.
+[[nodiscard]] std::vector<double> spacings_of_a_ladder(const scene::Scene& scene, bool budget);
+
+/// Settings that take a scene to a spacing: where particles are graded, all of them become as much
+/// finer or coarser.
+[[nodiscard]] std::vector<std::string> settings_of_spacing(const scene::Scene& scene,
+                                                           double spacing);
+
+/// Settings that take so many times as many steps, in each stage.
+[[nodiscard]] std::vector<std::string> settings_of_steps(const scene::Scene& scene, double times);
+
 /// Sides of a body, as `left,bottom`, that are only where the ground that is looked at ends.
 /// @throws UsageError unless each is a side of the scene's body that more ground may lie beyond: no
 /// mirror, nor the side that is moved.

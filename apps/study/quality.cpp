@@ -60,7 +60,7 @@ std::vector<std::string> settings_of(Quality quality, const scene::Scene& scene)
     if (!best || off(spacing) < off(*best)) best = spacing;
   }
   std::vector<std::string> settings;
-  if (best) settings.push_back(fmt::format("geometry.spacing={}", *best));
+  if (best) settings = settings_of_spacing(scene, *best);
   if (quality == Quality::draft && may_be_loose(scene)) {
     const double tolerance = scene::resolve_solver(scene).tolerance;
     settings.push_back(

@@ -12,6 +12,7 @@
 
 #include "files/durable_file.hpp"
 #include "program/command_line.hpp"
+#include "scene/box.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
 #include "tables/nearest_name.hpp"
@@ -172,6 +173,30 @@ Quantity parse_quantity(const std::string& text) {
   return quantity;
 }
 
+void check_quantity(const scene::Scene& scene, const Quantity& quantity) {
+  if (quantity.field.empty()) return;
+  const scene::Geometry& body = scene.geometry;
+  const auto refuse_it = [&](const std::string& why) {
+    throw program::UsageError(fmt::format("--quantity {}: {}", quantity.text, why));
+  };
+  const std::string_view what = std::string_view(quantity.text).substr(0, quantity.text.find('@'));
+  constexpr std::array<std::string_view, 3> of_space{"displacement_z", "stress_yz", "stress_zx"};
+  if (body.dimension == 2 && std::ranges::find(of_space, what) != of_space.end()) {
+    refuse_it("the body is a plane one, and has no such component");
+  }
+  if (quantity.point.size() != body.min.size()) {
+    refuse_it(
+        fmt::format("found {} coordinates; needed are {}", quantity.point.size(), body.min.size()));
+  }
+  const double slack = scene::same_place(body);
+  for (std::size_t axis = 0; axis < body.min.size(); ++axis) {
+    const double at = quantity.point[axis];
+    if (at >= body.min[axis] - slack && at <= body.max[axis] + slack) continue;
+    refuse_it(fmt::format("found {} along {}; the body is from {} to {}", at,
+                          std::string_view("xyz").substr(axis, 1), body.min[axis], body.max[axis]));
+  }
+}
+
 scene::Scene with_measure(const scene::Scene& scene, const Quantity& quantity) {
   scene::Scene measuring = scene;
   if (quantity.field.empty()) return measuring;
@@ -221,7 +246,8 @@ Reading value_in(const Columns& table, const Quantity& quantity) {
     return Reading{{},
                    fmt::format("there is no column {}{}; columns are {}", wanted,
                                nearest.empty() ? "" : " (did you mean \"" + nearest + "\"?)",
-                               fmt::join(table.names, ", "))};
+                               fmt::join(table.names, ", ")),
+                   true};
   };
   const std::vector<double>* values = values_of(quantity.column);
   if (values == nullptr) return none(quantity.column);

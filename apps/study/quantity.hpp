@@ -40,6 +40,10 @@ struct Quantity {
 /// @throws UsageError saying which forms there are.
 [[nodiscard]] Quantity parse_quantity(const std::string& text);
 
+/// Holds a field at a point against a scene.
+/// @throws UsageError if the body has no such direction, or the point is not in its box.
+void check_quantity(const scene::Scene& scene, const Quantity& quantity);
+
 /// The scene with what it must measure for the quantity to be in its curve.
 [[nodiscard]] scene::Scene with_measure(const scene::Scene& scene, const Quantity& quantity);
 
@@ -56,6 +60,7 @@ struct Quantity {
 struct Reading {
   std::optional<double> value;
   std::string obstacle;
+  bool no_such_column = false;
 };
 [[nodiscard]] Reading value_in(const Columns& table, const Quantity& quantity);
 

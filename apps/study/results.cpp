@@ -8,6 +8,8 @@
 
 #include "files/file_error.hpp"
 #include "program/command_line.hpp"
+#include "program/exit_code.hpp"
+#include "study/failure.hpp"
 
 namespace study {
 
@@ -60,10 +62,14 @@ Result result_of(const campaign::Status& status, const Quantity& quantity) {
     const Columns table = read_columns(status.folder / "curve.csv");
     result.steps = static_cast<std::int64_t>(table.values[0].back());
     result.evaluations = static_cast<std::int64_t>(sum_of(table, "evaluations"));
-    const bool whole = status.outcome.exit_code == 0 || quantity.kind == Quantity::Kind::at;
+    const bool failed = status.outcome.exit_code == to_int(program::ExitCode::not_converged);
+    const bool whole = status.outcome.exit_code == 0 || quantity.kind == Quantity::Kind::at ||
+                       (failed && is_of_a_failure(quantity));
     const Reading reading = value_in(table, quantity);
+    result.no_such_column = reading.no_such_column;
     if (whole && reading.value && std::isfinite(*reading.value)) result.value = reading.value;
-    if (whole && !reading.value) result.obstacle = reading.obstacle;
+    if (result.value) result.obstacle.clear();
+    if ((whole || reading.no_such_column) && !reading.value) result.obstacle = reading.obstacle;
   } catch (const files::FileError& failure) {
     if (result.obstacle.empty()) result.obstacle = failure.what();
   }
@@ -73,6 +79,7 @@ Result result_of(const campaign::Status& status, const Quantity& quantity) {
 Reference richardson_reference(const std::vector<Vary>& varied, std::size_t key,
                                const std::vector<Result>& results) {
   std::vector<convergence::Sample> samples;
+  std::string why;
   for (const Result& result : results) {
     bool finest = true;
     for (std::size_t k = 0; k < varied.size(); ++k) {
@@ -81,12 +88,13 @@ Reference richardson_reference(const std::vector<Vary>& varied, std::size_t key,
     if (finest && result.value) {
       samples.push_back({varied[key].numbers[result.combination[key]], *result.value});
     }
+    if (finest && !result.value && why.empty()) why = ": " + result.obstacle;
   }
   if (samples.size() < 2) {
     throw program::UsageError(
         fmt::format("--reference richardson: {} of the runs along {} has a value; two are needed "
-                    "at least",
-                    samples.size(), varied[key].key));
+                    "at least{}",
+                    samples.size(), varied[key].key, why));
   }
   const convergence::Extrapolation found = convergence::extrapolate(samples);
   std::string words =

@@ -27,6 +27,7 @@ struct Result {
   std::optional<int> exit_code;
   std::optional<double> value;
   std::string obstacle;         // why there is no value
+  bool no_such_column = false;  // and no run of the scene has one
   std::optional<double> error;  // value - reference
   campaign::Cost cost;
   std::int64_t steps = 0;
@@ -34,7 +35,8 @@ struct Result {
   bool on_front = false;
 };
 
-/// The result of a run, read from its curve.
+/// The result of a run, read from its curve. One that did not converge has a value if it passed
+/// what is asked for before, or if the failure itself is what is asked for.
 [[nodiscard]] Result result_of(const campaign::Status& status, const Quantity& quantity);
 
 /// The reference by Richardson's extrapolation along a key, the others at their last values.

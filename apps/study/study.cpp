@@ -139,6 +139,7 @@ std::optional<std::vector<campaign::Task>> tasks_of(const Request& request,
     const auto scene = read_varied(request.scene_file, request.settings,
                                    settings_of(request.varied, combination), err);
     if (!scene) return std::nullopt;
+    check_quantity(*scene, request.quantity);
     tasks.push_back({words_for(request.varied, combination),
                      campaign::task_scene(with_measure(*scene, request.quantity))});
   }

@@ -82,6 +82,16 @@ bool may_measure_noise(const Solve& solve) {
   return solve.options.jacobian.measure_noise && (!rescue.noise_measured || again);
 }
 
+bool changes_farther_off(Solve& solve) {
+  if (!solve.evaluator.differences()) return false;
+  constexpr double far = 1e-4;  // of 1 + ||u||: beyond the root of the precision of floats
+  Workspace& work = solve.work;
+  const InnerProductRef& product = solve.evaluator.product();
+  random_direction(noise_projections, product, work.step);
+  const double scale = std::max(1.0, product.norm(work.best.u));
+  return look(solve, far * scale) == Outcome::ok && work.trial.r != work.best.r;
+}
+
 bool adapt_to_noise(Solve& solve, Ending& ending) {
   // Three spans, as far as the noise is not seen in the first (Moré & Wild 2011, section 5).
   constexpr int max_spans = 3;

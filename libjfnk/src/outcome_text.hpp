@@ -18,11 +18,15 @@ namespace jfnk::detail {
 /// What is wrong with an F that did not overwrite a component of r.
 [[nodiscard]] std::string unwritten_text(Eigen::Index component);
 
-/// One sentence on why the solve ended, with its numbers, and what to try if it failed.
-/// @param decades  that the first u spans
-[[nodiscard]] std::string reason(const Report& report, const Options& options, double decades);
+/// How large the components of a vector are that are not zero.
+struct Sizes {
+  double decades = 0.0;  ///< between the lower and the upper tenth of the |v_i|
+  double typical = 0.0;  ///< their median; 0 if all are zero
+};
+[[nodiscard]] Sizes sizes_of(const Vector& v);
 
-/// Decades between the lower and the upper tenth of the |v_i| that are not zero; 0 if none are.
-[[nodiscard]] double decades_of(const Vector& v);
+/// One sentence on why the solve ended, with its numbers, and what to try if it failed.
+/// @param first  sizes of the first u, for a word on units
+[[nodiscard]] std::string reason(const Report& report, const Options& options, const Sizes& first);
 
 }  // namespace jfnk::detail

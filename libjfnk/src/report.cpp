@@ -119,7 +119,10 @@ std::string advice(const Report& report) {
   const bool own_action = report.counts.user_actions > 0;
   switch (report.trouble) {
     case Trouble::flat:
-      return "; J v = 0 for all v tried: F, or what is not solved of it, does not change with u";
+      return "; J v = 0 for all v tried: F, or what is not solved of it, does not change with u" +
+             std::string(own_action ? ""
+                                    : ", or over longer ways only than differences are (see "
+                                      "u_scale and jacobian.noise)");
     case Trouble::singular:
       return "; J is singular: equations repeat or contradict each other, or F lacks an unknown";
     case Trouble::krylov_capped:
@@ -150,16 +153,35 @@ std::string advice(const Report& report) {
              : "; start closer to the solution";
 }
 
-/// A word on units, if the unknowns are far apart and nobody has said how large they are.
-std::string units_text(double decades, const Options& options) {
-  constexpr double far = 4.0;
-  if (options.u_scale.size() > 0 || decades < far) return {};
-  return "; the unknowns of the first u are " + std::to_string(static_cast<int>(decades)) +
-         " decades apart: give u_scale and f_scale";
+/// A word on units, if the unknowns are far apart, or far from one, and nobody has said how large
+/// they are.
+std::string units_text(const Sizes& first, const Options& options) {
+  constexpr double far = 4.0, small = 1e-6, large = 1e6;
+  if (options.u_scale.size() > 0) return {};
+  if (first.decades >= far) {
+    return "; the unknowns of the first u are " + std::to_string(static_cast<int>(first.decades)) +
+           " decades apart: give u_scale and f_scale";
+  }
+  const bool told = options.jacobian.length_scale > 0.0;
+  if (told || first.typical == 0.0 || (first.typical >= small && first.typical <= large)) return {};
+  return "; differences are made for unknowns of order one, and those of the first u are of " +
+         number(first.typical, 1) + ": give u_scale";
+}
+
+/// Noise that reaches so high is none to stop at: no less could be asked for than what there was.
+bool is_a_jump(const Report& report) {
+  constexpr double high = 0.1;
+  return !(report.measured_noise < high * report.initial_residual_norm);
 }
 
 std::string noise_text(const Report& report) {
   constexpr double safe = 2.0;
+  if (is_a_jump(report)) {
+    return "F jumps near u, or is noise, by " + number(report.measured_noise) +
+           ", which is of the " + "order of ||F|| at the start, " +
+           number(report.initial_residual_norm) +
+           ": nothing can be sought below it; look at F with jfnk::check, or start elsewhere";
+  }
   const double noise = std::max(report.measured_noise, report.residual_norm);
   return "||F|| = " + number(report.residual_norm) + " is at the noise or rounding of F, " +
          number(report.measured_noise) + ", and the tolerance " + number(report.tolerance) +
@@ -181,19 +203,19 @@ Eigen::Index first_not_finite(const Vector& v, bool written_only) {
   return -1;
 }
 
-double decades_of(const Vector& v) {
+Sizes sizes_of(const Vector& v) {
   constexpr std::ptrdiff_t tenth = 10;
   std::vector<double> sizes;
   for (const double value : v) {
     if (value != 0.0 && std::isfinite(value)) sizes.push_back(std::abs(value));
   }
-  if (sizes.empty()) return 0.0;
+  if (sizes.empty()) return {};
   const auto count = static_cast<std::ptrdiff_t>(sizes.size());
   const auto at = [&](std::ptrdiff_t i) {
     std::nth_element(sizes.begin(), sizes.begin() + i, sizes.end());
-    return std::log10(sizes[static_cast<std::size_t>(i)]);
+    return sizes[static_cast<std::size_t>(i)];
   };
-  return at(count - 1 - count / tenth) - at(count / tenth);
+  return {std::log10(at(count - 1 - count / tenth)) - std::log10(at(count / tenth)), at(count / 2)};
 }
 
 std::string unwritten_text(Eigen::Index component) {
@@ -201,8 +223,8 @@ std::string unwritten_text(Eigen::Index component) {
          " of r, or added to what was there (r arrives full of NaN): it must overwrite all of r";
 }
 
-std::string reason(const Report& report, const Options& options, double decades) {
-  const std::string hints = advice(report) + units_text(decades, options);
+std::string reason(const Report& report, const Options& options, const Sizes& first) {
+  const std::string hints = advice(report) + units_text(first, options);
   switch (report.status) {
     case Status::converged:
       return "||F|| = " + number(report.residual_norm) + " met the tolerance " +
@@ -214,7 +236,7 @@ std::string reason(const Report& report, const Options& options, double decades)
                                                : "; raise max_iterations");
     case Status::evaluation_limit:
       return "max_evaluations = " + std::to_string(options.max_evaluations) +
-             " is used up: " + where(report) + units_text(decades, options);
+             " is used up: " + where(report) + units_text(first, options);
     case Status::line_search_failed:
       return "no step along the Newton direction reduced ||F||: " + where(report) + hints;
     case Status::stagnated:
@@ -236,7 +258,7 @@ std::string reason(const Report& report, const Options& options, double decades)
              "system: " +
              where(report) + hints;
     case Status::noise_floor:
-      return noise_text(report);
+      return noise_text(report) + units_text(first, options);
     case Status::not_started:
       return "no solve was started";
     case Status::threw:

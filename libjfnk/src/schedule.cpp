@@ -198,7 +198,8 @@ Ending after_newton(Solve& solve, Ending ending) {
     next_round(solve);
     return Ending::go_on;
   }
-  if (solve.report.trouble != Trouble::flat && may_measure_noise(solve)) {
+  const bool flat = solve.report.trouble == Trouble::flat;
+  if (may_measure_noise(solve) && (!flat || changes_farther_off(solve))) {
     Ending interrupted = Ending::go_on;
     const int left = course.stage.limit - course.stage.iterations;
     if (adapt_to_noise(solve, interrupted)) {

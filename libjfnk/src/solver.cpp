@@ -163,7 +163,7 @@ void finish(Solve& solve, Status status) {
     }
   }
   const bool failed = status != Status::converged && !report.history.empty();
-  report.reason = reason(report, solve.options, failed ? decades_of(solve.work.first.u) : 0.0);
+  report.reason = reason(report, solve.options, failed ? sizes_of(solve.work.first.u) : Sizes{});
 }
 
 /// A failed line search is a local minimum if J v was right and yet of no use, or if the last
@@ -286,7 +286,7 @@ bool unless_thrown(Course& course, Report& report, Call&& call) {
   } catch (...) {
     course = {};
     report.status = Status::threw;
-    report.reason = reason(report, {}, 0.0);
+    report.reason = reason(report, {}, {});
     throw;
   }
 }

@@ -75,6 +75,10 @@ struct LinearSolution {
 /// @param[out] ending  noise_floor if there is nothing to be had below it
 [[nodiscard]] bool adapt_to_noise(Solve& solve, Ending& ending);
 
+/// Whether an F that did not change over the length of a difference does over a longer way: one
+/// that is computed in single precision, or whose unknowns are large. One residual.
+[[nodiscard]] bool changes_farther_off(Solve& solve);
+
 /// Whether the least squares of the multisecant stages are in the norm of P F.
 [[nodiscard]] bool in_preconditioned_norm(const Solve& solve);
 

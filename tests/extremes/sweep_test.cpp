@@ -229,6 +229,50 @@ TEST(Axis, Steps) {
                  [](const Squeezed&) { return true; }));
 }
 
+// Clay squeezed to 0.7 of its height bears 2 c, whichever particles are neighbours; the least
+// trigger is passed in every step.
+TEST(Axis, ReSearch) {
+  const std::vector<double> triggers{1e-6, 0.01, 0.15, 10.0};
+  constexpr double cohesion = 1e3;
+  constexpr int steps = 30;
+  Axis axis{"strain at which neighbours are sought anew",
+            "squeezed clay at 0.7 of its height, strength", 1e-4,
+            "solver's tolerance of 1e-6, thirty steps"};
+  for (const double trigger : triggers) {
+    axis.samples.push_back(
+        {fmt::format("{}", trigger),
+         box(0, 0, 0.5, 1, 0.1) +
+             fmt::format("[[material]]\nname = \"clay\"\nmodel = \"mohr_coulomb\"\n"
+                         "youngs_modulus = {}\npoissons_ratio = 0.3\ncohesion = {}\n"
+                         "friction_angle = 0.0\ndilation_angle = 0.0\n",
+                         2e3 * cohesion, cohesion) +
+             on_rollers +
+             fmt::format("[drive]\nkind = \"displacement\"\nside = \"top\"\nlateral = \"free\"\n"
+                         "direction = [0.0, -1.0]\ntarget = 0.3\nwidth = 0.5\n"
+                         "[solver]\ntolerance = 1e-6\nmax_evaluations_per_step = 5000\n"
+                         "[programme]\nsteps = {}\n[re_search]\nenabled = true\ntrigger = {}\n",
+                         steps, trigger)});
+  }
+  axis.course = [&](const verification::TestScene& scene, std::size_t k) {
+    PlaneRun run{scene};
+    int searches = 0;
+    while (!run.stepper.finished()) {
+      const stepping::StepResult result = run.stepper.advance();
+      if (result.outcome != stepping::StepOutcome::converged) {
+        throw std::runtime_error(result.reason);
+      }
+      searches += result.record.re_searched_rows > 0 ? 1 : 0;
+    }
+    expect_finite(run);
+    const int least = k == 0 ? steps : 0;
+    const int most = k + 1 == triggers.size() ? 0 : searches;
+    EXPECT_GE(searches, least) << "at every step";
+    EXPECT_LE(searches, most) << "at none";
+    return (run.state.stress.row(1).array() + 2.0 * cohesion).abs().maxCoeff() / (2.0 * cohesion);
+  };
+  sweep(axis);
+}
+
 // Without lateral strain the logarithmic law is exact whatever the steps: sigma = E ln(stretch).
 TEST(Axis, Stretch) {
   const std::vector<double> stretches{0.05, 0.1, 0.2, 0.5, 0.9, 1.1, 1.5, 2.0, 2.5, 5.0, 10.0};

@@ -219,6 +219,66 @@ TEST(Endings, UnknownsFarApartAreAHintAtScales) {
   EXPECT_TRUE(report.converged()) << report.reason;
 }
 
+TEST(Endings, UnknownsFarFromOneAreAHintAtScales) {
+  const double size = 1e-12;
+  const auto F = [size](const Vector& u, Vector& r) {
+    r = (u.array() / size).square() - 2.0;
+    r.tail(3) -= 0.1 / size * u.head(3);
+  };
+  Options options = by(Method::newton_krylov);
+  Vector u = Vector::Constant(4, size);
+  const Report report = solve(F, u, options);
+  ASSERT_FALSE(report.converged());
+  EXPECT_TRUE(says(report, "of the first u are of 1e-12: give u_scale")) << report.reason;
+  options.u_scale = Vector::Constant(4, size);
+  u = Vector::Constant(4, size);
+  EXPECT_TRUE(solve(F, u, options).converged());
+}
+
+// Over the length of a difference, 1.5e-8, floats do not change.
+TEST(Endings, ASinglePrecisionResidualIsKnownForOne) {
+  const auto F = [](const Vector& u, Vector& r) {
+    for (Eigen::Index i = 0; i < u.size(); ++i) {
+      const auto x = static_cast<float>(u[i]);
+      const float before = i > 0 ? static_cast<float>(u[i - 1]) : 0.0F;
+      r[i] = static_cast<double>(x * x * x - 2.0F + 0.3F * before);
+    }
+  };
+  for (const Method method : {Method::hybrid, Method::newton_krylov}) {
+    Options options = by(method);
+    options.tolerances.relative = 1e-5;  // ten times the rounding of one value
+    Vector u = Vector::Ones(50);
+    const Report coarse = solve(F, u, options);
+    EXPECT_TRUE(coarse.converged()) << coarse.reason;
+    options.tolerances.relative = 1e-8;
+    u = Vector::Ones(50);
+    const Report report = solve(F, u, options);
+    EXPECT_EQ(report.status, Status::noise_floor) << report.reason;
+    // The rounding unit of floats, 6e-8, of values up to 2.
+    EXPECT_LT(report.residual_norm, std::sqrt(50.0) * 1e-6);
+    EXPECT_LT(report.counts.total(), 100);
+  }
+}
+
+// The helical valley, begun on the cut of its angle: to ask for no less than the jump would make
+// a root of the first point.
+TEST(Endings, AJumpAsLargeAsTheResidualIsNoNoiseToStopAt) {
+  const auto F = [](const Vector& u, Vector& r) {
+    constexpr double turn = 6.283185307179586;
+    r[0] = 10.0 * (u[2] - 10.0 * std::atan2(u[1], u[0]) / turn);
+    r[1] = 10.0 * (std::hypot(u[0], u[1]) - 1.0);
+    r[2] = u[2];
+  };
+  for (const Method method : {Method::hybrid, Method::newton_krylov}) {
+    Vector u(3);
+    u << -1.0, 0.0, 0.0;
+    const Report report = solve(F, u, by(method));
+    ASSERT_FALSE(report.converged());
+    EXPECT_TRUE(says(report, "F jumps near u")) << report.reason;
+    EXPECT_FALSE(says(report, "give tolerances.absolute")) << report.reason;
+  }
+}
+
 struct Rootless {
   const char* name;
   Vector start;

@@ -110,6 +110,18 @@ TEST_F(AChildProcess, TellsTheProcessorTimeAndMemoryThatItTook) {
   EXPECT_GT(busy.use().peak_bytes, 100 * 1024);
 }
 
+// It goes on while the child runs, and then is what it took in all.
+TEST_F(AChildProcess, TellsTheProcessorTimeSoFar) {
+  ChildProcess child(shell, {"-c", "while :; do :; done"}, output());
+  constexpr double some = 0.02;  // [s]
+  while (child.cpu_so_far() < some) std::this_thread::sleep_for(2ms);
+  EXPECT_EQ(child.exit_code(), std::nullopt);
+  child.ask_to_stop();
+  EXPECT_EQ(end_of(child), 128 + SIGTERM);
+  EXPECT_DOUBLE_EQ(child.cpu_so_far(), child.use().cpu);
+  EXPECT_GE(child.use().cpu, some / 2.0) << "the system counts in ticks";
+}
+
 TEST_F(AChildProcess, EndsInItsOwnWayWhenItIsAskedTo) {
   ChildProcess child(shell, {"-c", "trap 'exit 75' TERM; echo begun; while :; do sleep 0.01; done"},
                      output());

@@ -73,6 +73,28 @@ TEST(AFieldAtAPoint, IsMeasuredByTheRunItself) {
 
 // A run without measures whose load is given shows reactions; asking for a field must not hide
 // them.
+TEST(AFieldAtAPoint, IsOfTheBody) {
+  scene::Scene scene;
+  scene.geometry.dimension = 2;
+  scene.geometry.min = {0.0, -3.0};
+  scene.geometry.max = {6.0, 0.0};
+  scene.geometry.spacing = 0.5;
+  const auto refusal = [&](const char* text) {
+    try {
+      check_quantity(scene, parse_quantity(text));
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal("displacement_y@6,0"), "");
+  EXPECT_EQ(refusal("pressure"), "");
+  EXPECT_THAT(refusal("displacement_y@6,0.1"),
+              HasSubstr("displacement_y@6,0.1: found 0.1 along y; the body is from -3 to 0"));
+  EXPECT_THAT(refusal("stress_xx@6"), HasSubstr("found 1 coordinates; needed are 2"));
+  EXPECT_THAT(refusal("displacement_z@1,-1"), HasSubstr("no such component"));
+}
+
 TEST(AFieldAtAPoint, HidesNothingThatTheCurveShowsOfItself) {
   const auto file = std::filesystem::path(FPM_SHARE_DIR) / "scenes/beam.toml";
   const scene::SceneReading reading = scene::read_scene(file);

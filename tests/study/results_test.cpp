@@ -113,6 +113,29 @@ TEST(AResult, OfARunThatDidNotConvergeHasWhatItPassed) {
   EXPECT_EQ(last.obstacle, "error: stuck");
 }
 
+// What bears no more ends without equilibrium, and how much it bore is the answer.
+TEST(AResult, OfARunToFailureIsWhereItFailed) {
+  const support::TemporaryFolder folder;
+  std::ofstream(folder / "curve.csv") << "step,load_parameter,strength_reduction,top_uy_m\n"
+                                         "0,0,1,0\n1,0.5,1.5,-0.1\n2,0.75,1.75,-0.3\n";
+  campaign::Status status;
+  status.folder = folder.path();
+  status.stage = campaign::Status::Stage::failed;
+  status.complaint = "error: no convergence";
+  for (const int exit_code : {0, 3}) {
+    status.outcome.exit_code = exit_code;
+    EXPECT_DOUBLE_EQ(result_of(status, parse_quantity("load_parameter")).value.value(), 0.75);
+    EXPECT_DOUBLE_EQ(result_of(status, parse_quantity("max(strength_reduction)")).value.value(),
+                     1.75);
+  }
+  EXPECT_FALSE(result_of(status, parse_quantity("top_uy_m")).value.has_value());
+  const Result none = result_of(status, parse_quantity("top_ux_m"));
+  EXPECT_TRUE(none.no_such_column);
+  EXPECT_THAT(none.obstacle, HasSubstr("did you mean \"top_uy_m\"?"));
+  status.outcome.exit_code = 2;
+  EXPECT_FALSE(result_of(status, parse_quantity("load_parameter")).value.has_value());
+}
+
 TEST(TheReport, SaysTheSameInEveryForm) {
   Made made;
   made.results[5].value.reset();
