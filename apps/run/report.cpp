@@ -42,6 +42,15 @@ std::string check_report(const scene::Scene& scene, std::size_t particles, std::
   return out;
 }
 
+std::string control_note(const scene::Scene& scene, const record::CurveRow& last) {
+  if (last.max_plastic_strain <= 0.0 || !scene::is_controlled_for_collapse(scene)) return "";
+  return fmt::format(
+      "  {:<12} the ground yields, but bears its loads to the end: displacements beside what "
+      "yields scatter less with hourglass.stiffness_ratio = 0.1; the {} of here is for loads that "
+      "end in a collapse",
+      "control", scene::resolve_stiffness_ratio(scene));
+}
+
 std::string end_report(const scene::Scene& scene, const std::vector<std::string>& measures,
                        const std::vector<record::CurveRow>& history, double elapsed,
                        const record::RunFolder& folder, const std::filesystem::path& checkpoint) {

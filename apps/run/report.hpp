@@ -20,6 +20,10 @@ namespace run {
 std::string check_report(const scene::Scene& scene, std::size_t particles, std::size_t ghosts,
                          const std::vector<model::MemoryPart>& parts);
 
+/// That loads which grow were borne to the end by ground that yields, under a control that is weak
+/// for the sake of a collapse; "" for any other run. Of the whole scene.
+std::string control_note(const scene::Scene& scene, const record::CurveRow& last);
+
 /// What a run came to, and where its files are.
 /// @param measures  columns of the curve that the scene asks for
 std::string end_report(const scene::Scene& scene, const std::vector<std::string>& measures,

@@ -260,6 +260,8 @@ class Run {
     }
     recorder.finish("end of the programme", false);
     report(recorder, folder, limit);
+    const std::string note = control_note(scene_, recorder.history().back());
+    if (!note.empty()) recorder.say(note);
     return program::ExitCode::done;
   }
 

@@ -120,6 +120,12 @@ double resolve_stiffness_ratio(const Scene& scene) {
   }
 }
 
+bool is_controlled_for_collapse(const Scene& scene) {
+  return !scene.hourglass.stiffness_ratio && ends_in_collapse(scene) && !reduces_strength(scene) &&
+         resolve_control(scene) == HourglassControl::incremental &&
+         std::ranges::any_of(scene.material, yields);
+}
+
 namespace {
 
 // Particles on a face are prescribed themselves; the paper's viscosity drives by direct only.

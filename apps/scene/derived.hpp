@@ -54,6 +54,10 @@ struct Support;
 /// latter 0.001 under a load that grows, 0.01 for mixed, 0 for none and viscosity.
 [[nodiscard]] double resolve_stiffness_ratio(const Scene& scene);
 
+/// Whether the control is as weak as it is for the sake of a collapse only, to which loads that
+/// grow need not lead.
+[[nodiscard]] bool is_controlled_for_collapse(const Scene& scene);
+
 /// How a support holds: its method, where `automatic` means ghosts if images can hold its side, and
 /// direct otherwise: the layout is `vertex`, it is no side, a mirror, a side that the drive moves
 /// or one that is not held across, or the paper's viscosity is the control. In stages one answer

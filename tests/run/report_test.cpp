@@ -62,5 +62,43 @@ drive = { name = "side", kind = "load", scales = ["traction"] }
   EXPECT_THAT(text, ::testing::HasSubstr("54321 Pa mean"));
 }
 
+// Loads that grow may end in a collapse or not; only the run knows.
+TEST(ControlNote, IsForLoadsBorneToTheEndByGroundThatYields) {
+  const auto scene_of = [](const std::string& more) {
+    const auto reading = scene::parse_scene(R"(
+[geometry]
+min = [0, 0]
+max = [2, 1]
+spacing = 0.25
+[[material]]
+name = "m"
+model = "von_mises"
+youngs_modulus = 1e7
+poissons_ratio = 0.3
+cohesion = 1e4
+[[support]]
+name = "base"
+side = "bottom"
+directions = ["x", "y"]
+[[traction]]
+name = "q"
+side = "top"
+value = [0.0, -1e3]
+[drive]
+kind = "load"
+scales = ["traction"]
+[programme]
+steps = 1
+)" + more,
+                                            "s.toml");
+    return *reading.scene;
+  };
+  record::CurveRow yields, stays_elastic;
+  yields.max_plastic_strain = 1e-3;
+  EXPECT_THAT(control_note(scene_of(""), yields), ::testing::HasSubstr("stiffness_ratio = 0.1"));
+  EXPECT_EQ(control_note(scene_of(""), stays_elastic), "");
+  EXPECT_EQ(control_note(scene_of("[hourglass]\nstiffness_ratio = 0.001\n"), yields), "");
+}
+
 }  // namespace
 }  // namespace run
