@@ -149,9 +149,12 @@ void Measures<Dim>::locate(const scene::Scene& scene, const scene::Measure& aske
   }
   const fpm::Field<Dim> point = Eigen::Map<const Eigen::Matrix<double, 1, Dim>>(asked.at.data());
   const bool of_stress = asked.kind == scene::MeasureKind::stress;
+  // On a boundary of materials it is the one of the particle that is named for the point.
+  std::vector<fpm::Index> own;
+  if (of_stress) own.push_back(static_cast<fpm::Index>(measure.particle));
   try {
     measure.point = fpm::PointOperator<Dim>(of_stress ? by_material(model_) : model_.particles,
-                                            model_.ghosts, point, model_.row_options);
+                                            model_.ghosts, point, model_.row_options, own);
   } catch (const std::runtime_error&) {
     // Where they are too few for a gradient the stress is that of the particle.
     if (!of_stress) throw;

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "fpm/boundary_loads.hpp"
 #include "model/build.hpp"
 #include "scene/derived.hpp"
 #include "scene/drives.hpp"
@@ -64,6 +65,14 @@ void take_stress(const model::Model<Dim>& ground, const model::State<Dim>& rest,
                  model::Model<Dim>& model) {
   model.initial_stress = rest.stress;
   model.initial_load = model.constant_load;
+  // What follows the boundary has pressed on the ground, too.
+  const fpm::Field<Dim> at_rest = fpm::Field<Dim>::Zero(model.size(), Dim);
+  Eigen::Map<fpm::Field<Dim>> load(model.initial_load.data(), model.size(), Dim);
+  for (const model::FollowingPressure<Dim>& following : model.following_pressures) {
+    if (following.scaled) continue;
+    (void)fpm::add_following_pressure<Dim>(following.op, following.points, following.pressure,
+                                           at_rest, load);
+  }
   // The drive's plate bears nothing yet; all other faces are those of the ground, in its order.
   Eigen::Index point = 0;
   std::size_t k = 0;
@@ -125,7 +134,7 @@ model::Model<Dim> model_at_rest(const scene::Scene& scene) {
   model::State<Dim> rest = model::initial_state(ground);
   LoadStepper<Dim> stepper(ground_scene, ground, rest);
   finish(stepper, rest,
-         "initial_stress.kind = \"gravity\": the ground does not stand under its own weight and "
+         "initial_stress.kind = \"gravity\": the ground does not stand under its weight and "
          "dead loads: no equilibrium");
   if (scene.initial_stress.K0) rest = with_lateral_stress(scene, ground, rest);
   take_stress(ground, rest, model);

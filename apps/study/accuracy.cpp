@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <set>
@@ -73,14 +74,19 @@ class Runs {
     settings.push_back(fmt::format("solver.tolerance={}", tolerance));
     // A tighter tolerance takes more of them, and must not be stopped by a limit made for less.
     constexpr std::int64_t more = 10;
-    const std::int64_t most =
-        (fineness.tolerance != 1.0 ? more : 1) * plain->solver.max_evaluations_per_step;
+    constexpr std::int64_t largest = std::numeric_limits<int>::max();
+    const std::int64_t most = std::min<std::int64_t>(
+        largest, (fineness.tolerance != 1.0 ? more : 1) * plain->solver.max_evaluations_per_step);
     if (fineness.tolerance != 1.0) {
       settings.push_back(fmt::format("solver.max_evaluations_per_step={}", most));
     }
     // Steps that are halved where they are hard, and grow again, would differ from run to run, and
     // the load with them.
-    settings.push_back(fmt::format("programme.hard_evaluations={}", most));
+    const scene::Programme& programme = plain->programme;
+    settings.push_back(fmt::format(
+        "programme.hard_evaluations={}",
+        std::max({most, static_cast<std::int64_t>(programme.hard_evaluations),
+                  std::min<std::int64_t>(largest, std::int64_t{1} + programme.easy_evaluations)})));
     if (fineness.control != 1.0) {
       settings.push_back(fmt::format("hourglass.stiffness_ratio={}",
                                      scene::resolve_stiffness_ratio(*plain) * fineness.control));
@@ -95,7 +101,11 @@ class Runs {
     if (!settings) return reply;
     // The failure that is sought ends a run; one without it has no answer.
     const bool failing = is_of_a_failure(quantity_);
-    if (failing) settings->emplace_back("programme.stop_at_failure=true");
+    if (failing) {
+      // Nor one that was only given up: that is not known to the smallest increment.
+      settings->emplace_back("programme.stop_at_failure=true");
+      settings->emplace_back("programme.patience=0");
+    }
     const auto scene = read_varied(request_.scene_file, request_.settings, *settings, complaints);
     if (!scene) {
       reply.obstacle = first_line(complaints.str());
@@ -105,7 +115,10 @@ class Runs {
     campaign::Campaign campaign(
         {{name, campaign::task_scene(with_measure(*scene, quantity_))}},
         {request_.programs / "fpm-run", folder_ / "runs", request_.jobs, request_.threads});
-    const auto in_time = [&](const campaign::Status& run) { return run.cpu < allowance; };
+    // With what it took before it was stopped, if it was.
+    const auto in_time = [&](const campaign::Status& run) {
+      return run.outcome.cost.cpu + run.cpu < allowance;
+    };
     campaign.run([&](const auto& all) { return signals_.received() == 0 && in_time(all.front()); });
     if (signals_.received() != 0) throw Interrupted{};
     const Result result = result_of(campaign.status().front(), quantity_);
@@ -209,11 +222,13 @@ std::string answer_json(const AccuracyRequest& request, const Quantity& quantity
   return all.dump(1) + "\n";
 }
 
-/// Whether it is a stress or plastic strain, which measures take from the nearest particle.
-bool is_of_nearest_particle(const scene::Scene& scene, const Quantity& quantity) {
+/// Whether it is a stress or plastic strain at a point: of a particle, which is as far as half a
+/// spacing off, or extrapolated up to a face.
+bool is_of_particles_near(const scene::Scene& scene, const Quantity& quantity) {
   if (!quantity.field.empty()) return quantity.field != "displacement";
   return std::ranges::any_of(scene.measure, [&](const scene::Measure& measure) {
     const bool nearest = measure.kind == scene::MeasureKind::stress ||
+                         measure.kind == scene::MeasureKind::particle_stress ||
                          measure.kind == scene::MeasureKind::plastic_strain;
     return nearest && quantity.column.starts_with(measure.name + "_");
   });
@@ -301,7 +316,7 @@ Quantity quantity_of(const scene::Scene& scene) {
 }
 
 double formal_order(const scene::Scene& scene, const Quantity& quantity) {
-  if (is_of_nearest_particle(scene, quantity)) return 1.0;
+  if (is_of_particles_near(scene, quantity)) return 1.0;
   const bool between = std::ranges::any_of(scene.support, [&](const scene::Support& support) {
     return !support.at.empty() && scene.geometry.layout == scene::Layout::cell;
   });
@@ -346,6 +361,7 @@ program::ExitCode find_accuracy(const AccuracyRequest& request, std::ostream& ou
   // The run says the bar again if its scene is this one.
   const auto final_scene = read_varied(request.scene_file, request.settings, settings, err);
   const std::string effective = final_scene ? scene::effective_toml(*final_scene) : "";
+  files::create_folder(folder);  // which no run has made if all were refused
   files::write_text_durably(folder / "accuracy.json",
                             answer_json(request, quantity, *answer, settings, effective));
   if (!answer->parts.empty()) out << answer_text(request, quantity, *answer, settings);

@@ -49,8 +49,8 @@ struct AccuracyRequest {
 /// converge with second order, but the load of a plate on what yields only with first, however fast
 /// it seems to come down to it at first, since its edge is known to half a spacing; and so does
 /// whatever hangs on a support at a point between particles. What yields without such an edge is in
-/// between, for the kinks where yielding begins. What is read from the particle nearest to a
-/// point is that of a place up to half a spacing off.
+/// between, for the kinks where yielding begins. A plastic strain is that of a particle up to
+/// half a spacing off its point, and a stress is extrapolated up to a face.
 [[nodiscard]] double formal_order(const scene::Scene& scene, const Quantity& quantity);
 
 /// Finds the cheapest setting that meets the wish, says the answer with its error bar and the parts

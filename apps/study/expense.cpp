@@ -35,6 +35,7 @@ double Expense::expected(const Fineness& fineness) const {
                             of_steps * far(paid.fineness.steps, fineness.steps) +
                             far(paid.fineness.box, fineness.box) +
                             far(spacings_[paid.fineness.level], spacings_[fineness.level]);
+    if (paid.seconds == 0.0) continue;  // it was refused
     if (seconds > 0.0 && distance > best) continue;
     best = distance;
     seconds = paid.seconds * ratio(fineness, paid.fineness);

@@ -32,7 +32,9 @@ double failure_resolution(const scene::Scene& scene, const Quantity& quantity) {
     } else if (!scene.stage.empty()) {
       way = now.course.load_end - now.course.load_begin;
     }
-    const double increment = now.programme.minimum_increment_ratio * std::abs(way);
+    // Steps are halved as long as they are no smaller than allowed.
+    const double halvings = std::floor(-std::log2(now.programme.minimum_increment_ratio));
+    const double increment = std::exp2(-halvings) * std::abs(way);
     largest = std::max(largest, increment / static_cast<double>(scene::nominal_steps(now)));
   }
   return largest;

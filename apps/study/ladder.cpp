@@ -91,8 +91,8 @@ class Climb {
   /// What the first spacings of a fineness are expected to take still.
   [[nodiscard]] double descent(Fineness fineness) const {
     double seconds = 0.0;
-    for (std::size_t k = 0; k < kept_levels_; ++k) {
-      fineness.level = std::min(first_ + k, wish_.spacings.size() - 1);
+    const std::size_t end = std::min(first_ + kept_levels_, wish_.spacings.size());
+    for (fineness.level = first_; fineness.level < end; ++fineness.level) {
       if (!expense_.knows(fineness)) seconds += expense_.expected(fineness);
     }
     return seconds;
@@ -160,7 +160,9 @@ class Climb {
   }
   /// Goes on with what is known.
   bool without(const char* finer) {
-    short_of_ = finer;
+    if (!wish_.budget) return true;
+    if (!short_of_.empty()) short_of_ += ", nor ";
+    short_of_ += finer;
     return true;
   }
 

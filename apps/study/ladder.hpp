@@ -55,11 +55,11 @@ struct Answer {
 };
 
 /// Climbs the ladder: first the steps and the tolerance are made fine enough, and the box wide
-/// enough, by runs at a coarse spacing, each to a quarter of what is wished at most; then spacings
+/// enough, by runs at a coarse spacing, each to a half of what is wished at most; then spacings
 /// fall until the rest of it is not exceeded by what Richardson's safeguarded extrapolation leaves
 /// of them. A budget is kept: no run begins that is not expected to fit into what is left of it,
-/// three spacings' worth of it are kept back while the rest is looked at, and a run that takes
-/// longer all the same is stopped.
+/// four spacings' worth of it, or three or two where there is no room for more, are kept back while
+/// the rest is looked at, and a run that takes longer all the same is stopped.
 [[nodiscard]] Answer climb(const Wish& wish, const Ask& ask);
 
 }  // namespace study

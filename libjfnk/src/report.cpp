@@ -155,14 +155,14 @@ std::string advice(const Report& report) {
 
 /// A word on units, if the unknowns are far apart, or far from one, and nobody has said how large
 /// they are.
-std::string units_text(const Sizes& first, const Options& options) {
+std::string units_text(const Report& report, const Sizes& first, const Options& options) {
   constexpr double far = 4.0, small = 1e-6, large = 1e6;
   if (options.u_scale.size() > 0) return {};
   if (first.decades >= far) {
     return "; the unknowns of the first u are " + std::to_string(static_cast<int>(first.decades)) +
            " decades apart: give u_scale and f_scale";
   }
-  const bool told = options.jacobian.length_scale > 0.0;
+  const bool told = options.jacobian.length_scale > 0.0 || report.counts.user_actions > 0;
   if (told || first.typical == 0.0 || (first.typical >= small && first.typical <= large)) return {};
   return "; differences are made for unknowns of order one, and those of the first u are of " +
          number(first.typical, 1) + ": give u_scale";
@@ -171,7 +171,8 @@ std::string units_text(const Sizes& first, const Options& options) {
 /// Noise that reaches so high is none to stop at: no less could be asked for than what there was.
 bool is_a_jump(const Report& report) {
   constexpr double high = 0.1;
-  return !(report.measured_noise < high * report.initial_residual_norm);
+  const double large = std::max(report.initial_residual_norm, report.reference_norm);
+  return !(report.measured_noise < high * large);
 }
 
 std::string noise_text(const Report& report) {
@@ -224,7 +225,7 @@ std::string unwritten_text(Eigen::Index component) {
 }
 
 std::string reason(const Report& report, const Options& options, const Sizes& first) {
-  const std::string hints = advice(report) + units_text(first, options);
+  const std::string hints = advice(report) + units_text(report, first, options);
   switch (report.status) {
     case Status::converged:
       return "||F|| = " + number(report.residual_norm) + " met the tolerance " +
@@ -236,7 +237,7 @@ std::string reason(const Report& report, const Options& options, const Sizes& fi
                                                : "; raise max_iterations");
     case Status::evaluation_limit:
       return "max_evaluations = " + std::to_string(options.max_evaluations) +
-             " is used up: " + where(report) + units_text(first, options);
+             " is used up: " + where(report) + units_text(report, first, options);
     case Status::line_search_failed:
       return "no step along the Newton direction reduced ||F||: " + where(report) + hints;
     case Status::stagnated:
@@ -258,7 +259,7 @@ std::string reason(const Report& report, const Options& options, const Sizes& fi
              "system: " +
              where(report) + hints;
     case Status::noise_floor:
-      return noise_text(report) + units_text(first, options);
+      return noise_text(report) + units_text(report, first, options);
     case Status::not_started:
       return "no solve was started";
     case Status::threw:

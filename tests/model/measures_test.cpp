@@ -158,6 +158,24 @@ TEST(Measures, InterpolateStressWithinABody) {
   for (const double value : box.measures.of(box.state)) EXPECT_NEAR(value, 100.0, round_off);
 }
 
+// A point on the boundary of two materials is of that of the particle named for it, whatever
+// round-off says.
+TEST(Measures, OnABoundaryOfMaterialsAgreeWithTheParticle) {
+  for (const std::string at : {"[1.0, 0.5]", "[1.0000000001, 0.4]", "[0.9999999999, 0.6]"}) {
+    Box box(
+        "[[material]]\nname = \"rock\"\nmodel = \"elastic\"\nyoungs_modulus = 1e9\n"
+        "poissons_ratio = 0.3\nregion_min = [1.0, 0.0]\nregion_max = [2.0, 1.0]\n"
+        "[[measure]]\nname = \"s\"\nkind = \"stress\"\nat = " +
+        at + "\n[[measure]]\nname = \"p\"\nkind = \"particle_stress\"\nat = " + at + "\n");
+    const auto& x = box.model.particles.position;
+    for (Eigen::Index a = 0; a < box.model.size(); ++a) {
+      box.state.stress.col(a).setConstant(x(a, 0) > 1.0 ? 100.0 : -1.0);
+    }
+    const auto values = box.measures.of(box.state);
+    EXPECT_NEAR(values[0], values[4], 1e-10) << at;
+  }
+}
+
 // A seam of one row has no gradient across it.
 TEST(Measures, TakeStressOfTheNearestParticleWhereABodyIsTooThin) {
   Box box(

@@ -8,6 +8,7 @@
 
 #include "model/build.hpp"
 #include "scene/reader.hpp"
+#include "stepping/settle.hpp"
 #include "stepping/stepper.hpp"
 
 namespace stepping {
@@ -107,6 +108,31 @@ TEST_P(FollowingPressure, AllRoundACubeCompressesIt) {
 
 INSTANTIATE_TEST_SUITE_P(Layouts, FollowingPressure, ::testing::Values("vertex", "cell"),
                          [](const auto& info) { return info.param; });
+
+// Ground that has settled under what follows its boundary is at rest there: it is not pressed on
+// twice.
+TEST(FollowingPressure, OfTheGroundAtRestHasDoneItsWork) {
+  const std::string text =
+      "[geometry]\ndimension = 2\nmin = [0.0, 0.0]\nmax = [1.0, 1.0]\nspacing = 0.25\n"
+      "[[material]]\nname = \"a\"\nmodel = \"elastic\"\nyoungs_modulus = 1e7\n"
+      "poissons_ratio = 0.3\n[[support]]\nname = \"base\"\nside = \"bottom\"\n"
+      "directions = [\"x\", \"y\"]\n" +
+      side("top", "[0.0, -1e5]") +
+      "[[traction]]\nname = \"more\"\nside = \"top\"\nvalue = [0.0, -1.0]\n"
+      "[initial_stress]\nkind = \"gravity\"\n"
+      "[drive]\nkind = \"load\"\nscales = [\"traction\"]\nloads = [\"more\"]\n"
+      "[programme]\nsteps = 1\n[solver]\ntolerance = 1e-9\n";
+  const auto reading = scene::parse_scene(text, "s.toml");
+  ASSERT_TRUE(reading.scene) << reading.errors.front().text();
+  model::Model<2> model = model_at_rest<2>(*reading.scene);
+  model::State<2> state = model::initial_state(model);
+  LoadStepper<2> stepper(*reading.scene, model, state);
+  ASSERT_EQ(stepper.advance().outcome, StepOutcome::converged);
+  // Settled under 1 Pa of 1e5 Pa: at most by its height over Young's modulus, and the solver's
+  // part.
+  EXPECT_LT(state.displacement.cwiseAbs().maxCoeff(),
+            2.0 * 1.0 / youngs_modulus + displacement_error);
+}
 
 }  // namespace
 }  // namespace stepping

@@ -252,10 +252,13 @@ class Flank {
     if (!std::ranges::all_of(problem_.soils, may_be_enlarged) || !(factor * share > enlarged_)) {
       return;
     }
+    // What is left unbalanced grows with the stresses.
+    constexpr double rounding = 1e-10;
+    if (!(found.lower->certificate.residual / share < rounding * std::max(1.0, one_))) return;
     enlarged_ = factor * share;
     less_ = found;
     for (auto& stresses : less_.lower->certificate.field) stresses /= share;
-    less_.lower->certificate.multiplier = one_;
+    less_.lower->certificate.multiplier = less_.lower->certificate.proposed = one_;
     less_.lower->certificate.residual /= share;
     less_.lower->certificate.yield_excess /= share;
   }

@@ -36,7 +36,9 @@ void keep_to_bare_points(const problem::Problem& problem, const StressLayout& la
   std::erase_if(ceilings, [&](Ceiling& ceiling) {
     const auto found = bare.find(ceiling.point);
     if (found == bare.end()) return false;
-    if (ceiling.kind == Ceiling::Kind::yield) return ceiling.is_loose;
+    if (ceiling.kind == Ceiling::Kind::yield) {
+      return ceiling.is_loose && found->second.bears == problem::BareCorner::Bears::nothing;
+    }
     if (ceiling.kind != Ceiling::Kind::tension) return false;
     ceiling.kind = Ceiling::Kind::along;
     ceiling.normal = found->second.normal;

@@ -121,7 +121,7 @@ void require_strength(const GroundScene& scene, const problem::Problem& problem,
       std::ranges::any_of(problem.soils,
                           [](const problem::Soil& soil) {
                             return !soil.is_loose() || soil.unit_weight > 0.0 ||
-                                   soil.has_uneven_weight();
+                                   !soil.weight_gradient.isZero(0.0) || !soil.seepage.isZero(0.0);
                           }) ||
       std::ranges::any_of(problem.boundaries, [](const problem::Boundary& boundary) {
         return boundary.normal_stress != 0.0;
@@ -130,8 +130,8 @@ void require_strength(const GroundScene& scene, const problem::Problem& problem,
   diagnosis.error("load.sought",
                   "no material has a cohesion, and what friction bears is in proportion to the "
                   "load that grows",
-                  "allowed is strength, the factor of safety; or a load that is given beside, a "
-                  "weight or a pressure");
+                  "allowed is strength, the factor of safety; or a weight that is given beside, "
+                  "water that seeps, or a pressure on another side than the footing's");
 }
 
 // Half a footing's width, else half the height of the part of the outline that is free to move.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace limit::ground {
 
@@ -24,6 +25,7 @@ bool presses(const GroundSide& side) {
 void say_skins(const GroundScene& scene, const GroundOutline& outline,
                const problem::Problem& soils, problem::Case& result) {
   double steepest = 0.0, gentlest = INFINITY;
+  std::string weakest;
   for (const GroundSegment& segment : outline.segments) {
     if (segment.right >= 0) continue;
     const GroundSide& side = scene.sides[static_cast<std::size_t>(segment.side)];
@@ -48,13 +50,23 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
     const double across = scene.water.is_there() ? std::max(0.0, presses_on) : std::abs(presses_on);
     if (along <= level * across) continue;
     const double slides = std::tan(soil.friction_angle) * across / along;
-    result.known_upper = std::min(result.known_upper.value_or(INFINITY), slides);
+    if (slides >= result.known_upper.value_or(INFINITY)) continue;
+    result.known_upper = slides;
+    weakest =
+        fmt::format("{} without cohesion at the side \"{}\"", scene.materials[m].name, side.name);
   }
   if (!result.known_upper) return;
   const bool is_shaken = soils.live_pull.x() != 0.0;
+  // Whatever else there is, no strength is little enough to be divided any further.
+  constexpr double next_to_nothing = 1e-9;
+  if (*result.known_upper <= next_to_nothing) {
+    result.known_upper = result.known_lower = 0.0;
+    result.notes.push_back(fmt::format(
+        "the skin of {} bears nothing: nothing presses it on the ground behind it", weakest));
+    return;
+  }
   result.notes.push_back(fmt::format(
-      "a skin of a face without cohesion slides parallel to it at tan(friction angle) / "
-      "tan({}) = {:.7g}",
+      "a skin of {} slides parallel to it at tan(friction angle) / tan({}) = {:.7g}", weakest,
       is_shaken ? "angle of the shaken weight to its normal" : "inclination", *result.known_upper));
   const bool is_dry_sand =
       !is_shaken && !scene.water.is_there() && gentlest == steepest && steepest > 0.0 &&

@@ -146,9 +146,9 @@ class BareCorners {
     const mesh::Point& normal = fan.first.is_bare ? fan.first.normal : fan.last.normal;
     if (std::abs(whole - pi) <= straight) {
       for (const auto& corner : fan.corners) bind(corner_of(corner), normal);
-      // What is nothing in one of them is so in all.
+      // What is nothing in one of them is so in all; friction alone bears nothing along the face.
       if (std::ranges::none_of(fan.corners, [&](const auto& corner) {
-            return corner_of(corner).bears == BareCorner::Bears::nothing;
+            return corner_of(corner).bears == BareCorner::Bears::nothing || is_loose(corner.first);
           })) {
         return;
       }

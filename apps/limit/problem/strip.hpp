@@ -36,8 +36,8 @@ struct Objection {
 };
 
 /// What stands against bracketing the strip, for whoever knows where its numbers were written:
-/// something out of range, or no collapse load that can be bracketed, as without cohesion and
-/// surcharge, where no stress at the surface is strictly admissible.
+/// something out of range, or no collapse load that can be bracketed, as without cohesion, weight
+/// and surcharge, where the soil bears nothing.
 [[nodiscard]] std::optional<Objection> objection_to(const Strip& strip);
 
 /// The box that holds the mechanism of a weightless soil (Prandtl's) with some room; weight and a

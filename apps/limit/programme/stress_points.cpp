@@ -135,7 +135,9 @@ void StressPoints::add_cone(const problem::Soil& local, const mesh::Point& place
   const double load = overburden_.at(soil, place);
   cones_.push_back(yield_cone(soil, load, reserve));
   // What is nothing anyway is to lie within a cone.
-  if (bare != nullptr && soil.is_loose()) cones_.back() = {1.0, cones_.back().slope, 1.0};
+  if (bare != nullptr && bare->bears == problem::BareCorner::Bears::nothing && soil.is_loose()) {
+    cones_.back() = {1.0, cones_.back().slope, 1.0};
+  }
   starts_.push_back(inner_point(cones_.back(), load));
   const bool is_cut = soil.cuts_tension() && bare == nullptr;
   cuts_.push_back(is_cut ? std::optional(tension_cone(soil, load, reserve)) : std::nullopt);

@@ -149,6 +149,27 @@ TEST(TensionCutOff, OfNothingTakesATurnOfAFaceForWhatItIs) {
   }
 }
 
+// Sand without cohesion that reaches a straight face, between clays that bear no tension, empties
+// the whole corner: along the face it would bear by friction what nothing presses on.
+TEST(TensionCutOff, OfNothingBesideSandBearsNothingAlongTheFace) {
+  problem::Problem problem;
+  problem.mesh.nodes = {{0.0, 0.0}, {0.5, -1.0}, {1.5, -1.0}, {2.0, 0.0}, {1.0, 0.0}};
+  problem.mesh.triangles = {{{0, 1, 4}, 0}, {{1, 2, 4}, 1}, {{2, 3, 4}, 0}};
+  problem.mesh.boundary = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 4, 0}, {4, 0, 0}};
+  problem::Soil clay, sand;
+  clay.cohesion = 1.0;
+  clay.tension = 0.0;
+  sand.cohesion = 0.0;
+  sand.friction_angle = 0.5;
+  problem.soils = {clay, sand};
+  problem.boundaries = {{"face"}, {"rigid", problem::Known::support, problem::Known::support}};
+  const auto bare = problem::bare_corners(problem);
+  ASSERT_EQ(bare.size(), 3U);
+  for (const auto& triangle : bare) {
+    EXPECT_EQ(triangle[2].bears, problem::BareCorner::Bears::nothing);
+  }
+}
+
 std::string complaint(const std::string& text) {
   tables::Diagnosis diagnosis("scene");
   std::optional<tables::Complaint> unreadable;
