@@ -22,7 +22,6 @@ using Place = Eigen::Vector2d;
 struct Beside {
   std::vector<Place> places;
   std::vector<fpm::Index> particles;
-  std::size_t on_joints = 0;  // of them, the first
   void add(const Place& place, fpm::Index particle) {
     places.push_back(place);
     particles.push_back(particle);
@@ -83,7 +82,6 @@ Beside places_of(const scene::Scene& scene, const Model<2>& model) {
       beside.add(0.5 * (joint.from + joint.to), a);
     }
   }
-  beside.on_joints = beside.places.size();
   for (const SurfacePiece<2>& piece : model.surface) {
     const Points points = points_on(scene, model, piece);
     if (points == Points::none) continue;
@@ -201,7 +199,7 @@ void join_thin_tips(const scene::Scene& scene, const Parting& parted, Model<2>& 
     std::vector<fpm::Index> body;
     for (const MaterialPair& pair : pairs_near(model, place, particle)) {
       std::set<MaterialPair> more = joined;
-      more.insert(pair);
+      if (!more.insert(pair).second) continue;
       body = parted(more);
       const auto lost = swallowed(scene, model, apart, body);
       if (!lost) {
