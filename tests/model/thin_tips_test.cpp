@@ -174,11 +174,11 @@ std::string wedge() {
          region("gravel", "[[0, 1], [1.63, 1], [0, 1.5]]");
 }
 
-// Not seen at its contact with concrete, the wedge goes with clay, to which it is tied.
+// Not seen at its contact with clay, the wedge goes with concrete, to which it is tied.
 TEST(ThinTips, LeaveAContactOfTheirOwn) {
-  const Model<2> model = model_of(wedge() + interface("gravel", "concrete", "contact"));
-  EXPECT_EQ(joined(model), (Pairs{{0, 2}}));
-  EXPECT_EQ(faces_left(model), (Pairs{{0, 1}, {1, 2}}));
+  const Model<2> model = model_of(wedge() + interface("gravel", "clay", "contact"));
+  EXPECT_EQ(joined(model), (Pairs{{1, 2}}));
+  EXPECT_EQ(faces_left(model), (Pairs{{0, 1}, {0, 2}}));
 }
 
 TEST(ThinTips, LeaveAContactBeyondThem) {
