@@ -174,13 +174,14 @@ std::vector<JointPiece<2>> joints_of(const shape::Body& body, const CutCells& cu
 
 // A region's share of a cell that goes to another cell's particle: to one of the region, and the
 // two are of one body; or, where its tip is less than particles wide, to one of its neighbour: then
-// bodies meet in the midst of the region as well.
+// bodies meet in the midst of the region as well. Of a region that is not there nothing meets.
 void hand_over(const shape::Body& body, const CutCells& cut, const fpm::Cells<2>& cells,
-               Model<2>& model) {
+               const std::vector<char>& present, Model<2>& model) {
   constexpr double sliver = 1e-9;  // spacings
   const std::vector<int> regions = cut.regions(model.cells);
   cut.for_each_handed_over(model.cells, [&](fpm::Index a, fpm::Index b, int axis, int region,
                                             fpm::Index first, fpm::Index second) {
+    if (present[static_cast<std::size_t>(region)] == 0) return;
     const bool is_first = cells.width(a) <= cells.width(b);
     const fpm::Index narrow = is_first ? a : b;
     Place low = cells.lower(narrow), high = cells.upper(narrow);
@@ -254,7 +255,7 @@ void cut_plane_body(const scene::Scene& scene, Model<2>& model) {
   find_owners(model.particles.position, model.surface);
   if (scene.region.empty()) return;
   model.joints = joints_of(body, cut, model.cells, present);
-  hand_over(body, cut, whole, model);
+  hand_over(body, cut, whole, present, model);
   find_owners(model.particles.position, model.joints);
   for (const int region : cut.regions(model.cells)) {
     model.material.push_back(

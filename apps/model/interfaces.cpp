@@ -1,5 +1,7 @@
 #include "model/interfaces.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -199,8 +201,17 @@ void add_between_materials(const scene::Scene& scene, Model<Dim>& model) {
   for (const auto& entry : first_of) {
     const auto part = part_of<Dim>(
         faces, [&](Eigen::Index c) { return group[static_cast<std::size_t>(c)] == entry.first; });
-    model.interfaces.push_back(
-        interface_at(scene, model, part, rule_of(entry.first.first).contact, law_at(entry.second)));
+    const auto [one, other] = entry.first.first;
+    try {
+      model.interfaces.push_back(
+          interface_at(scene, model, part, rule_of({one, other}).contact, law_at(entry.second)));
+    } catch (const fpm::PoorNeighbourhood& poor) {
+      throw fpm::PoorNeighbourhood(
+          fmt::format("interface between \"{}\" and \"{}\": {}",
+                      scene.material[static_cast<std::size_t>(one)].name,
+                      scene.material[static_cast<std::size_t>(other)].name, poor.what()),
+          poor.index());
+    }
   }
 }
 

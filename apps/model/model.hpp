@@ -149,6 +149,13 @@ struct JointPiece<3> {
   fpm::Index first = 0, second = 0;
 };
 
+/// A face between two materials that is none: at a place one of them runs out into a tip that has
+/// too few particles for rows of its own.
+struct JoinedFace {
+  fpm::Index first = 0, second = 0;  // of the scene's materials
+  Eigen::Vector2d place;             // [m]
+};
+
 /// A scene turned into particles, materials, constraints and loads: everything that stays the same
 /// during a run. Vectors over unknowns are component-major (all x, then all y, ...), length n Dim.
 template <int Dim>
@@ -206,6 +213,7 @@ struct Model {
   std::vector<JointPiece<Dim>> joints;     // of a body of regions only
   // Particles of one region that meet where cells between them have gone to one of them; likewise.
   std::vector<std::pair<fpm::Index, fpm::Index>> meeting;
+  std::vector<JoinedFace> joined_faces;  // likewise
 
   /// [Pa] Young's modulus of a particle.
   double youngs_modulus_of(Eigen::Index particle) const {

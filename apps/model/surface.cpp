@@ -100,13 +100,8 @@ struct PointList {
   }
 };
 
-// As many points to a piece of a plane body that there are at least two to a spacing.
 void add_points(const Model<2>& model, const SurfacePiece<2>& piece, PointList<2>& list) {
-  const double half = 0.5 * model.spacing_at(piece.particle);
-  constexpr double round_off = 1e-9;
-  const double length = (piece.to - piece.from).norm();
-  list.add(piece.from, piece.to, piece.particle,
-           std::max(1, static_cast<int>(std::ceil(length / half - round_off))));
+  list.add(piece.from, piece.to, piece.particle, point_count(model, piece));
 }
 
 // The pieces of a solid's surface are no wider than its particles are apart.
@@ -128,6 +123,13 @@ void add_face(const JointPiece<3>& joint, PointList<3>& list) {
 }
 
 }  // namespace
+
+int point_count(const Model<2>& model, const SurfacePiece<2>& piece) {
+  const double half = 0.5 * model.spacing_at(piece.particle);
+  constexpr double round_off = 1e-9;
+  const double length = (piece.to - piece.from).norm();
+  return std::max(1, static_cast<int>(std::ceil(length / half - round_off)));
+}
 
 template <int Dim>
 SurfacePoints<Dim> surface_points(const Model<Dim>& model, const SurfacePart& part) {

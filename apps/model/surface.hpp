@@ -41,6 +41,9 @@ struct SurfacePoints {
   fpm::BoundaryPoints<Dim> points;
 };
 
+/// How many points `surface_points` has on a piece, evenly along it: at least two to a spacing.
+int point_count(const Model<2>& model, const SurfacePiece<2>& piece);
+
 /// Points on a part of the surface, at least two to a spacing, as quadrature wants them.
 template <int Dim>
 SurfacePoints<Dim> surface_points(const Model<Dim>& model, const SurfacePart& part);

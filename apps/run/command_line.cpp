@@ -230,11 +230,15 @@ program::ExitCode run(std::span<const std::string> arguments, std::ostream& out,
     out << scene::effective_toml(*request.scene);
     return program::ExitCode::done;
   }
-  if (request.check_only) {
-    out << request.scene_file.string() << ": no errors\n" << scene_summary(*request.scene);
-  }
+  if (request.check_only) out << scene_summary(*request.scene);
   out.flush();
-  return runner(request);
+  const program::ExitCode code = runner(request);
+  // Some errors show when the model is built only.
+  if (request.check_only && code == program::ExitCode::done) {
+    out << request.scene_file.string() << ": no errors\n";
+    out.flush();
+  }
+  return code;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <iterator>
 
+#include "model/model.hpp"
 #include "program/progress.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
@@ -41,6 +42,23 @@ std::string check_report(const scene::Scene& scene, std::size_t particles, std::
   line("steps", fmt::format("{} planned", scene::planned_steps(scene)));
   return out;
 }
+
+template <int Dim>
+std::vector<std::string> joined_notes(const scene::Scene& scene, const model::Model<Dim>& model) {
+  std::vector<std::string> notes;
+  for (const model::JoinedFace& face : model.joined_faces) {
+    notes.push_back(fmt::format(
+        "\"{}\" and \"{}\" are one body, as if \"through\" joined them: at ({:.4g}, {:.4g}) m one "
+        "of them runs out into a tip too thin for rows of its own",
+        scene.material[static_cast<std::size_t>(face.first)].name,
+        scene.material[static_cast<std::size_t>(face.second)].name, face.place.x(),
+        face.place.y()));
+  }
+  return notes;
+}
+
+template std::vector<std::string> joined_notes<2>(const scene::Scene&, const model::Model<2>&);
+template std::vector<std::string> joined_notes<3>(const scene::Scene&, const model::Model<3>&);
 
 std::string control_note(const scene::Scene& scene, const record::CurveRow& last) {
   if (last.max_plastic_strain <= 0.0 || !scene::is_controlled_for_collapse(scene)) return "";

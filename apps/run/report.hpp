@@ -13,12 +13,21 @@ namespace scene {
 struct Scene;
 }
 
+namespace model {
+template <int Dim>
+struct Model;
+}
+
 namespace run {
 
 /// Particles, ghosts, memory and steps of a run that is not made, for --check.
 /// @param parts  of the memory of a long run, the state's first
 std::string check_report(const scene::Scene& scene, std::size_t particles, std::size_t ghosts,
                          const std::vector<model::MemoryPart>& parts);
+
+/// One line for each face between two materials that is none, as a tip takes it with it.
+template <int Dim>
+std::vector<std::string> joined_notes(const scene::Scene& scene, const model::Model<Dim>& model);
 
 /// That loads which grow were borne to the end by ground that yields, under a control that is weak
 /// for the sake of a collapse; "" for any other run. Of the whole scene.

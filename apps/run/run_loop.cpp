@@ -17,6 +17,7 @@
 #include "model/build.hpp"
 #include "model/measures.hpp"
 #include "model/state_file.hpp"
+#include "model/thin_tips.hpp"
 #include "program/stop_signals.hpp"
 #include "program/version.hpp"
 #include "record/run_lock.hpp"
@@ -24,6 +25,7 @@
 #include "run/recorder.hpp"
 #include "run/report.hpp"
 #include "scene/derived.hpp"
+#include "scene/reader.hpp"
 #include "scene/scene.hpp"
 #include "scene/stages.hpp"
 #include "stepping/failure_report.hpp"
@@ -148,6 +150,7 @@ class Run {
     out_ << check_report(scene_, static_cast<std::size_t>(model.size()),
                          static_cast<std::size_t>(model.ghosts.size()), parts);
     draw();
+    for (const std::string& note : joined_notes(scene_, model)) err_ << "warning: " << note << '\n';
     for (const std::string& warning : start.warnings) err_ << "warning: " << warning << '\n';
     if (!start.checkpoint.empty()) out_ << resumed_line(start) << '\n';
     for (const scene::SceneChange& change : start.changes)
@@ -211,10 +214,17 @@ class Run {
                       "machine went down",
                       folder.dead_owner()));
     }
+    warn_of_joined(recorder);
     for (const std::string& warning : start.warnings) recorder.log().warning(warning);
     if (!start.checkpoint.empty()) recorder.say(resumed_line(start));
     for (const scene::SceneChange& change : start.changes)
       recorder.say("changed: " + change.text());
+  }
+
+  void warn_of_joined(Recorder<Dim>& recorder) const {
+    for (const std::string& note : joined_notes(scene_, stages_.model())) {
+      recorder.log().warning(note);
+    }
   }
 
   /// @throws stepping::DoesNotSettle
@@ -237,6 +247,7 @@ class Run {
     recorder.say(fmt::format("{}: {} particles",
                              scene::stage_title(scene_, stages_.scene().course.stage),
                              stages_.model().size()));
+    warn_of_joined(recorder);
   }
 
   program::ExitCode advance(model::State<Dim>& state, Recorder<Dim>& recorder,
@@ -343,6 +354,13 @@ program::ExitCode run_programme(const RunRequest& request, std::ostream& out, st
       return Run<2>(begun, in_force.stage, out, err, system)();
     }
     return Run<3>(begun, in_force.stage, out, err, system)();
+  } catch (const model::InterfaceRefused& refused) {
+    err << "error: "
+        << scene::complaint_about(refused.key, refused.found, refused.allowed, request.scene_file,
+                                  request.settings)
+               .text()
+        << '\n';
+    return program::ExitCode::input_refused;
   } catch (const fpm::PoorNeighbourhood& failure) {
     err << "error: " << failure.what()
         << ": the particles there are too few or lie too unevenly; of a mesh, refine it there or "

@@ -81,4 +81,16 @@ SceneReading read_scene(const std::filesystem::path& file, std::span<const std::
   return parse_scene(std::get<std::string>(text), file.string(), settings);
 }
 
+tables::Complaint complaint_about(const std::string& key, const std::string& found,
+                                  const std::string& allowed, const std::filesystem::path& file,
+                                  std::span<const std::string> settings) {
+  tables::Diagnosis diagnosis(file.string());
+  const auto text = text_of(file);
+  if (const auto* readable = std::get_if<std::string>(&text)) {
+    std::optional<tables::Complaint> ignored;
+    static_cast<void>(parse_scene(*readable, settings, diagnosis, ignored));
+  }
+  return {diagnosis.where(key), key, found, allowed, ""};
+}
+
 }  // namespace scene

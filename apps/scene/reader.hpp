@@ -44,4 +44,11 @@ struct SceneReading {
                                                tables::Diagnosis& diagnosis,
                                                std::optional<tables::Complaint>& unreadable);
 
+/// A complaint about a scene that was read without errors, for who finds one later on: with where
+/// the file or a setting gives the key, or the nearest table around it.
+[[nodiscard]] tables::Complaint complaint_about(const std::string& key, const std::string& found,
+                                                const std::string& allowed,
+                                                const std::filesystem::path& file,
+                                                std::span<const std::string> settings);
+
 }  // namespace scene

@@ -356,8 +356,11 @@ SceneTable interface() {
   tables::TableBuilder<Scene, Interface> table(
       "interface", &Scene::interface,
       "What happens where two materials meet: on the faces of the lattice's cells between them. A "
-      "material thinner than three particles goes with its neighbour, and so does a tied one that "
-      "runs out into a tip too thin for rows of its own: rows see through all of that face.");
+      "material thinner than three particles goes with its neighbour. One that runs out into a tip "
+      "too thin for rows of its own takes the nearest face that is tied by default with it: rows "
+      "see "
+      "through all of that face, and a warning says so; a contact, or what is given as tied, would "
+      "be refused instead.");
   table
       .key("between", &Interface::between,
            {.need = tables::Need::required, .doc = "Names of the two materials."})

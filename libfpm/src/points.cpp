@@ -8,6 +8,7 @@
 #include <string>
 
 #include "fpm/neighbour_search.hpp"
+#include "place_text.hpp"
 #include "snap.hpp"
 
 namespace fpm {
@@ -178,9 +179,11 @@ PointOperator<Dim>::PointOperator(const ParticleSet<Dim>& particles, const Ghost
     while (!append_point(particles, ghosts, found, offset, radius, options)) {
       radius *= growth;
       if (radius > options.max_enlargement * narrowest) {
-        throw PoorNeighbourhood("point " + std::to_string(c) + " has no well-conditioned " +
-                                "neighbourhood within " + std::to_string(options.max_enlargement) +
-                                " support radii");
+        throw PoorNeighbourhood("point " + std::to_string(c) + " at " +
+                                    text_of<Dim>(points.row(c)) +
+                                    " m has no well-conditioned neighbourhood within " +
+                                    text_of(options.max_enlargement) + " support radii",
+                                static_cast<Index>(c));
       }
       search_within();
     }

@@ -5,11 +5,11 @@
 #include <functional>
 #include <map>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "fpm/neighbour_search.hpp"
+#include "place_text.hpp"
 #include "snap.hpp"
 
 namespace fpm {
@@ -29,19 +29,6 @@ Eigen::VectorXd with_ghosts(const Eigen::VectorXd& volume, const Ghosts<Dim>& gh
   extended.head(volume.size()) = volume;
   for (Index g = 0; g < ghosts.size(); ++g) extended[volume.size() + g] = volume[ghosts.source(g)];
   return extended;
-}
-
-std::string text_of(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
-template <int Dim>
-std::string text_of(const Eigen::Matrix<double, 1, Dim>& place) {
-  std::string text = "(";
-  for (int i = 0; i < Dim; ++i) text += (i > 0 ? ", " : "") + text_of(place[i]);
-  return text + ")";
 }
 
 }  // namespace
@@ -117,9 +104,10 @@ Rows<Dim>::Rows(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
       }
       if (radius > options.max_enlargement * narrowest) {
         throw PoorNeighbourhood("particle " + std::to_string(a) + " at " +
-                                text_of<Dim>(initial_position_.row(a)) +
-                                " m has no well-conditioned neighbourhood within " +
-                                text_of(options.max_enlargement) + " support radii");
+                                    text_of<Dim>(initial_position_.row(a)) +
+                                    " m has no well-conditioned neighbourhood within " +
+                                    text_of(options.max_enlargement) + " support radii",
+                                a);
       }
       search.within(initial_position_.row(a).transpose(), radius, found);
       const Vector<Dim> place = initial_position_.row(a).transpose();

@@ -157,8 +157,9 @@ TEST(PointOperator, RefusesPointsAndSizesThatCannotBe) {
   Field<2> points(2, 2);
   points << 0.4, 0.4, 5.0, 0.4;
   const auto options = row_options<2>();
-  EXPECT_THAT([&] { PointOperator<2>(m.set, m.ghosts, points, options); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("point 1 has no well-conditioned")));
+  EXPECT_THAT(
+      [&] { PointOperator<2>(m.set, m.ghosts, points, options); },
+      ThrowsMessage<fpm::PoorNeighbourhood>(HasSubstr("point 1 at (5, 0.4) m has no well-")));
   const Field<2> inside = points.topRows(1);
   const PointOperator<2> op(m.set, m.ghosts, inside, options);
   Field<2> one(1, 2);

@@ -136,24 +136,6 @@ TEST(TiedGround, BearsConstantStressAslant) {
   }
 }
 
-// A layer that runs out at the surface, at 4 to 30 degrees: its tip is less than particles wide,
-// goes to those of its neighbour, or, where no rows of its own see it, takes all of the layer with
-// it.
-TEST(TiedGround, BearsConstantStressWhereALayerRunsOut) {
-  for (const double out : {0.5, 0.53}) {
-    for (const double end : {0.2, 0.6, 0.8, 0.9}) {
-      const std::string layers =
-          region("soft", fmt::format("[[0, 0], [2, 0], [2, {}], [{}, 1], [0, 1]]", end, out)) +
-          region("stiff", fmt::format("[[{}, 1], [2, {}], [2, 1]]", out, end)) +
-          side("bottom", "\"roller\"", "[[0, 0], [2, 0]]") +
-          side("rest", pressed, "[[2, 0], [2, 1], [0, 1], [0, 0]]") +
-          "[[support]]\nname = \"point\"\nat = [0.05, 0.05]\n"
-          "directions = [\"x\"]\n";
-      EXPECT_LT(departure(layers + geometry(0.1) + soft + stiff), 1e-8) << out << ' ' << end;
-    }
-  }
-}
-
 // Where something does, the give, a spacing over the stiffness factor, strains what is between: a
 // block held on three sides of 1 m. It falls as the factor grows.
 TEST(TiedGround, DepartsByTheGiveOfTheTie) {

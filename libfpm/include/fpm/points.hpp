@@ -39,7 +39,8 @@ class PointOperator {
   ///   wide as its own; empty: the nearest
   /// @param options  kernel and support; a point with fewer than Dim + 2 neighbours or a poor
   ///   condition number gets a support wider by up to `max_enlargement`
-  /// @throws std::runtime_error naming the point if no admissible support gives a valid operator;
+  /// @throws PoorNeighbourhood, with the point's number and place, if no admissible support gives a
+  ///   valid operator;
   ///   std::invalid_argument if an option is out of range; ShapeError if sizes disagree.
   PointOperator(const ParticleSet<Dim>& particles, const Ghosts<Dim>& ghosts,
                 const Field<Dim>& points, const RowOptions& options,

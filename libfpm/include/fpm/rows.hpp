@@ -2,6 +2,7 @@
 
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -45,10 +46,17 @@ template <int Dim>
 Ghosts<Dim> make_ghosts(const ParticleSet<Dim>& particles,
                         const std::vector<GhostPlane<Dim>>& planes, const RowOptions& options);
 
-/// There are too few particles around one, or they lie too unevenly, for a row.
+/// There are too few particles around one, or around a point, or they lie too unevenly, for a row
+/// or an operator.
 class PoorNeighbourhood : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  PoorNeighbourhood(const std::string& what, Index index)
+      : std::runtime_error(what), index_(index) {}
+  /// Number of the particle or the point.
+  [[nodiscard]] Index index() const { return index_; }
+
+ private:
+  Index index_;
 };
 
 /// The reference configuration of every row: its neighbours and where they were, with what
