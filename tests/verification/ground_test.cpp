@@ -430,7 +430,7 @@ TEST(Settled, GroundThatDoesNotStandIsSaidToFall) {
   } catch (const stepping::DoesNotSettle& failure) {
     EXPECT_TRUE(std::string(failure.what())
                     .starts_with("initial_stress.kind = \"gravity\": the ground does not stand "
-                                 "under its own weight"));
+                                 "under its weight"));
   }
 }
 
