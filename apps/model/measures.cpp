@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <string_view>
 
 #include "model/penalty_targets.hpp"
@@ -155,7 +154,7 @@ void Measures<Dim>::locate(const scene::Scene& scene, const scene::Measure& aske
   try {
     measure.point = fpm::PointOperator<Dim>(of_stress ? by_material(model_) : model_.particles,
                                             model_.ghosts, point, model_.row_options, own);
-  } catch (const std::runtime_error&) {
+  } catch (const fpm::PoorNeighbourhood&) {
     // Where they are too few for a gradient the stress is that of the particle.
     if (!of_stress) throw;
     measure.kind = scene::MeasureKind::particle_stress;
@@ -292,8 +291,8 @@ fpm::Vector<Dim> Measures<Dim>::force(const Measure& measure, const State<Dim>& 
   return sum;
 }
 
-// Linear in the particles of the nearest one's body; an image behind a mirror has the stress of its
-// particle seen there.
+// Linear in the particles of the nearest one's material; an image behind a mirror has the stress of
+// its particle seen there.
 template <int Dim>
 constitutive::StressVector<Dim> Measures<Dim>::stress(const Measure& measure,
                                                       const State<Dim>& state) const {

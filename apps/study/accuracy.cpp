@@ -43,16 +43,14 @@ std::string first_line(const std::string& text) {
 class Runs {
  public:
   Runs(const AccuracyRequest& request, Quantity quantity, const scene::Scene& base,
-       std::vector<double> spacings, std::filesystem::path folder, std::ostream& out,
-       std::ostream& err)
+       std::vector<double> spacings, std::filesystem::path folder, std::ostream& out)
       : request_(request),
         quantity_(std::move(quantity)),
         base_(base),
         far_(request.far.empty() ? std::vector<scene::Side>{} : parse_far(request.far, base)),
         spacings_(std::move(spacings)),
         folder_(std::move(folder)),
-        out_(out),
-        err_(err) {}
+        out_(out) {}
 
   /// Settings of the scene, as --set takes them; nothing, and why, where it is refused.
   [[nodiscard]] std::optional<std::vector<std::string>> settings_of(const Fineness& fineness,
@@ -168,7 +166,6 @@ class Runs {
   std::vector<double> spacings_;
   std::filesystem::path folder_;
   std::ostream& out_;
-  std::ostream& err_;
   std::set<std::string> said_;
   program::StopSignals signals_;
 };
@@ -348,7 +345,7 @@ program::ExitCode find_accuracy(const AccuracyRequest& request, std::ostream& ou
   std::optional<Answer> answer;
   std::vector<std::string> settings;
   try {
-    Runs runs(request, quantity, *base, wish.spacings, folder / "accuracy", out, err);
+    Runs runs(request, quantity, *base, wish.spacings, folder / "accuracy", out);
     answer =
         climb(wish, [&](const Fineness& one, double allowance) { return runs(one, allowance); });
     std::string refusal;

@@ -6,6 +6,7 @@
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
 #include "scene/stages.hpp"
+#include "support/sample_scene.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace run {
@@ -65,32 +66,8 @@ drive = { name = "side", kind = "load", scales = ["traction"] }
 // Loads that grow may end in a collapse or not; only the run knows.
 TEST(ControlNote, IsForLoadsBorneToTheEndByGroundThatYields) {
   const auto scene_of = [](const std::string& more) {
-    const auto reading = scene::parse_scene(R"(
-[geometry]
-min = [0, 0]
-max = [2, 1]
-spacing = 0.25
-[[material]]
-name = "m"
-model = "von_mises"
-youngs_modulus = 1e7
-poissons_ratio = 0.3
-cohesion = 1e4
-[[support]]
-name = "base"
-side = "bottom"
-directions = ["x", "y"]
-[[traction]]
-name = "q"
-side = "top"
-value = [0.0, -1e3]
-[drive]
-kind = "load"
-scales = ["traction"]
-[programme]
-steps = 1
-)" + more,
-                                            "s.toml");
+    const auto reading =
+        scene::parse_scene(std::string(support::pressed_block) + "steps = 1\n" + more, "s.toml");
     return *reading.scene;
   };
   record::CurveRow yields, stays_elastic;

@@ -7,37 +7,14 @@
 #include "scene/scene.hpp"
 #include "study/expense.hpp"
 #include "study/quantity.hpp"
+#include "support/sample_scene.hpp"
 
 namespace study {
 namespace {
 
 double resolution(const std::string& programme) {
-  const auto reading = scene::parse_scene(R"(
-[geometry]
-min = [0, 0]
-max = [2, 1]
-spacing = 0.25
-[[material]]
-name = "m"
-model = "von_mises"
-youngs_modulus = 1e7
-poissons_ratio = 0.3
-cohesion = 1e4
-[[support]]
-name = "base"
-side = "bottom"
-directions = ["x", "y"]
-[[traction]]
-name = "q"
-side = "top"
-value = [0.0, -1e3]
-[drive]
-kind = "load"
-scales = ["traction"]
-[programme]
-steps = 8
-)" + programme,
-                                          "s.toml");
+  const auto reading =
+      scene::parse_scene(std::string(support::pressed_block) + "steps = 8\n" + programme, "s.toml");
   return failure_resolution(*reading.scene, parse_quantity("load_parameter"));
 }
 

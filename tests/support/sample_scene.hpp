@@ -42,6 +42,31 @@ target = 0.05
 width = 0.5
 )";
 
+// A block of clay that is pressed upon more and more, in as many steps as one more line says.
+inline constexpr std::string_view pressed_block = R"([geometry]
+min = [0, 0]
+max = [2, 1]
+spacing = 0.25
+[[material]]
+name = "m"
+model = "von_mises"
+youngs_modulus = 1e7
+poissons_ratio = 0.3
+cohesion = 1e4
+[[support]]
+name = "base"
+side = "bottom"
+directions = ["x", "y"]
+[[traction]]
+name = "q"
+side = "top"
+value = [0.0, -1e3]
+[drive]
+kind = "load"
+scales = ["traction"]
+[programme]
+)";
+
 /// The sample with the only occurrence of `what` replaced; a test whose place is gone must fail.
 inline std::string sample_with(std::string_view what, std::string_view instead) {
   std::string text(sample_scene);
