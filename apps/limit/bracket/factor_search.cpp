@@ -44,10 +44,11 @@ void FactorSearch::learn_slope(const Seen& now) {
 
 void FactorSearch::begin_anew(double shift) {
   first_ = root() * shift;
+  // Where nothing but a multiplier without end was seen, the root may be as far as before.
+  if (failed_ || !carried_ || !carried_->has_no_end) reach_ = next_mesh;
   carried_.reset();
   failed_.reset();
   again_ = 0;
-  reach_ = next_mesh;
 }
 
 double FactorSearch::root() const {

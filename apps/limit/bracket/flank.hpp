@@ -48,10 +48,25 @@ class Flank {
   [[nodiscard]] bool may_rest(double factor) const {
     return resting_ != Resting::all && is_steep_at(factor);
   }
+  /// What a solve should take, by the last one that ended well; nothing if there is none.
+  [[nodiscard]] double expected_seconds() const {
+    constexpr double growth = 1.5;  // of the work with the triangles
+    if (solved_triangles_ == 0) return 0.0;
+    return seconds_ * std::pow(static_cast<double>(triangles()) / solved_triangles_, growth);
+  }
   /// Gain of the last mesh for its work; infinite as long as it is not known.
   [[nodiscard]] double promise() const { return promise_; }
   /// @param reach  how far off it may be, as a factor
   void start_from(double factor, double reach) { search_ = FactorSearch(factor, reach); }
+
+  /// Puts the soils to rest that had to be on another mesh, which the solver may then do without
+  /// failing first.
+  void rest_as(const Flank& other, double factor) {
+    for (Resting before = Resting::all; resting_ != before && resting_ != other.resting_;) {
+      before = resting_;
+      put_to_rest(factor);
+    }
+  }
 
   /// Where no factor was certified, that of stresses which carry less than the loads at a factor
   /// tried: enlarged until they carry them, they lie within a strength that is as much more.
@@ -65,24 +80,31 @@ class Flank {
     if (best_.upper) bracket.upper = best_.upper;
   }
 
-  /// Finds the factor at which this mesh's bound of the multiplier is one.
+  /// Finds the factor at which this mesh's bound of the multiplier is one, unless a better one is
+  /// known from elsewhere.
   /// @param nearness  -> how closely, as a share of it
+  /// @param known     -> the best factor so far on this side of the collapse, from anywhere
   /// @param solve     (*this, factor) -> whether to go on
-  template <class Nearness, class Solve>
-  void settle(const Nearness& nearness, const Solve& solve) {
+  template <class Nearness, class Known, class Solve>
+  void settle(const Nearness& nearness, const Known& known, const Solve& solve) {
     const std::optional<double> before = settled_;
     work_ = 0.0;
     constexpr int most_steps = 16;
+    double last = 0.0;
     for (int step = 0; step < most_steps && failures_ < most_failures; ++step) {
       const double near = nearness();
-      // To the side on which the certificate decides, by less than what is asked for.
-      const double target = next_factor() * std::exp((is_lower_ ? -0.25 : 0.25) * near);
+      // To the side on which the certificate decides, by less than what is asked for, but not to
+      // where it would be worth nothing.
+      double target = next_factor() * std::exp((is_lower_ ? -0.25 : 0.25) * near);
+      if (!is_better(target, known()) && is_better(next_factor(), known())) target = next_factor();
       const bool is_near = factor_ && std::abs(std::log(target / *factor_)) < near;
       // A multiplier that is far from one says that there is more to come, where it falls off.
-      constexpr double steep_enough = 4.0;
-      if (is_near && step > 0 && excess_ < steep_enough * near) break;
+      constexpr double steep_enough = 4.0, most_left = 0.1;
+      if (is_near && step > 0 && excess_ < std::min(steep_enough * near, most_left)) break;
       if (factor_ && 2.0 * search_.width() < near && is_near) break;
+      if (step > 0 && failures_ == 0 && is_surpassed(target, last, known())) break;
       if (!solve(*this, target)) break;
+      last = target;
     }
     settled_ = search_.root();
     if (!before) return;
@@ -140,6 +162,17 @@ class Flank {
   [[nodiscard]] double weakening(const problem::Soil& soil, double factor) const {
     if (!is_lower_ || resting_ == Resting::none) return factor;
     return std::max(factor, std::tan(soil.friction_angle) / steepest_);
+  }
+
+  [[nodiscard]] bool is_better(double factor, const std::optional<double>& known) const {
+    return !known || (is_lower_ ? factor > *known : factor < *known);
+  }
+
+  // Whether the mesh has not decided for the last factor tried, and of what it may decide for a
+  // better one is known: a finer mesh is wanted.
+  [[nodiscard]] bool is_surpassed(double target, double last,
+                                  const std::optional<double>& known) const {
+    return !is_better(target, last) && !is_better(target, known);
   }
 
   // Soils that are nowhere at a side that is free to move.
@@ -219,6 +252,7 @@ class Flank {
       return;
     }
     failures_ = 0;
+    if (is_solved) seconds_ = last.seconds, solved_triangles_ = last.triangles;
     constexpr double rounding = 1e-3;
     // Without any cohesion next to nothing may be left at once.
     constexpr double next_to_nothing = 1e-3;
@@ -280,6 +314,8 @@ class Flank {
   Resting resting_ = Resting::none;    // which steep soils have been put to rest
   double steepest_ = std::tan(steep);  // tangent of the friction that is left to them
   std::optional<double> settled_;      // where the last mesh's multiplier should be one
+  double seconds_ = 0.0;               // of the last solve that ended well
+  int solved_triangles_ = 0;           // and of how many
   double gain_ = 0.0;                  // of the last mesh, as a logarithm
   double work_ = 0.0;                  // for it
   double promise_ = std::numeric_limits<double>::infinity();

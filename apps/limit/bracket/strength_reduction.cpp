@@ -29,14 +29,16 @@ class Reduction {
 
   Solution solution() {
     if (!(case_.known_lower && case_.known_upper)) search();
-    result_.lower = larger(below_.factor(), case_.known_lower);
-    result_.lower = larger(result_.lower, below_.enlarged_factor());
-    result_.upper = smaller(upper(), case_.known_upper);
+    result_.lower = larger(lower(), below_.enlarged_factor());
+    result_.upper = upper();
     if (result_.block && result_.upper && result_.block->factor > *result_.upper) {
       result_.block.reset();
     }
     below_.give(result_.bracket);
     above_.give(result_.bracket);
+    if (rough_ && rough_->factor() && rough_->factor() == result_.upper) {
+      rough_->give(result_.bracket);
+    }
     result_.bracket.reached = result_.gap() <= options_.gap;
     return std::move(result_);
   }
@@ -53,7 +55,9 @@ class Reduction {
 
   void search() {
     look_for_block();
-    if (!upper()) settle(above_);
+    const bool is_known = upper().has_value();
+    look_roughly();
+    if (!is_known) settle(above_);
     if (upper()) below_.start_from(*upper(), close);
     settle(below_);
     // A block that is not the right mechanism at all. It mostly is, closer than a mesh can be; a
@@ -87,10 +91,10 @@ class Reduction {
       Flank other(problem::in_units(problem, case_.units), is_lower, 1.0 / case_.units.multiplier(),
                   means_);
       const double better = is_lower ? close * *known : *known / close;
+      other.rest_as(flank, better);
       static_cast<void>(solve(other, better));
       if (!other.factor()) continue;
       flank = std::move(other);
-      flank.start_from(better, close);
       settle(flank);
     }
   }
@@ -100,6 +104,22 @@ class Reduction {
     const double one = 1.0 / case_.units.multiplier();
     result_.block = block_factor(scaled_, one, estimated_factor(scaled_, one),
                                  share * options_.max_seconds, means_);
+  }
+
+  // How far the factor is, on a mesh whose solves cost next to nothing. Of soils in layers neither
+  // their means nor blocks say that.
+  void look_roughly() {
+    if (case_.rough_upper.triangles.empty()) return;
+    problem::Problem problem = case_.upper;
+    problem.mesh = case_.rough_upper;
+    rough_.emplace(problem::in_units(problem, case_.units), false, 1.0 / case_.units.multiplier(),
+                   means_);
+    settle(*rough_);
+    if (!rough_->factor()) return;
+    constexpr double worse = 1.1;  // than a finer mesh, mostly
+    const double expected = *rough_->factor() / worse;
+    above_.start_from(expected, worse);
+    above_.rest_as(*rough_, expected);
   }
 
   // Between what is known: at the block's own factor, only the block is to be found again.
@@ -115,8 +135,12 @@ class Reduction {
   [[nodiscard]] double remaining() const {
     return options_.max_seconds - (means_.seconds() - began_);
   }
+  [[nodiscard]] std::optional<double> lower() const {
+    return larger(below_.factor(), case_.known_lower);
+  }
   [[nodiscard]] std::optional<double> upper() const {
     std::optional<double> least = smaller(above_.factor(), case_.known_upper);
+    if (rough_) least = smaller(least, rough_->factor());
     if (result_.block) least = smaller(least, result_.block->factor);
     return least;
   }
@@ -125,8 +149,8 @@ class Reduction {
     return (result_.block || case_.known_upper) && !has_begun_above_;
   }
   [[nodiscard]] double gap() const {
-    if (!below_.factor() || !upper()) return std::numeric_limits<double>::infinity();
-    return 2.0 * (*upper() - *below_.factor()) / (*upper() + *below_.factor());
+    if (!lower() || !upper()) return std::numeric_limits<double>::infinity();
+    return 2.0 * (*upper() - *lower()) / (*upper() + *lower());
   }
 
   Flank* next_to_refine() {
@@ -157,17 +181,25 @@ class Reduction {
     if (remaining() <= 0.0) return false;
     BracketOptions rest = options_;
     // What takes more than a good share of it ends nowhere, and another factor might, or, sooner,
-    // the same one with steep soils at rest.
-    constexpr double share = 0.3, before_rest = 0.1;
-    rest.max_seconds = std::min(
-        remaining(), (flank.may_rest(factor) ? before_rest : share) * options_.max_seconds);
+    // the same one with steep soils at rest, unless such solves have ended well so far.
+    constexpr double share = 0.3, before_rest = 0.1, patience = 2.0, roughly = 0.02;
+    const bool is_rough = rough_ && &flank == &*rough_;
+    const double least = is_rough ? roughly : flank.may_rest(factor) ? before_rest : share;
+    const double seconds = std::clamp(patience * flank.expected_seconds(),
+                                      least * options_.max_seconds, share * options_.max_seconds);
+    rest.max_seconds = std::min(remaining(), seconds);
     rest.solver_gap = solver_gap();
     flank.solve_at(factor, rest, watch_, result_.bracket.attempts);
     return gap() > options_.gap || !flank.factor();
   }
 
   void settle(Flank& flank) {
-    flank.settle([this] { return nearness(); },
+    const bool is_lower = &flank == &below_;
+    // A mechanism that is to be shown is one of the mesh, whatever else is known.
+    const auto known = [&] {
+      return is_lower ? lower() : options_.wants_mechanism ? flank.factor() : upper();
+    };
+    flank.settle([this] { return nearness(); }, known,
                  [this](Flank& of, double factor) { return solve(of, factor); });
   }
 
@@ -176,6 +208,7 @@ class Reduction {
   const Means& means_;
   double began_;
   Flank below_, above_;
+  std::optional<Flank> rough_;
   problem::Problem scaled_;
   const problem::Case& case_;
   Solution result_;

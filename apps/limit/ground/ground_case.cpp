@@ -220,6 +220,15 @@ void add_long_meshes(const GroundScene& scene, const GroundOutline& outline, dou
   }
 }
 
+// Twice as coarse as the upper bound's first mesh everywhere.
+mesh::Mesh rough_mesh(const GroundScene& scene, const GroundOutline& outline, double length) {
+  GroundFineness fineness = fineness_of(scene, outline, length, false);
+  fineness.rays_per_radian /= 2.0;
+  fineness.rings /= 2;
+  fineness.longest *= 2.0;
+  return ground_mesh(scene, outline, fineness);
+}
+
 problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
                       const std::optional<Base>& base, bool reduce, tables::Diagnosis& diagnosis) {
   problem::Case result;
@@ -252,6 +261,7 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
     return result;
   }
   if (result.seeks_strength && scene.materials.size() > 1) {
+    result.rough_upper = rough_mesh(scene, outline, length);
     add_long_meshes(scene, outline, length, result);
   }
   return result;

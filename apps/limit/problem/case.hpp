@@ -36,6 +36,9 @@ struct Case {
   Problem lower, upper;  // in SI units, on the meshes to begin with
   /// Meshes of longer triangles for the same ground, to be tried where its soils become steep.
   std::vector<mesh::Mesh> long_lower, long_upper;
+  /// A mesh of few triangles for the same ground, on which a factor is looked for first; may be
+  /// none.
+  mesh::Mesh rough_upper;
 };
 
 /// A collapse problem and, if a soil in it dilates by less than its friction angle, its twin of

@@ -7,6 +7,7 @@
 
 #include "limit/bracket/flank.hpp"
 #include "limit/bracket/side.hpp"
+#include "limit/bracket/strength_reduction.hpp"
 #include "limit/bracket/weakened.hpp"
 #include "limit/ground/ground_cases.hpp"
 
@@ -218,6 +219,30 @@ TEST(Slope, HasALowerBoundFromStressesThatCarryLess) {
   EXPECT_EQ(certificate.kept, 1.0);
 }
 
+// What a mesh will not give is not sought on it: the next one is.
+TEST(Slope, IsNotFollowedOnAMeshThatGivesNoMoreThanIsKnown) {
+  const auto problem = shipped("vertical_cut", {"load.sought=strength"});
+  ASSERT_TRUE(problem);
+  const problem::Case& cut = problem->associated;
+  const problem::Problem scaled = problem::in_units(cut.upper, cut.units);
+  const bracket::Means means;
+  const auto solves = [&](std::optional<double> known) {
+    bracket::Flank flank(scaled, false, 1.0 / cut.units.multiplier(), means);
+    flank.start_from(3.5, 1.3);
+    std::vector<bracket::Attempt> attempts;
+    flank.settle([] { return 0.004; }, [&] { return known; },
+                 [&](bracket::Flank& of, double factor) {
+                   of.solve_at(factor, {}, {}, attempts);
+                   return true;
+                 });
+    return attempts.size();
+  };
+  // The factor is 3.776 to 3.778, below what the first mesh has.
+  EXPECT_GT(solves(std::nullopt), 1U);
+  EXPECT_GT(solves(4.5), 1U);
+  EXPECT_EQ(solves(3.5), 1U);
+}
+
 TEST(Slope, OfSandWhoseWeightAloneGrowsIsRefused) {
   tables::Diagnosis diagnosis("scene");
   std::optional<tables::Complaint> unreadable;
@@ -234,11 +259,8 @@ TEST(Slope, OfSandWhoseWeightAloneGrowsIsRefused) {
                                ::testing::HasSubstr("strength")));
 }
 
-// Soft clay is squeezed out under strong ground, whose friction is 80 degrees and more at such a
-// factor: it bends like a plate, squeezed along itself by next to nothing as it grows across.
-// Triangles as long as they are high do not show that, nor the thrust in it.
-TEST(SteepSoil, IsBorneBetterByLongTriangles) {
-  const auto cases = case_of(R"([load]
+// Soft clay under strong ground.
+constexpr const char* squeezed_clay = R"([load]
 sought = "strength"
 [[material]]
 name = "top"
@@ -280,7 +302,13 @@ along = [[-50, -10], [58, -10]]
 name = "right"
 kind = "roller"
 along = [[58, -10], [58, 0]]
-)");
+)";
+
+// Soft clay is squeezed out under strong ground, whose friction is 80 degrees and more at such a
+// factor: it bends like a plate, squeezed along itself by next to nothing as it grows across.
+// Triangles as long as they are high do not show that, nor the thrust in it.
+TEST(SteepSoil, IsBorneBetterByLongTriangles) {
+  const auto cases = case_of(squeezed_clay);
   ASSERT_TRUE(cases);
   const problem::Case& of = cases->associated;
   ASSERT_EQ(of.long_lower.size(), 2U);
@@ -298,6 +326,36 @@ along = [[58, -10], [58, 0]]
   }
   EXPECT_LE(of.long_lower.back().triangles.size(), of.lower.mesh.triangles.size());
   EXPECT_GT(carried[1], 2.0 * carried[0]);
+}
+
+// The means of such soils, and blocks, are off by a factor of ten and more; it costs next to
+// nothing to see that on few triangles, and a second for each look on the first meshes.
+TEST(SteepSoil, IsLookedAtRoughlyFirst) {
+  const auto cases = case_of(squeezed_clay);
+  ASSERT_TRUE(cases);
+  const problem::Case& of = cases->associated;
+  const auto few = static_cast<int>(of.rough_upper.triangles.size());
+  ASSERT_LT(3 * few, static_cast<int>(of.upper.mesh.triangles.size()));
+  // A clock that ticks by solves: it ends after six.
+  double solves = 0.0;
+  bracket::Means means;
+  means.seconds = [&] { return solves; };
+  means.solve = [&](const auto& program, const auto& options) {
+    ++solves;
+    return solver::solve(program, options);
+  };
+  bracket::BracketOptions options;
+  options.max_seconds = 6.0;
+  const bracket::Solution found = bracket::reduce_strength(of, options, {}, means);
+  ASSERT_TRUE(found.upper);
+  int rough = 0, finer = 0;
+  for (const bracket::Attempt& attempt : found.bracket.attempts) {
+    const bool is_rough = attempt.triangles <= few;
+    ++(is_rough ? rough : finer);
+    EXPECT_TRUE(is_rough || *attempt.factor < *found.upper);
+  }
+  EXPECT_GT(rough, 0);
+  EXPECT_GT(finer, 0);
 }
 
 }  // namespace
