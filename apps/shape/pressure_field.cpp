@@ -210,6 +210,54 @@ double PressureField::at(const Point& place) const {
   return std::max(0.0, parts.plane(triangle).at(nearest_in(parts.corners(triangle), place)));
 }
 
+bool PressureField::has_triangles() const {
+  return parts_->has_triangles();
+}
+
+double PressureField::largest() const {
+  const auto& told = parts_->told;
+  return told.samples ? std::max(0.0, std::ranges::max(told.samples->values))
+                      : std::max(0.0, told.value);
+}
+
+std::vector<Point> PressureField::kinks(const Point& from, const Point& to) const {
+  // A line is the middle of a strip, as narrow as rounding lets it be.
+  const Point along = to - from;
+  constexpr double narrow = 1e-9;
+  const Point aside = narrow * Point(-along.y(), along.x());
+  std::vector<double> shares{0.0, 1.0};
+  for (const Piece& piece : within({from - aside, to - aside, to + aside, from + aside})) {
+    for (const Point& corner : piece.ring) {
+      shares.push_back(std::clamp((corner - from).dot(along) / along.squaredNorm(), 0.0, 1.0));
+    }
+  }
+  std::ranges::sort(shares);
+  std::vector<std::pair<double, double>> values;
+  for (const double share : shares) values.emplace_back(share, at(from + share * along));
+  std::vector<Point> found;
+  constexpr double rounding = 1e-6;
+  const double slack = rounding * largest();
+  // Between two places that are kept, the one that comes off most is kept, too.
+  const auto divide = [&](const auto& self, std::size_t first, std::size_t last) -> void {
+    std::size_t furthest = first;
+    double most = slack;
+    for (std::size_t i = first + 1; i < last; ++i) {
+      const double width = values[last].first - values[first].first;
+      const double share = width > 0.0 ? (values[i].first - values[first].first) / width : 0.0;
+      const double linear = (1.0 - share) * values[first].second + share * values[last].second;
+      if (std::abs(values[i].second - linear) <= most) continue;
+      most = std::abs(values[i].second - linear);
+      furthest = i;
+    }
+    if (furthest == first) return;
+    self(self, first, furthest);
+    found.push_back(from + values[furthest].first * along);
+    self(self, furthest, last);
+  };
+  divide(divide, 0, values.size() - 1);
+  return found;
+}
+
 bool PressureField::covers(const Point& place) const {
   const Parts& parts = *parts_;
   constexpr double rounding = 1e-6;  // of coordinates in a file

@@ -38,6 +38,14 @@ class PressureField {
   /// The pieces of a convex polygon; none of what is beyond that which is told of.
   [[nodiscard]] std::vector<Piece> within(const Ring& polygon) const;
 
+  /// The places between the ends of a straight line where the pressure along it is no longer
+  /// linear, or comes off what is so by more than a millionth of its largest value; in order.
+  [[nodiscard]] std::vector<Point> kinks(const Point& from, const Point& to) const;
+  /// Whether its parts are triangles, which may be many.
+  [[nodiscard]] bool has_triangles() const;
+  /// [Pa] Anywhere; of what is linear, at its own place.
+  [[nodiscard]] double largest() const;
+
   /// Whether it is told of a place; on the outermost line of values it is, but for rounding.
   [[nodiscard]] bool covers(const Point& place) const;
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "limit/ground/ground_pressure.hpp"
+
 namespace limit::ground {
 
 namespace {
@@ -20,7 +22,58 @@ bool presses(const GroundSide& side) {
   return side.kind == SideKind::loaded && (side.pressure != 0.0 || side.shear != 0.0);
 }
 
+// Force [N/m3] of the water in a skin of a straight piece of the outline.
+mesh::Point water_in_skin(const GroundScene& scene, const problem::Soil& soil,
+                          const mesh::Point& first, const mesh::Point& second) {
+  const auto told = pressure_in_triangles(scene);
+  if (!told) return soil.seepage + soil.live_seepage;
+  constexpr double thin = 1e-3;
+  const mesh::Point way = second - first, inwards(-way.y(), way.x());
+  mesh::Point force(0.0, 0.0);
+  double area = 0.0;
+  for (const auto& piece :
+       told->field().within({first, second, first + way / 2.0 + thin * inwards})) {
+    force -= piece.area * piece.gradient;
+    area += piece.area;
+  }
+  return area > 0.0 ? mesh::Point(force / area) : force;
+}
+
 }  // namespace
+
+void check_lift(const GroundScene& scene, const GroundOutline& outline,
+                const problem::Problem& problem, tables::Diagnosis& diagnosis) {
+  if (!scene.water.is_there() || scene.load.sought == Sought::gravity) return;
+  for (const GroundSegment& segment : outline.segments) {
+    if (segment.right >= 0) continue;
+    const GroundSide& side = scene.sides[static_cast<std::size_t>(segment.side)];
+    const std::size_t m = scene.regions[static_cast<std::size_t>(segment.left)].material;
+    const problem::Soil& soil = problem.soils[m];
+    if ((side.kind != SideKind::free && side.kind != SideKind::loaded) || presses(side) ||
+        !soil.is_loose()) {
+      continue;
+    }
+    const mesh::Point &first = outline.at(segment.first), &second = outline.at(segment.second);
+    const mesh::Point way = (second - first).normalized(), outwards(way.y(), -way.x());
+    const mesh::Point water = water_in_skin(scene, soil, first, second);
+    const double weight =
+        soil.unit_weight + (problem.most_multiplier ? soil.live_unit_weight : 0.0);
+    const double lift = outwards.dot(water), press = -weight * outwards.dot(problem.pull);
+    constexpr double rounding = 1e-9;
+    if (lift <= press + rounding * lift) continue;
+    diagnosis.error(
+        scene.water.pore_pressure ? "water.pore_pressure"
+        : scene.water.r_u         ? "water.r_u"
+                                  : "water.table",
+        fmt::format("water lifts {}, which has no cohesion, off the side \"{}\" at "
+                    "({:.6g}, {:.6g}), with {:.6g} {} and no more than {:.6g} on it",
+                    scene.materials[m].name, side.name, (first.x() + second.x()) / 2.0,
+                    (first.y() + second.y()) / 2.0, lift, scene.units.unit_weight(), press),
+        "such ground boils: allowed are less water, a cohesion, or a pressure on the "
+        "side, as of a filter");
+    return;
+  }
+}
 
 void say_skins(const GroundScene& scene, const GroundOutline& outline,
                const problem::Problem& soils, problem::Case& result) {

@@ -12,4 +12,9 @@ namespace limit::ground {
 void say_skins(const GroundScene& scene, const GroundOutline& outline,
                const problem::Problem& soils, problem::Case& result);
 
+/// Refuses ground without cohesion that water lifts off a face with nothing on it, as the outflow
+/// of water that rises steeply does: it is not at rest under what is given, whatever else acts.
+void check_lift(const GroundScene& scene, const GroundOutline& outline,
+                const problem::Problem& problem, tables::Diagnosis& diagnosis);
+
 }  // namespace limit::ground
