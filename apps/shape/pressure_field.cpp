@@ -9,6 +9,7 @@
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
@@ -153,20 +154,29 @@ struct PressureField::Parts {
                            cross(first, second);
     return {at[0], value(0), gradient};
   }
-  // The triangle nearest to a place, and how far it is.
-  [[nodiscard]] std::pair<int, double> nearest(const Point& place) const {
+  // The nearest of the triangles whose boxes meet a box, and how far it is.
+  [[nodiscard]] std::pair<int, double> nearest_in_box(const Point& place, const Box& box) const {
     std::pair<int, double> best(-1, infinity);
-    // The box of a triangle is no further than the triangle.
-    for (auto it = boxes.qbegin(
-             index::nearest(Place(place.x(), place.y()), static_cast<unsigned>(triangles.size())));
-         it != boxes.qend(); ++it) {
-      if (boost::geometry::distance(Place(place.x(), place.y()), it->first) > best.second) break;
+    for (auto it = boxes.qbegin(index::intersects(box)); it != boxes.qend(); ++it) {
       const double distance = (nearest_in(corners(it->second), place) - place).norm();
       if (distance < best.second || (distance == best.second && it->second < best.first)) {
         best = {it->second, distance};
       }
     }
     return best;
+  }
+  // The triangle nearest to a place, and how far it is.
+  [[nodiscard]] std::pair<int, double> nearest(const Point& place) const {
+    const Place here(place.x(), place.y());
+    auto best = nearest_in_box(place, Box(here, here));
+    if (best.second == 0.0) return best;
+    // No further than that of the nearest box.
+    std::vector<Entry> found;
+    boxes.query(index::nearest(here, 1), std::back_inserter(found));
+    const double reach =
+        std::min(best.second, (nearest_in(corners(found.front().second), place) - place).norm());
+    return nearest_in_box(place, Box(Place(place.x() - reach, place.y() - reach),
+                                     Place(place.x() + reach, place.y() + reach)));
   }
 };
 
