@@ -240,7 +240,10 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
   result.lower = loads_of(scene, base, reduce, diagnosis);
   if (diagnosis.errors().empty()) require_live_load(scene, base, result.lower, diagnosis);
   if (diagnosis.errors().empty()) require_strength(scene, result.lower, diagnosis);
-  if (diagnosis.errors().empty()) check_lift(scene, outline, result.lower, diagnosis);
+  if (diagnosis.errors().empty() && !reduce && scene.load.sought != Sought::gravity) {
+    check_bare_faces(scene, outline, result.lower, diagnosis);
+    check_ends_of_pressure(scene, outline, result.lower, diagnosis);
+  }
   if (!diagnosis.errors().empty()) return result;
   result.assumptions = assumptions_of(scene, result.lower, base);
   const double length = length_of(scene, outline, base);

@@ -22,6 +22,11 @@ bool presses(const GroundSide& side) {
   return side.kind == SideKind::loaded && (side.pressure != 0.0 || side.shear != 0.0);
 }
 
+bool is_bare(const GroundSide& side) {
+  return side.kind == SideKind::free || (side.kind == SideKind::loaded && !presses(side) &&
+                                         side.live_pressure == 0.0 && side.live_shear == 0.0);
+}
+
 // Force [N/m3] of the water in a skin of a straight piece of the outline.
 mesh::Point water_in_skin(const GroundScene& scene, const problem::Soil& soil,
                           const mesh::Point& first, const mesh::Point& second) {
@@ -41,37 +46,73 @@ mesh::Point water_in_skin(const GroundScene& scene, const problem::Soil& soil,
 
 }  // namespace
 
-void check_lift(const GroundScene& scene, const GroundOutline& outline,
-                const problem::Problem& problem, tables::Diagnosis& diagnosis) {
-  if (!scene.water.is_there() || scene.load.sought == Sought::gravity) return;
+void check_bare_faces(const GroundScene& scene, const GroundOutline& outline,
+                      const problem::Problem& problem, tables::Diagnosis& diagnosis) {
+  const bool seeks_strength = scene.load.sought == Sought::strength;
   for (const GroundSegment& segment : outline.segments) {
     if (segment.right >= 0) continue;
     const GroundSide& side = scene.sides[static_cast<std::size_t>(segment.side)];
     const std::size_t m = scene.regions[static_cast<std::size_t>(segment.left)].material;
     const problem::Soil& soil = problem.soils[m];
-    if ((side.kind != SideKind::free && side.kind != SideKind::loaded) || presses(side) ||
-        !soil.is_loose()) {
-      continue;
-    }
+    if (!is_bare(side) || !soil.is_loose()) continue;
     const mesh::Point &first = outline.at(segment.first), &second = outline.at(segment.second);
     const mesh::Point way = (second - first).normalized(), outwards(way.y(), -way.x());
     const mesh::Point water = water_in_skin(scene, soil, first, second);
-    const double weight =
-        soil.unit_weight + (problem.most_multiplier ? soil.live_unit_weight : 0.0);
-    const double lift = outwards.dot(water), press = -weight * outwards.dot(problem.pull);
-    constexpr double rounding = 1e-9;
-    if (lift <= press + rounding * lift) continue;
-    diagnosis.error(
-        scene.water.pore_pressure ? "water.pore_pressure"
-        : scene.water.r_u         ? "water.r_u"
-                                  : "water.table",
-        fmt::format("water lifts {}, which has no cohesion, off the side \"{}\" at "
-                    "({:.6g}, {:.6g}), with {:.6g} {} and no more than {:.6g} on it",
+    const mesh::Point weight =
+        (soil.unit_weight + (seeks_strength ? soil.live_unit_weight : 0.0)) * problem.pull;
+    const std::string where =
+        fmt::format("{}, which has no cohesion, off the side \"{}\" at ({:.6g}, {:.6g})",
                     scene.materials[m].name, side.name, (first.x() + second.x()) / 2.0,
-                    (first.y() + second.y()) / 2.0, lift, scene.units.unit_weight(), press),
-        "such ground boils: allowed are less water, a cohesion, or a pressure on the "
-        "side, as of a filter");
+                    (first.y() + second.y()) / 2.0);
+    const double lift = outwards.dot(water), press = -outwards.dot(weight + water);
+    const double along = std::abs(way.dot(weight + water));
+    const double rounding = 1e-9 * (weight.norm() + water.norm());
+    if (lift > 0.0 && press < -rounding) {
+      diagnosis.error(scene.water.pore_pressure ? "water.pore_pressure"
+                      : scene.water.r_u         ? "water.r_u"
+                                                : "water.table",
+                      fmt::format("water lifts {}, with {:.6g} {} and no more than {:.6g} on it",
+                                  where, lift, scene.units.unit_weight(), press + lift),
+                      "such ground boils: allowed are less water, a cohesion, or a pressure on the "
+                      "side, as of a filter");
+      return;
+    }
+    // How far a strength may be divided is what is sought then.
+    if (seeks_strength || along <= std::tan(soil.friction_angle) * press + rounding) continue;
+    diagnosis.error(fmt::format("side.{}.kind", segment.side),
+                    fmt::format("what is given lets a skin slide of {}", where),
+                    "bare sand does not stand steeper than it has friction: allowed are a gentler "
+                    "face, a cohesion, or a side that is held or loaded");
     return;
+  }
+}
+
+void check_ends_of_pressure(const GroundScene& scene, const GroundOutline& outline,
+                            const problem::Problem& problem, tables::Diagnosis& diagnosis) {
+  const auto side_of = [&](const GroundSegment& segment) -> const GroundSide& {
+    return scene.sides[static_cast<std::size_t>(segment.side)];
+  };
+  for (const GroundSegment& loaded : outline.segments) {
+    if (loaded.right >= 0 || !presses(side_of(loaded))) continue;
+    const std::size_t m = scene.regions[static_cast<std::size_t>(loaded.left)].material;
+    if (!problem.soils[m].is_loose()) continue;
+    for (const GroundSegment& bare : outline.segments) {
+      if (bare.right >= 0 || bare.left != loaded.left || !is_bare(side_of(bare))) continue;
+      const bool ends = bare.first == loaded.second, begins = bare.second == loaded.first;
+      if (!ends && !begins) continue;
+      const mesh::Point& place = outline.at(ends ? loaded.second : loaded.first);
+      const bool is_pressure = side_of(loaded).pressure != 0.0;
+      diagnosis.error(
+          fmt::format("side.{}.{}", loaded.side, is_pressure ? "pressure" : "shear"),
+          fmt::format(
+              "found {:g}, which ends at ({:.6g}, {:.6g}) beside the bare side \"{}\" of {}, "
+              "which has no cohesion",
+              is_pressure ? side_of(loaded).pressure : side_of(loaded).shear, place.x(), place.y(),
+              side_of(bare).name, scene.materials[m].name),
+          "where nothing presses on sand it bears nothing, and gives way under what is given: "
+          "allowed are a cohesion, as of a thousandth of the pressure, or a pressure beside, too");
+      return;
+    }
   }
 }
 
