@@ -8,8 +8,8 @@
 #include "constitutive/parameters.hpp"
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
-#include "scene/geostatic.hpp"
 #include "scene/drives.hpp"
+#include "scene/geostatic.hpp"
 #include "scene/names.hpp"
 #include "scene/places.hpp"
 

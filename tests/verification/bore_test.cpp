@@ -63,6 +63,13 @@ double closure() {
   return -w;
 }
 
+double measured(const StagedRun& run, const std::string& column) {
+  const model::Measures<2> measures(run.stages.scene(), run.stages.model());
+  const auto& names = measures.columns();
+  return measures.of(run.state).at(
+      static_cast<std::size_t>(std::find(names.begin(), names.end(), column) - names.begin()));
+}
+
 struct Found {
   double level, diagonal;  // displacement of the face over the exact one, less 1
   double radial, tangential;
@@ -71,13 +78,7 @@ struct Found {
 Found found(double spacing) {
   StagedRun run(shipped_scene("deep_bore.toml", {"geometry.spacing=" + std::to_string(spacing)}));
   run.complete();
-  const model::Measures<2> measures(run.stages.scene(), run.stages.model());
-  const std::vector<double> values = measures.of(run.state);
-  const auto value = [&](const std::string& column) {
-    const auto& names = measures.columns();
-    return values.at(
-        static_cast<std::size_t>(std::find(names.begin(), names.end(), column) - names.begin()));
-  };
+  const auto value = [&](const std::string& column) { return measured(run, column); };
   return {-value("face_ux_m") / closure() - 1.0,
           std::hypot(value("diagonal_ux_m"), value("diagonal_uy_m")) / closure() - 1.0,
           -value("rock_sxx_Pa") / 1e6 / radial(1.2) - 1.0,
@@ -112,10 +113,8 @@ TEST(DeepBore, IsAtRestUnderTheDeadLoadBeforeItIsDug) {
 }
 
 // A bore in elastic rock whose stress is not the same along both axes, as dead loads on its far
-// sides leave it: 10 MPa along x and 20 along y (MPa, m).
-Found found_between(double along_x, double along_y, double spacing) {
-  constexpr double modulus = 7e3, ratio = 0.3;
-  StagedRun run(scene_of(R"(
+// sides leave it.
+const std::string unequal = R"(
 [geometry]
 spacing = 0.2
 [grading]
@@ -172,18 +171,16 @@ at = [1, 0]
 name = "roof"
 kind = "displacement"
 at = [0, 1]
-)",
-                         {"geometry.spacing=" + std::to_string(spacing),
-                          "side.2.pressure=" + std::to_string(1e6 * along_x),
-                          "side.3.pressure=" + std::to_string(1e6 * along_y)}));
+)";
+
+// Under these pressures (MPa, m).
+Found found_between(double along_x, double along_y, double spacing) {
+  constexpr double modulus = 7e3, ratio = 0.3;
+  StagedRun run(scene_of(unequal, {"geometry.spacing=" + std::to_string(spacing),
+                                   "side.2.pressure=" + std::to_string(1e6 * along_x),
+                                   "side.3.pressure=" + std::to_string(1e6 * along_y)}));
   run.complete();
-  const model::Measures<2> measures(run.stages.scene(), run.stages.model());
-  const std::vector<double> values = measures.of(run.state);
-  const auto value = [&](const std::string& column) {
-    const auto& names = measures.columns();
-    return values.at(
-        static_cast<std::size_t>(std::find(names.begin(), names.end(), column) - names.begin()));
-  };
+  const auto value = [&](const std::string& column) { return measured(run, column); };
   // Kirsch (1898), what the face comes in by as it is bared, in plane strain.
   const double mean = 0.5 * (along_x + along_y), half = 0.5 * (along_x - along_y);
   const auto exact = [&](double sign) {

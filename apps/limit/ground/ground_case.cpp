@@ -56,6 +56,10 @@ problem::Problem loads_of(const GroundScene& scene, const std::optional<Base>& b
     problem::Soil soil = material.soil;
     if (reduce) soil = problem::davis_reduced(soil, material.dilation_angle);
     if (scene.load.sought == Sought::gravity && material.grows) make_weight_live(soil);
+    // A share of the weight grows with it, unlike the water of a table.
+    if (scene.load.sought == Sought::gravity && scene.water.r_u) {
+      soil.live_seepage = std::exchange(soil.seepage, mesh::Point::Zero());
+    }
     if (scene.load.sought == Sought::earthquake && material.grows && scene.load.kh != 0.0) {
       soil.live_unit_weight = soil.unit_weight;
       soil.live_weight_gradient = soil.weight_gradient;

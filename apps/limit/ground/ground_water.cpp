@@ -182,9 +182,15 @@ void wet(GroundScene& scene, tables::Diagnosis& diagnosis) {
   } else if (scene.water.r_u && !scene.water.table.empty()) {
     diagnosis.error("water.r_u", fmt::format("found {:g}, and a table", *scene.water.r_u),
                     "the pressure is what one of them says: leave the other out");
-  } else if (scene.water.r_u && scene.load.sought == Sought::gravity) {
-    diagnosis.error("water.r_u", fmt::format("found {:g}, with gravity sought", *scene.water.r_u),
-                    "the water's force stays while weights grow: give a table");
+  } else if (const auto still = std::ranges::find(scene.materials, false, &GroundMaterial::grows);
+             scene.water.r_u && scene.load.sought == Sought::gravity &&
+             still != scene.materials.end()) {
+    diagnosis.error(
+        "water.r_u",
+        fmt::format("found {:g}, with gravity sought, and the weight of {} does not grow",
+                    *scene.water.r_u, still->name),
+        "a share of the weight above grows with all of it: let all materials grow, or "
+        "give a table, whose water stays as it is");
   } else if (const GroundMaterial* uneven = first_of_uneven_weight(scene);
              scene.water.r_u && uneven != nullptr) {
     diagnosis.error("water.r_u",
