@@ -253,7 +253,7 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
   const double length = length_of(scene, outline, base);
   result.units = units_of(result.lower, length);
   result.upper = result.lower;
-  if (result.seeks_strength && !result.lower.pore_pressure) {
+  if (result.seeks_strength) {
     say_skins(scene, outline, result.lower, result);
   }
   try {

@@ -86,6 +86,18 @@ TEST(PorePressure, OfWaterThatRisesLightensTheGround) {
   EXPECT_NEAR(*wet.upper / *light.upper, 1.0, solver);
 }
 
+// A skin of sand slides as the water in it, told by points, lets it: at tan(phi) / tan(beta)
+// (1 - r_u / cos(beta)^2) for seepage along the face.
+TEST(PorePressure, ThatIsToldByPointsLetsASkinSlide) {
+  const auto found = case_of(slope(0.0, points_in_slope([](double d) { return 10e3 * d; })));
+  ASSERT_TRUE(found && found->associated.known_upper);
+  const double cosine = std::cos(20.0 * degree);
+  // Of points written with as many digits as a number has.
+  EXPECT_NEAR(*found->associated.known_upper,
+              std::tan(35.0 * degree) / std::tan(20.0 * degree) * (1.0 - 0.5 / (cosine * cosine)),
+              1e-9);
+}
+
 // On the mesh a pressure that bends within triangles is nowhere less than it is told, or nowhere
 // more, and just as told along the surface.
 TEST(PorePressure, OnAMeshIsNowhereLessOrNowhereMore) {
