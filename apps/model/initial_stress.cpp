@@ -4,6 +4,7 @@
 
 #include "model/side_points.hpp"
 #include "scene/derived.hpp"
+#include "scene/geostatic.hpp"
 #include "scene/scene.hpp"
 
 namespace model {

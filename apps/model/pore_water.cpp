@@ -6,20 +6,33 @@
 #include "scene/water.hpp"
 
 namespace model {
+namespace {
+
+// Whether a particle stands for its cell and nothing else.
+template <int Dim>
+bool is_whole(const Model<Dim>& model, Eigen::Index a) {
+  const auto cell = static_cast<fpm::Index>(a);
+  const double volume = (model.cells.upper(cell) - model.cells.lower(cell)).prod();
+  constexpr double rounding = 1e-9;
+  return std::abs(model.particles.volume[a] - volume) <= rounding * volume;
+}
+
+}  // namespace
 
 template <int Dim>
 void add_pore_water(const scene::Scene& scene, Model<Dim>& model) {
   if (!scene::has_water(scene)) return;
   const scene::PoreWater water(scene);
+  const bool is_told = scene.water.pore_pressure.has_value();
   const Eigen::Index n = model.size();
   model.pore_pressure.resize(n);
   model.water_load.setZero(model.unknowns());
   for (Eigen::Index a = 0; a < n; ++a) {
     const auto cell = static_cast<fpm::Index>(a);
     const fpm::Vector<Dim> place = model.particles.position.row(a).transpose();
-    // Of a cell that was cut, what is left is as wet as the whole, and an element as a square
-    // around it.
-    const bool is_cell = model.cells.size() > 0;
+    // Of a cell that was cut, what is left is as wet as the whole below a table; where the pressure
+    // is told, which is of the ground alone, as a square around it, and so is an element.
+    const bool is_cell = model.cells.size() > 0 && (!is_told || is_whole(model, a));
     const fpm::Vector<Dim> half =
         fpm::Vector<Dim>::Constant(0.5 * std::pow(model.particles.volume[a], 1.0 / Dim));
     const fpm::Vector<Dim> lower = is_cell ? model.cells.lower(cell) : place - half;

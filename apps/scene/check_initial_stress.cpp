@@ -9,6 +9,7 @@
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
 #include "scene/drives.hpp"
+#include "scene/geostatic.hpp"
 #include "scene/names.hpp"
 #include "scene/places.hpp"
 
@@ -86,6 +87,14 @@ void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
       deepest[axis] = axis == 1 ? lower : 0.5 * (lower + upper);
     }
     const double vertical = -geostatic_stress(scene, deepest);
+    if (vertical < 0.0 && scene.water.pore_pressure && diagnosis.good({"water.pore_pressure"})) {
+      diagnosis.warning(
+          "water.pore_pressure",
+          fmt::format(
+              "lifts the material \"{}\" with {:.6g} Pa more than there is above y = {:.6g}",
+              material.name, -vertical, deepest[1]),
+          "its geostatic stress is a tension, which its cohesion bears or not");
+    }
     const double horizontal = resolve_k0(scene, material) * vertical;
     const auto parameters = parameters_at(material, deepest);
     const double phi = parameters.friction_angle * std::numbers::pi / 180.0;

@@ -239,6 +239,11 @@ void check_stage(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis
                     "a table moves that is there from the first: give water.table, below the body "
                     "if it is dry");
   }
+  if (stage.pore_pressure && !scene.water.pore_pressure) {
+    diagnosis.error(key_of_stage(s, "pore_pressure"), "found without water.pore_pressure",
+                    "a pressure changes that is there from the first: give water.pore_pressure, 0 "
+                    "if there is none");
+  }
   check_flow(scene, s, diagnosis);
   check_way(scene, s, diagnosis);
 }

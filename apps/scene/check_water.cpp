@@ -17,7 +17,7 @@ void check_saturated(const Scene& scene, std::size_t m, tables::Diagnosis& diagn
   if (material.unit_weight.value_or(0.0).value <= 0.0) {
     diagnosis.error(key, fmt::format("found {} without a unit_weight", weight),
                     "give the unit_weight above the water table, too");
-  } else if (scene.water.table.empty()) {
+  } else if (scene.water.table.empty() && !scene.water.pore_pressure) {
     diagnosis.warning(key, fmt::format("found {} without a water table", weight),
                       "it has no effect: only below water.table ground is saturated");
   }
@@ -38,19 +38,24 @@ void check_floats(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
 }
 
+// The box may be a part of a spacing wider than its regions.
+shape::Ring corners_of_ground(const Scene& scene) {
+  shape::Ring corners;
+  for (const Region& region : scene.region) {
+    for (const PlanePoint& place : region.outline) corners.emplace_back(place.x(), place.y());
+  }
+  if (!corners.empty()) return corners;
+  const Point &low = scene.geometry.min, &high = scene.geometry.max;
+  return {{low[0], low[1]}, {high[0], low[1]}, {high[0], high[1]}, {low[0], high[1]}};
+}
+
 void check_table(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (!box_is_good(scene, diagnosis)) return;
-  shape::Point low(scene.geometry.min[0], scene.geometry.min[1]);
-  shape::Point high(scene.geometry.max[0], scene.geometry.max[1]);
-  if (!scene.region.empty()) {
-    // The box may be a part of a spacing wider.
-    low = high = {scene.region[0].outline[0].x(), scene.region[0].outline[0].y()};
-    for (const Region& region : scene.region) {
-      for (const PlanePoint& place : region.outline) {
-        low = low.cwiseMin(shape::Point(place.x(), place.y()));
-        high = high.cwiseMax(shape::Point(place.x(), place.y()));
-      }
-    }
+  const shape::Ring corners = corners_of_ground(scene);
+  shape::Point low = corners.front(), high = low;
+  for (const shape::Point& place : corners) {
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
   }
   shape::Ring table;
   for (const PlanePoint& place : scene.water.table) table.emplace_back(place.x(), place.y());
@@ -90,17 +95,44 @@ void check_share(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
 }
 
+void check_told(const Scene& scene, const tables::VaryingNumber& told,
+                tables::Diagnosis& diagnosis) {
+  if (!box_is_good(scene, diagnosis)) return;
+  const std::string key = "water.pore_pressure";
+  const shape::Ring corners = corners_of_ground(scene);
+  const bool is_good = shape::is_pressure_of(told, corners, key, diagnosis);
+  if (is_good && scene.initial_stress.kind == InitialStressKind::geostatic && !is_level(told) &&
+      diagnosis.good({"initial_stress.kind"})) {
+    diagnosis.error(key, "found a pressure that is not level with a geostatic initial stress",
+                    "water that seeps aside leaves no geostatic stress: kind = \"gravity\", or a "
+                    "pressure that changes along y alone, told by a gradient or a table");
+  }
+  for (std::size_t s = 0; s < scene.stage.size(); ++s) {
+    const std::string later = fmt::format("stage.{}.pore_pressure", s);
+    if (!scene.stage[s].pore_pressure || !diagnosis.good({later})) continue;
+    static_cast<void>(
+        shape::is_pressure_of(*scene.stage[s].pore_pressure, corners, later, diagnosis));
+  }
+}
+
 }  // namespace
 
 void check_water(const Scene& scene, tables::Diagnosis& diagnosis) {
-  if (!diagnosis.good({"water", "water.table", "water.unit_weight", "water.r_u", "material",
-                       "geometry.dimension", "gravity.acceleration"})) {
+  if (!diagnosis.good({"water", "water.table", "water.unit_weight", "water.r_u",
+                       "water.pore_pressure", "material", "geometry.dimension",
+                       "gravity.acceleration"})) {
     return;
   }
   for (std::size_t m = 0; m < scene.material.size(); ++m) check_saturated(scene, m, diagnosis);
   if (!has_water(scene)) return;
-  const std::string key = scene.water.r_u ? "water.r_u" : "water.table";
-  if (scene.water.r_u && !scene.water.table.empty()) {
+  const auto& told = scene.water.pore_pressure;
+  const std::string key = told              ? "water.pore_pressure"
+                          : scene.water.r_u ? "water.r_u"
+                                            : "water.table";
+  if (told && (scene.water.r_u || !scene.water.table.empty())) {
+    diagnosis.error(key, fmt::format("found beside {}", scene.water.r_u ? "r_u" : "a table"),
+                    "the pressure is what one of them says: leave the other out");
+  } else if (scene.water.r_u && !scene.water.table.empty()) {
     diagnosis.error(key, fmt::format("found {}, and a table", *scene.water.r_u),
                     "the pressure is what one of them says: leave the other out");
   } else if (scene.geometry.dimension != 2) {
@@ -108,6 +140,8 @@ void check_water(const Scene& scene, tables::Diagnosis& diagnosis) {
   } else if (scene.gravity.acceleration.size() != 2 || scene.gravity.acceleration[1] >= 0.0) {
     diagnosis.error(key, "found in ground without weight",
                     "give materials a unit_weight, or gravity.acceleration downwards");
+  } else if (told) {
+    check_told(scene, *told, diagnosis);
   } else if (scene.water.r_u) {
     check_share(scene, diagnosis);
   } else {

@@ -12,7 +12,6 @@
 #include "scene/ground.hpp"
 #include "scene/outline_faces.hpp"
 #include "scene/scene.hpp"
-#include "scene/water.hpp"
 
 namespace scene {
 
@@ -327,33 +326,6 @@ std::size_t material_at(const Scene& scene, std::span<const double> place) {
   std::size_t m = scene.material.size() - 1;
   while (m > 0 && !holds(scene.material[m])) --m;
   return m;
-}
-
-double geostatic_stress(const Scene& scene, std::span<const double> place) {
-  constexpr std::size_t up = 1;
-  const double gravity = -scene.gravity.acceleration[up];
-  const double surface = scene.initial_stress.surface.value_or(scene.geometry.max[up]);
-  const double depth = surface - place[up];
-  const double spacing = scene.geometry.spacing;
-  // As many at a whole number of spacings, whatever the round-off of the depth.
-  const double slices =
-      std::max(1.0, std::ceil((std::abs(depth) - same_place(scene.geometry)) / spacing));
-  Point at(place.begin(), place.end());
-  double vertical = -scene.initial_stress.surcharge;
-  const double slice = depth / slices;
-  const auto& table = scene.water.table;
-  for (double k = 0.5; k < slices; k += 1.0) {
-    at[up] = surface - depth * (k / slices);
-    const Material& material = scene.material[material_at(scene, at)];
-    const double density = material.density.at_place(at);
-    vertical -= density * gravity * (depth / slices);
-    if (table.empty() || slice == 0.0) continue;
-    // It is level in ground whose stress is geostatic.
-    const double below = (table.front().y() - at[up]) / std::abs(slice) + 0.5;
-    const double more = (saturated_density(material, at) - density) * gravity;
-    vertical += std::clamp(below, 0.0, 1.0) * (scene.water.unit_weight - more) * slice;
-  }
-  return vertical;
 }
 
 double resolve_k0(const Scene& scene, const Material& material) {

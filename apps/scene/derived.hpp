@@ -112,11 +112,6 @@ struct SolverSettings {
 /// Index of the material at a place: of the region that holds it, or the last one whose box does.
 [[nodiscard]] std::size_t material_at(const Scene& scene, std::span<const double> place);
 
-/// Vertical stress [Pa] of geostatic ground at a place, effective under a water table: the
-/// surcharge and the weight above, less what water bears of it, in slices of at most a spacing,
-/// each of the material at its middle.
-[[nodiscard]] double geostatic_stress(const Scene& scene, std::span<const double> place);
-
 /// Horizontal over vertical geostatic stress in a material.
 [[nodiscard]] double resolve_k0(const Scene& scene, const Material& material);
 

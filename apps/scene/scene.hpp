@@ -80,11 +80,12 @@ struct Load {
   bool operator==(const Load&) const = default;
 };
 
-/// Pore water, whose pressure is given; at most one of table and r_u.
+/// Pore water, whose pressure is given; at most one of table, r_u and pore_pressure.
 struct Water {
   std::vector<PlanePoint> table;  // [m] from left to right; hydrostatic below, nothing above
   double unit_weight = 9810.0;    // [N/m3]
   std::optional<double> r_u;      // its pressure over the overburden
+  std::optional<tables::VaryingNumber> pore_pressure;  // [Pa] below zero: none
   bool operator==(const Water&) const = default;
 };
 
@@ -272,18 +273,19 @@ struct Stage {
   std::optional<double> reduction;  // what strength is divided by at its end
   std::optional<Drive> drive;       // in force from it on; absent: that of before
   std::optional<std::int64_t> steps;
-  double fades = 1.0;                   // share of what its changes leave unbalanced
-  std::vector<std::string> remove;      // regions
-  std::vector<std::string> place;       // regions
-  std::vector<std::string> release;     // supports and drives
-  std::vector<std::string> hold;        // supports
-  std::vector<PlanePoint> water_table;  // [m]
-  std::vector<std::string> materials;   // whose values change, to one of each list:
-  Point cohesion;                       // [Pa]
-  Point friction_angle;                 // [deg]
-  Point dilation_angle;                 // [deg]
-  std::vector<std::string> regions;     // whose material changes, to one each:
-  std::vector<std::string> become;      // materials
+  double fades = 1.0;                                  // share of what its changes leave unbalanced
+  std::vector<std::string> remove;                     // regions
+  std::vector<std::string> place;                      // regions
+  std::vector<std::string> release;                    // supports and drives
+  std::vector<std::string> hold;                       // supports
+  std::vector<PlanePoint> water_table;                 // [m]
+  std::optional<tables::VaryingNumber> pore_pressure;  // [Pa]
+  std::vector<std::string> materials;                  // whose values change, to one of each list:
+  Point cohesion;                                      // [Pa]
+  Point friction_angle;                                // [deg]
+  Point dilation_angle;                                // [deg]
+  std::vector<std::string> regions;                    // whose material changes, to one each:
+  std::vector<std::string> become;                     // materials
   bool operator==(const Stage&) const = default;
 };
 

@@ -56,6 +56,7 @@ void take_changes(const Scene& whole, std::size_t stages, Scene& scene) {
   scene.support = std::move(holding);
   for (std::size_t s = 0; s < stages; ++s) {
     if (!whole.stage[s].water_table.empty()) scene.water.table = whole.stage[s].water_table;
+    if (whole.stage[s].pore_pressure) scene.water.pore_pressure = whole.stage[s].pore_pressure;
     take_materials(whole.stage[s], scene);
     take_values(whole.stage[s], scene);
   }

@@ -147,6 +147,15 @@ SceneTable water() {
             .doc = "Instead of a table: the pressure is this share of the weight of the ground "
                    "straight above, over its area. Bodies of regions only.",
             .absent = "the table says it"})
+      .key("pore_pressure", &Water::pore_pressure,
+           {.need = tables::Need::optional,
+            .unit = "Pa",
+            .doc = "Instead of a table: the pressure itself, artesian, or of water that seeps, all "
+                   "over the ground. Between points and between a raster's values it is linear, in "
+                   "Delaunay's triangles and in two of each square; they reach to the ground's "
+                   "edges. Less than none, suction, counts as none; ground is saturated where it "
+                   "is more.",
+            .absent = "the table says it"})
       .build();
 }
 

@@ -37,6 +37,11 @@ tables::TableBuilder<Scene, Stage>& with_changes(tables::TableBuilder<Scene, Sta
             .unit = "m",
             .doc = "The water table from then on, in place of water.table.",
             .absent = "as it was"})
+      .key("pore_pressure", &Stage::pore_pressure,
+           {.need = tables::Need::optional,
+            .unit = "Pa",
+            .doc = "The pore pressure from then on, in place of water.pore_pressure.",
+            .absent = "as it was"})
       .key("materials", &Stage::materials,
            {.need = tables::Need::optional,
             .doc = "Names of materials whose strength changes, to one value of each list below. "

@@ -32,12 +32,14 @@ double line_at(const shape::Point& left, const shape::Point& right, double x) {
 
 PoreWater::PoreWater(const Scene& scene) : unit_weight_(scene.water.unit_weight) {
   for (const PlanePoint& place : scene.water.table) table_.emplace_back(place.x(), place.y());
+  if (scene.water.pore_pressure) field_.emplace(*scene.water.pore_pressure);
   if (!table_.empty() || !scene.water.r_u) return;
   share_ = *scene.water.r_u;
   ground_ = heavy_regions(scene);
 }
 
 double PoreWater::pressure_at(std::span<const double> place) const {
+  if (field_) return field_->at({place[0], place[1]});
   if (table_.empty()) {
     return share_ > 0.0 ? share_ * shape::overburden(ground_, {place[0], place[1]}).value : 0.0;
   }
@@ -48,6 +50,7 @@ double PoreWater::pressure_at(std::span<const double> place) const {
 
 PoreWater::InCell PoreWater::in_cell(const shape::Point& lower, const shape::Point& upper,
                                      const shape::Point& centre) const {
+  if (field_) return in_field(lower, upper);
   InCell cell;
   if (table_.empty()) {
     if (share_ > 0.0) cell.force = -share_ * shape::overburden(ground_, centre).gradient;
@@ -71,8 +74,33 @@ PoreWater::InCell PoreWater::in_cell(const shape::Point& lower, const shape::Poi
   return cell;
 }
 
+// The mean over what of the cell the pressure is told of.
+PoreWater::InCell PoreWater::in_field(const shape::Point& lower, const shape::Point& upper) const {
+  InCell cell;
+  double area = 0.0;
+  for (const auto& piece :
+       field_->within({lower, {upper.x(), lower.y()}, upper, {lower.x(), upper.y()}})) {
+    area += piece.area;
+    if (!piece.wet) continue;
+    cell.wet += piece.area;
+    cell.force -= piece.area * piece.gradient;
+  }
+  if (area > 0.0) {
+    cell.wet /= area;
+    cell.force /= area;
+  }
+  return cell;
+}
+
 bool has_water(const Scene& scene) {
-  return !scene.water.table.empty() || scene.water.r_u.value_or(0.0) > 0.0;
+  return !scene.water.table.empty() || scene.water.r_u.value_or(0.0) > 0.0 ||
+         scene.water.pore_pressure.has_value();
+}
+
+bool is_level(const tables::VaryingNumber& pore_pressure) {
+  if (pore_pressure.is_linear()) return pore_pressure.gradient[0] == 0.0;
+  return pore_pressure.samples->kind == tables::Samples::Kind::table &&
+         pore_pressure.samples->axis == 1;
 }
 
 double saturated_density(const Material& material, std::span<const double> place) {

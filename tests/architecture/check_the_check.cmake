@@ -152,6 +152,7 @@ plant_package(limit/ground/ground_case.cpp CGAL/Delaunay_mesher_2.h CGAL)
 plant_package(model/checkpoint.cpp flann/flann.hpp FLANN)
 plant_package(record/curve.cpp Eigen/Core Eigen)
 plant_package(model/surface.cpp boost/geometry.hpp Boost.Geometry)
+plant_package(shape/ring.cpp boost/polygon/voronoi.hpp Boost.Polygon)
 
 # Every row of the table, as a whole: of all rooms, libraries and packages in one file, those that are
 # not its own nor named are found, and no other.
@@ -166,6 +167,7 @@ set(header_of_CGAL CGAL/Delaunay_mesher_2.h)
 set(header_of_FLANN flann/flann.hpp)
 set(header_of_Eigen Eigen/Core)
 set(header_of_Boost.Geometry boost/geometry.hpp)
+set(header_of_Boost.Polygon boost/polygon/voronoi.hpp)
 foreach(room IN LISTS rooms)
   make_clean_tree()
   set(text)

@@ -22,7 +22,7 @@ set(never_called_in_a_library
 # What is included of each package that share/doc/architecture.md gives to some rooms of apps/ only.
 # FLANN is libfpm's alone.
 set(packages HDF5 toml++ spdlog program_options archives nlohmann-json Ipopt CGAL FLANN Eigen
-    Boost.Geometry)
+    Boost.Geometry Boost.Polygon)
 set(pattern_of_HDF5 "H5|hdf5")
 set(pattern_of_toml++ "toml\\+\\+|toml\\.hpp")
 set(pattern_of_spdlog "spdlog/")
@@ -34,6 +34,7 @@ set(pattern_of_CGAL "CGAL/")
 set(pattern_of_FLANN "flann/")
 set(pattern_of_Eigen "Eigen/")
 set(pattern_of_Boost.Geometry "boost/geometry")
+set(pattern_of_Boost.Polygon "boost/polygon")
 
 # Reads the table of the rooms: `rooms`, `may_include_of_<room>` (rooms and libraries) and
 # `sees_of_<room>`, packages, those that one file may see as "package@file".

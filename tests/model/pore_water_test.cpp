@@ -79,6 +79,25 @@ TEST(PoreWaterOfAModel, IsThatOfThePartBelowATableAslant) {
   EXPECT_NEAR(model.water_load[model.size() + cell], 0.01 * 10e3 * 0.85, rounding * 1e3);
 }
 
+// Told by a number that changes, the same water is the same load, cell by cell.
+TEST(PoreWaterOfAModel, IsWhatATableOrAShareOfTheOverburdenIsIfItIsToldSo) {
+  const auto expect_same = [](const Model<2>& one, const Model<2>& other) {
+    EXPECT_LT((one.pore_pressure - other.pore_pressure).cwiseAbs().maxCoeff(), rounding * 1e5);
+    EXPECT_LT((one.water_load - other.water_load).cwiseAbs().maxCoeff(), rounding * 1e4);
+    EXPECT_LT((one.mass - other.mass).cwiseAbs().maxCoeff(), rounding * 1e3);
+  };
+  const std::string told = "[water]\npore_pressure = ";
+  expect_same(
+      model_of(box + soil + told + "{ at = [0, 1.5], value = 0, gradient = [-3e3, -10e3] }\n"),
+      model_of(box + soil + table("[[0, 1.5], [4, 0.3]]")));
+  // Of 17 kN/m3 above; the upright through the crest is between cells.
+  expect_same(model_of(slope + soil + told +
+                           "{ points = [[0, 0, 8.5e3], [2, 0, 8.5e3], [4, 0, 4.25e3], [0, 2, 0], "
+                           "[2, 2, 0], [4, 1, 0]] }\n",
+                       {"geometry.spacing=0.125", "material.0.saturated_unit_weight=17e3"}),
+              model_of(slope + soil, {"geometry.spacing=0.125", "water.r_u=0.25"}));
+}
+
 TEST(PoreWaterOfAModel, IsThatOfAShareOfTheOverburden) {
   const Model<2> model = model_of(slope + soil, {"water.r_u=0.25"});
   Eigen::Index a = 0;

@@ -7,6 +7,7 @@
 
 #include "constitutive/parameters.hpp"
 #include "scene/derived.hpp"
+#include "scene/geostatic.hpp"
 #include "scene/print.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "scene/derived.hpp"
+#include "scene/geostatic.hpp"
 #include "scene/reader.hpp"
 
 namespace scene {
@@ -135,6 +136,84 @@ TEST(PoreWater, IsAShareOfTheOverburden) {
   EXPECT_NEAR(cell.force.x(), 0.3 * 20e3 * 0.5, rounding * 1e5);
   EXPECT_NEAR(cell.force.y(), 0.3 * 20e3, rounding * 1e5);
   EXPECT_EQ(cell.wet, 0.0) << "the unit weight is that of the ground with its water";
+}
+
+std::string told(const std::string& pressure) {
+  return "[water]\nunit_weight = 10e3\npore_pressure = " + pressure + "\n";
+}
+
+// A pressure that is that below a table does to cells what the table does.
+TEST(PoreWater, ThatIsToldIsWhatATableOfItIs) {
+  const auto by_table = read(box + table("[[0, -0.2], [4, -1]]"));
+  const PoreWater hydrostatic(*by_table.scene);
+  for (const char* pressure :
+       {"{ at = [0, -0.2], value = 0, gradient = [-2e3, -10e3] }",
+        "{ points = [[0, 0, -2e3], [4, 0, -10e3], [0, -2, 18e3], [4, -2, 10e3], [1, -1, 6e3]] }",
+        "{ raster = [[-2e3, -6e3, -10e3], [8e3, 4e3, 0], [18e3, 14e3, 10e3]], lower = [0, -2], "
+        "step = [2, 1] }"}) {
+    const auto reading = read(box + told(pressure));
+    ASSERT_TRUE(reading.scene) << texts(reading.errors)[0];
+    EXPECT_THAT(texts(reading.warnings), IsEmpty());
+    const PoreWater water(*reading.scene);
+    for (const auto& [x, y] : {std::pair{0.9, -0.45}, {2.1, -0.7}, {3.5, -1.9}, {0.1, -0.15}}) {
+      const Point place{x, y};
+      EXPECT_NEAR(water.pressure_at(place), hydrostatic.pressure_at(place), rounding * 1e5);
+      const shape::Point lower(x - 0.1, y - 0.1), upper(x + 0.1, y + 0.1);
+      const auto one = water.in_cell(lower, upper, {x, y});
+      const auto other = hydrostatic.in_cell(lower, upper, {x, y});
+      EXPECT_NEAR(one.wet, other.wet, rounding * 1e2) << pressure;
+      EXPECT_LT((one.force - other.force).norm(), rounding * 1e6) << pressure;
+    }
+  }
+}
+
+// 20 kN/m3 and water that rises by a gradient of 0.4: 20 - 10 - 4 below a level of zero pressure.
+TEST(PoreWater, ThatRisesLightensGeostaticGround) {
+  for (const char* pressure : {"{ at = [0, -0.53], value = 0, gradient = [0, -14e3] }",
+                               "{ along = \"y\", table = [[-2, 20.58e3], [-0.53, 0], [0, 0]] }"}) {
+    const auto reading = read(box + told(pressure) + geostatic);
+    ASSERT_TRUE(reading.scene) << texts(reading.errors)[0];
+    const Point place{1.0, -1.73};
+    EXPECT_NEAR(geostatic_stress(*reading.scene, place), -(17e3 * 0.53 + 6e3 * 1.2),
+                rounding * 1e5);
+  }
+}
+
+TEST(PoreWater, ThatIsToldAndIsNoneIsRefusedInWords) {
+  const auto errors = [](const std::string& text, const std::vector<std::string>& settings = {}) {
+    return texts(read(text, settings).errors);
+  };
+  const std::string artesian = told("{ at = [0, 0], value = 0, gradient = [0, -14e3] }");
+  EXPECT_THAT(errors(box + artesian + "table = [[0, 0], [4, 0]]\n"),
+              ElementsAre("s.toml:22:17: water.pore_pressure: found beside a table; the pressure "
+                          "is what one of them says: leave the other out"));
+  EXPECT_THAT(errors(slope + artesian, {"water.r_u=0.2"}),
+              ElementsAre(HasSubstr("water.pore_pressure: found beside r_u; the pressure is")));
+  EXPECT_THAT(errors(box + told("{ points = [[0, 0, 0], [4, 0, 0], [0, -2, 2e4]] }")),
+              ElementsAre(HasSubstr("water.pore_pressure: told of nothing at (4, -2), a corner of "
+                                    "the ground")));
+  EXPECT_THAT(errors(box + told("{ points = [[0, 0, 0], [2, -1, 0], [4, -2, 2e4]] }")),
+              ElementsAre(HasSubstr("found points on one line, or less than three")));
+  EXPECT_THAT(errors(box + told("{ at = [0, 0], value = 0, gradient = [0, 10e3] }")),
+              ElementsAre(HasSubstr("found nothing above zero, but -20000; water presses with more "
+                                    "than zero")));
+  EXPECT_THAT(errors(box + told("{ points = \"none.csv\" }")),
+              ElementsAre(HasSubstr("water.pore_pressure: none.csv: ")));
+  EXPECT_THAT(errors(box + artesian, {"gravity.acceleration=[0.0, 0.0]"}),
+              ElementsAre(HasSubstr("water.pore_pressure: found in ground without weight")));
+  EXPECT_THAT(errors(box + told("{ at = [0, 0], value = 0, gradient = [1e3, -14e3] }") + geostatic),
+              ElementsAre(HasSubstr("found a pressure that is not level with a geostatic initial "
+                                    "stress; water that seeps aside leaves no geostatic stress")));
+}
+
+TEST(PoreWater, ThatLiftsGeostaticGroundIsSaid) {
+  const auto reading =
+      read(box + told("{ at = [0, 0], value = 0, gradient = [0, -21e3] }") + geostatic);
+  ASSERT_TRUE(reading.scene);
+  EXPECT_THAT(texts(reading.warnings),
+              ElementsAre(HasSubstr("water.pore_pressure: lifts the material \"sand\" with 2000 Pa "
+                                    "more than there is above y = -2; its geostatic stress is a "
+                                    "tension")));
 }
 
 TEST(PoreWater, ThatIsNoneIsRefusedInWords) {

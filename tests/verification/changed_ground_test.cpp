@@ -164,6 +164,29 @@ water_table = [[0.0, 0.5], [1.0, 0.5]]
             0.05 * low.state.displacement.cwiseAbs().maxCoeff());
 }
 
+TEST(PorePressure, ThatChangesLeavesTheGroundAsUnderTheLaterOne) {
+  const auto with = [](std::string text, const std::string& water) {
+    const std::string table = "table = [[0.0, 1.5], [1.0, 1.5]]";
+    text.replace(text.find(table), table.size(), water);
+    return text;
+  };
+  StagedRun staged(scene_of(with(block_of_stages,
+                                 "pore_pressure = { below = 1.5, table = "
+                                 "[[-0.5, 0], [0, 0], [1.5, 30e3]] }") +
+                            R"(
+[[stage]]
+name = "weigh"
+to = 1.0
+[[stage]]
+name = "drain"
+pore_pressure = { at = [0.0, 0.5], value = 0.0, gradient = [0.0, -9810.0] }
+)"));
+  staged.complete();
+  StagedRun low(scene_of(with(block_of_stages, "table = [[0.0, 0.5], [1.0, 0.5]]")));
+  ASSERT_TRUE(low.complete_stage());
+  expect_same_displacements(staged, low);
+}
+
 // A column between smooth walls.
 std::string column_of(const std::vector<std::pair<double, double>>& regions) {
   std::string text = R"(

@@ -76,8 +76,12 @@ const std::string slope =
 
 TEST(GroundUnderWater, IsAtRestOnceItHasSettled) {
   const std::string settled = "[initial_stress]\nkind = \"gravity\"\n";
+  // Points where the water table above is, on the surface and at the base.
+  const std::string points =
+      "[water]\npore_pressure = { points = [[0, 0, 20e3], [0, 2, 0], [0, 2.5, 0], [2, 2.5, 0], "
+      "[5, 1, 0], [5, 0, 10e3], [6, 1, 0], [6, 0, 10e3], [2, 0, 16e3]] }\n";
   for (const std::string& more :
-       {water("[[0, 2], [5, 1], [6, 1]]"), std::string("[water]\nr_u = 0.2\n")}) {
+       {water("[[0, 2], [5, 1], [6, 1]]"), std::string("[water]\nr_u = 0.2\n"), points}) {
     EXPECT_LT(motion_at_rest(slope + sand(17e3, 0.0) + kinematics("small_strain") + settled + more),
               1e-9)
         << more;
@@ -108,6 +112,26 @@ TEST(FootingUnderWater, BearsWhatItDoesOnGroundAsLightAsThat) {
   const auto dry = curve(sand(10e3, 0.0));
   for (const char* table : {"[[0, 0], [3, 0]]", "[[0, 9], [3, 9]]"}) {
     const auto wet = curve(sand(17e3, 20e3) + water(table));
+    ASSERT_EQ(wet.size(), dry.size());
+    for (std::size_t i = 0; i < dry.size(); ++i) {
+      EXPECT_NEAR(wet[i].mean_pressure, dry[i].mean_pressure, 1e-6 * dry[i].mean_pressure);
+      EXPECT_EQ(wet[i].evaluations, dry[i].evaluations);
+    }
+  }
+}
+
+// Water that rises through the ground with a gradient i leaves it a weight of gamma' - i gamma_w:
+// the curve of dry ground of that. By a gradient, a table and points.
+TEST(FootingOverWaterThatRises, BearsWhatItDoesOnGroundAsLightAsThat) {
+  const auto curve = [](const std::string& text) {
+    verification::Run<2> run(scene_of(level_ground + strip + kinematics("small_strain") + text));
+    return run.complete();
+  };
+  const auto dry = curve(sand(5e3, 0.0));
+  for (const char* pressure : {"{ at = [0, 0], value = 0, gradient = [0, -15e3] }",
+                               "{ below = 0, table = [[0, 0], [2, 30e3]] }"}) {
+    const auto wet =
+        curve(sand(20e3, 0.0) + "[water]\npore_pressure = " + std::string(pressure) + "\n");
     ASSERT_EQ(wet.size(), dry.size());
     for (std::size_t i = 0; i < dry.size(); ++i) {
       EXPECT_NEAR(wet[i].mean_pressure, dry[i].mean_pressure, 1e-6 * dry[i].mean_pressure);

@@ -26,11 +26,9 @@ double height_of(const mesh::Mesh& mesh) {
 std::optional<BlockFactor> block_factor(const problem::Problem& problem, double one, double first,
                                         double most_seconds, const Means& means) {
   // The search knows soils of one cohesion and friction and weights only.
-  const auto varies = [](const problem::Soil& soil) {
-    return soil.varies() || soil.is_curved() || !soil.seepage.isZero(0.0) ||
-           !soil.live_seepage.isZero(0.0);
-  };
-  if (std::any_of(problem.soils.begin(), problem.soils.end(), varies)) return std::nullopt;
+  const auto varies = [](const problem::Soil& soil) { return soil.varies() || soil.is_curved(); };
+  if (problem.has_water() || std::any_of(problem.soils.begin(), problem.soils.end(), varies))
+    return std::nullopt;
   const double began = means.seconds();
   block::BlockSearch search(problem, height_of(problem.mesh));
   FactorSearch factors(first);

@@ -223,6 +223,9 @@ class Reduction {
 
 Solution reduce_strength(const problem::Case& problem, const BracketOptions& options,
                          const std::function<void(const Attempt&)>& watch, const Means& means) {
+  if (problem.lower.pore_pressure && !problem.lower.pressure_is_live) {
+    throw std::invalid_argument("strength reduction: not all loads are live");
+  }
   for (const problem::Soil& soil : problem.lower.soils) {
     if (soil.unit_weight != 0.0 || !soil.seepage.isZero(0.0) || !problem.lower.most_multiplier) {
       throw std::invalid_argument("strength reduction: not all loads are live, or without end");

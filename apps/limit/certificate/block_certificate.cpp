@@ -77,10 +77,8 @@ class Examination {
 
   BlockCertificate certificate() {
     BlockCertificate result;
+    if (problem_.has_water()) objection_ = "ground without pore water only";
     for (const problem::Soil& soil : problem_.soils) {
-      if (!soil.seepage.isZero(0.0) || !soil.live_seepage.isZero(0.0)) {
-        objection_ = "ground without pore water only";
-      }
       if (soil.has_uneven_weight()) objection_ = "soil of one weight only";
     }
     if (objection_.empty()) check_curve();

@@ -13,6 +13,7 @@
 #include "limit/certificate/stress_layout.hpp"
 #include "limit/problem/bare_corners.hpp"
 #include "limit/problem/local_soil.hpp"
+#include "limit/problem/pore_pressure.hpp"
 
 namespace limit::certificate {
 
@@ -25,8 +26,9 @@ const mesh::Point& node_at(const mesh::Mesh& mesh, int node) {
 /// All the equations of equilibrium in the corners' (xx, yy, xy); the multiplier is given.
 class BalanceEquations {
  public:
-  BalanceEquations(const problem::Problem& problem, double multiplier)
-      : problem_(problem), layout_(problem), multiplier_(multiplier) {
+  BalanceEquations(const problem::Problem& problem, const problem::MeshPressure& water,
+                   double multiplier)
+      : problem_(problem), layout_(problem), water_(water), multiplier_(multiplier) {
     const mesh::Mesh& mesh = problem.mesh;
     const std::vector<mesh::Edge> edges = mesh::edges_of(mesh);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -81,7 +83,8 @@ class BalanceEquations {
       perimeter += (node_at(mesh, nodes.nodes[i]) - node_at(mesh, nodes.nodes[(i + 1) % 3])).norm();
     }
     const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(nodes.region)];
-    const mesh::Point weight = force(soil, soil.centre) * mesh::twice_area(mesh, nodes) / 2.0;
+    const mesh::Point weight = force(static_cast<std::size_t>(triangle), soil.centre) *
+                               mesh::twice_area(mesh, nodes) / 2.0;
     for (const mesh::Point& direction : {mesh::Point(1, 0), mesh::Point(0, 1)}) {
       equations_.begin(-direction.dot(weight) / perimeter);
       for (std::size_t i = 0; i < 3; ++i) {
@@ -94,9 +97,14 @@ class BalanceEquations {
     }
   }
 
-  [[nodiscard]] mesh::Point force(const problem::Soil& soil, const mesh::Point& place) const {
+  [[nodiscard]] mesh::Point force(std::size_t triangle, const mesh::Point& place) const {
+    const int region = problem_.mesh.triangles[triangle].region;
+    const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(region)];
+    const double times = problem_.pressure_is_live ? multiplier_ : 1.0;
     return soil.unit_weight_at(place) * problem_.pull + soil.seepage +
-           multiplier_ * (soil.live_unit_weight_at(place) * problem_.live_pull + soil.live_seepage);
+           multiplier_ *
+               (soil.live_unit_weight_at(place) * problem_.live_pull + soil.live_seepage) +
+           times * water_.force(triangle);
   }
 
   // The divergence of a quadratic stress is linear: it is the weight everywhere if it is in the
@@ -105,7 +113,6 @@ class BalanceEquations {
   void balance_everywhere(std::size_t triangle) {
     const mesh::Mesh& mesh = problem_.mesh;
     const mesh::Triangle& nodes = mesh.triangles[triangle];
-    const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(nodes.region)];
     const double area = mesh::twice_area(mesh, nodes) / 2.0;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
@@ -121,7 +128,7 @@ class BalanceEquations {
       const Eigen::Index at_b = layout_.middles(triangle) + 3 * static_cast<Eigen::Index>(i),
                          at_c = layout_.middles(triangle) + 3 * static_cast<Eigen::Index>(k);
       for (const mesh::Point& direction : {mesh::Point(1, 0), mesh::Point(0, 1)}) {
-        equations_.begin(-scale * direction.dot(force(soil, a)));
+        equations_.begin(-scale * direction.dot(force(triangle, a)));
         add(own, to_b + to_c, direction, -1.0);
         add(at_b, to_b, direction, 1.0);
         add(at_c, to_c, direction, 1.0);
@@ -207,6 +214,7 @@ class BalanceEquations {
 
   const problem::Problem& problem_;
   StressLayout layout_;
+  const problem::MeshPressure& water_;
   double multiplier_;
   algebra::EquationBuilder equations_;
 };
@@ -243,7 +251,8 @@ problem::StressField as_field(const problem::Problem& problem, const Eigen::Vect
 
 /// Every column of soil under its own dead weight and the largest surcharge, equal in all
 /// directions.
-problem::StressField geostatic(const problem::Problem& problem) {
+problem::StressField geostatic(const problem::Problem& problem,
+                               const problem::MeshPressure& water) {
   const mesh::Mesh& mesh = problem.mesh;
   double top = mesh.nodes.front().y();
   for (const mesh::Point& node : mesh.nodes) top = std::max(top, node.y());
@@ -251,6 +260,11 @@ problem::StressField geostatic(const problem::Problem& problem) {
   for (const problem::Boundary& boundary : problem.boundaries) {
     surcharge = std::max(surcharge, -boundary.normal_stress);
   }
+  // In pores whose pressure is dead; of quadratic stresses the rest is not one of ground with such.
+  const auto borne_at = [&](const mesh::Triangle& triangle, Eigen::Index corner) {
+    if (!water.is_there() || problem.pressure_is_live) return 0.0;
+    return water.nodes[static_cast<std::size_t>(triangle.nodes[static_cast<std::size_t>(corner)])];
+  };
   problem::StressField field(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const mesh::Triangle& triangle = mesh.triangles[t];
@@ -268,7 +282,8 @@ problem::StressField geostatic(const problem::Problem& problem) {
       const double stress =
           i < 3 ? stress_at(a)
                 : 2.0 * stress_at((a + b) / 2.0) - (stress_at(a) + stress_at(b)) / 2.0;
-      field[t].col(i) << stress, stress, 0.0;
+      const double borne = i < 3 ? borne_at(triangle, i) : 0.0;
+      field[t].col(i) << stress + borne, stress + borne, 0.0;
     }
   }
   return field;
@@ -282,13 +297,13 @@ struct Rest {
 
 /// Level ground under its weight and surcharge, or nothing at all where no dead load is; none if
 /// neither is in equilibrium at any multiplier, as under a slope.
-std::optional<Rest> rest_of(const problem::Problem& problem) {
-  const BalanceEquations equilibrium(problem, 0.0);
+std::optional<Rest> rest_of(const problem::Problem& problem, const problem::MeshPressure& water) {
+  const BalanceEquations equilibrium(problem, water, 0.0);
   const auto equations = equilibrium.matrix();
   const Eigen::VectorXd live =
-      BalanceEquations(problem, 1.0).right_side() - equilibrium.right_side();
+      BalanceEquations(problem, water, 1.0).right_side() - equilibrium.right_side();
   const problem::StressField nothing(problem.mesh.triangles.size(), Eigen::Matrix3d::Zero());
-  for (const problem::StressField& field : {geostatic(problem), nothing}) {
+  for (const problem::StressField& field : {geostatic(problem, water), nothing}) {
     const Eigen::VectorXd x = as_vector(problem, field);
     const Eigen::VectorXd carried = equations * x - equilibrium.right_side();
     const double multiplier = carried.dot(live) / live.squaredNorm();
@@ -307,12 +322,13 @@ LowerCertificate certify_lower(const problem::Problem& problem,
   LowerCertificate certificate;
   certificate.proposed = multiplier;
   certificate.multiplier = multiplier;
-  const BalanceEquations equilibrium(problem, multiplier);
+  const problem::MeshPressure water = pressure_on_mesh(problem, problem::Bound::lower);
+  const BalanceEquations equilibrium(problem, water, multiplier);
   const auto equations = equilibrium.matrix();
   Eigen::VectorXd x = as_vector(problem, proposed);
   certificate.residual = algebra::satisfy(equations, equilibrium.right_side(), x);
 
-  const std::optional<Rest> rest = rest_of(problem);
+  const std::optional<Rest> rest = rest_of(problem, water);
   const std::vector<Ceiling> ceilings = ceilings_of(problem);
   certificate.yield_excess = -INFINITY;
   double drawn = 0.0;
@@ -330,7 +346,7 @@ LowerCertificate certify_lower(const problem::Problem& problem,
     certificate.kept = 1.0 - drawn;
     x = certificate.kept * x + drawn * rest->stress;
     certificate.multiplier = certificate.kept * multiplier + drawn * rest->multiplier;
-    const BalanceEquations after(problem, certificate.multiplier);
+    const BalanceEquations after(problem, water, certificate.multiplier);
     certificate.residual = (after.matrix() * x - after.right_side()).lpNorm<Eigen::Infinity>();
     for (const Ceiling& ceiling : ceilings) inside = inside && excess(ceiling, x) <= 0.0;
   }

@@ -8,6 +8,7 @@
 #include "limit/algebra/least_change.hpp"
 #include "limit/certificate/curved_power.hpp"
 #include "limit/problem/local_soil.hpp"
+#include "limit/problem/pore_pressure.hpp"
 
 namespace limit::certificate {
 
@@ -56,7 +57,9 @@ struct FlowPoint {
 class Flow {
  public:
   explicit Flow(const problem::Problem& problem)
-      : problem_(problem), footing_(static_cast<Eigen::Index>(12 * problem.mesh.triangles.size())) {
+      : problem_(problem),
+        water_(pressure_on_mesh(problem, problem::Bound::upper)),
+        footing_(static_cast<Eigen::Index>(12 * problem.mesh.triangles.size())) {
     for (std::size_t t = 0; t < problem.mesh.triangles.size(); ++t) {
       soils_.push_back(problem::soil_in(problem, problem.mesh.triangles[t], problem::Bound::upper));
       corners(t);
@@ -178,10 +181,12 @@ class Flow {
           if (force != 0.0) power.emplace_back(velocity(t, place) + xy, force * area);
         }
       };
-      weigh_by(soil.unit_weight_at(at), soil.unit_weight_at(centre), problem_.pull, soil.seepage,
-               dead_);
+      const mesh::Point force = water_.force(t);
+      mesh::Point dead = soil.seepage, live = soil.live_seepage;
+      (problem_.pressure_is_live ? live : dead) += force;
+      weigh_by(soil.unit_weight_at(at), soil.unit_weight_at(centre), problem_.pull, dead, dead_);
       weigh_by(soil.live_unit_weight_at(at), soil.live_unit_weight_at(centre), problem_.live_pull,
-               soil.live_seepage, live_);
+               live, live_);
     };
     for (std::size_t i = 0; i < 3; ++i) {
       const mesh::Point &first = node_at(mesh, nodes[i]), &next = node_at(mesh, nodes[(i + 1) % 3]);
@@ -312,6 +317,7 @@ class Flow {
   }
 
   const problem::Problem& problem_;
+  problem::MeshPressure water_;
   Eigen::Index footing_;
   std::vector<problem::Soil> soils_;  // of triangles
   std::vector<FlowPoint> points_;

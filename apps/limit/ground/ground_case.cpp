@@ -13,6 +13,7 @@
 #include "limit/ground/ground_footing.hpp"
 #include "limit/ground/ground_mesh.hpp"
 #include "limit/ground/ground_outline.hpp"
+#include "limit/ground/ground_pressure.hpp"
 #include "limit/ground/ground_skins.hpp"
 #include "limit/ground/ground_water.hpp"
 #include "limit/ground/ground_words.hpp"
@@ -40,6 +41,7 @@ void make_live(problem::Problem& problem) {
     boundary.live_shear_stress = boundary.shear_stress;
     boundary.normal_stress = boundary.shear_stress = 0.0;
   }
+  problem.pressure_is_live = true;
   problem.footing.live_load = problem.footing.dead_load;
   problem.footing.dead_load = {};
   // Whether it is more or less than one is all that is asked.
@@ -54,6 +56,10 @@ problem::Problem loads_of(const GroundScene& scene, const std::optional<Base>& b
     problem::Soil soil = material.soil;
     if (reduce) soil = problem::davis_reduced(soil, material.dilation_angle);
     if (scene.load.sought == Sought::gravity && material.grows) make_weight_live(soil);
+    // A share of the weight grows with it, unlike the water of a table.
+    if (scene.load.sought == Sought::gravity && scene.water.r_u) {
+      soil.live_seepage = std::exchange(soil.seepage, mesh::Point::Zero());
+    }
     if (scene.load.sought == Sought::earthquake && material.grows && scene.load.kh != 0.0) {
       soil.live_unit_weight = soil.unit_weight;
       soil.live_weight_gradient = soil.weight_gradient;
@@ -63,6 +69,7 @@ problem::Problem loads_of(const GroundScene& scene, const std::optional<Base>& b
   const bool is_shaken = scene.load.sought != Sought::earthquake;
   problem.pull = {is_shaken ? scene.load.kh : 0.0, scene.load.kv - 1.0};
   problem.live_pull = is_shaken ? problem.pull : mesh::Point(scene.load.kh, 0.0);
+  problem.pore_pressure = pressure_in_triangles(scene);
   for (const GroundSide& side : scene.sides) problem.boundaries.push_back(boundary_of(scene, side));
   if (base) problem.footing = footing_of(scene, *base, diagnosis);
   if (scene.load.sought == Sought::strength) make_live(problem);
@@ -126,7 +133,7 @@ void require_strength(const GroundScene& scene, const problem::Problem& problem,
       std::ranges::any_of(problem.boundaries, [](const problem::Boundary& boundary) {
         return boundary.normal_stress != 0.0;
       });
-  if (bears_more) return;
+  if (bears_more || problem.pore_pressure) return;
   diagnosis.error("load.sought",
                   "no material has a cohesion, and what friction bears is in proportion to the "
                   "load that grows",
@@ -194,6 +201,13 @@ GroundFineness fineness_of(const GroundScene& scene, const GroundOutline& outlin
   return {(12.0 + 15.0 * steepest) / pi, 4, 2.0, longest};
 }
 
+mesh::Mesh mesh_of(const GroundScene& scene, const GroundOutline& outline,
+                   const GroundFineness& fineness, const problem::Problem& loads) {
+  problem::Problem problem = loads;
+  problem.mesh = ground_mesh(scene, outline, fineness);
+  return problem.pore_pressure ? with_inner_nodes(problem) : problem.mesh;
+}
+
 // The meshes of triangles longer than high; none where the ground is too narrow for them.
 void add_long_meshes(const GroundScene& scene, const GroundOutline& outline, double length,
                      problem::Case& result) {
@@ -205,8 +219,8 @@ void add_long_meshes(const GroundScene& scene, const GroundOutline& outline, dou
     for (mesh::Point& point : squeezed.points) point.x() /= stretch;
     squeezed.area /= stretch;
     const auto add = [&](bool is_lower, std::vector<mesh::Mesh>& meshes) {
-      mesh::Mesh mesh =
-          ground_mesh(scene, squeezed, fineness_of(scene, squeezed, length, is_lower));
+      mesh::Mesh mesh = mesh_of(scene, squeezed, fineness_of(scene, squeezed, length, is_lower),
+                                is_lower ? result.lower : result.upper);
       for (mesh::Point& node : mesh.nodes) node.x() *= stretch;
       mesh.stretch = stretch;
       meshes.push_back(std::move(mesh));
@@ -239,6 +253,10 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
   result.lower = loads_of(scene, base, reduce, diagnosis);
   if (diagnosis.errors().empty()) require_live_load(scene, base, result.lower, diagnosis);
   if (diagnosis.errors().empty()) require_strength(scene, result.lower, diagnosis);
+  if (diagnosis.errors().empty() && !reduce && scene.load.sought != Sought::gravity) {
+    check_bare_faces(scene, outline, result.lower, diagnosis);
+    check_ends_of_pressure(scene, outline, result.lower, diagnosis);
+  }
   if (!diagnosis.errors().empty()) return result;
   result.assumptions = assumptions_of(scene, result.lower, base);
   const double length = length_of(scene, outline, base);
@@ -248,8 +266,10 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
     say_skins(scene, outline, result.lower, result);
   }
   try {
-    result.lower.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, true));
-    result.upper.mesh = ground_mesh(scene, outline, fineness_of(scene, outline, length, false));
+    result.lower.mesh =
+        mesh_of(scene, outline, fineness_of(scene, outline, length, true), result.lower);
+    result.upper.mesh =
+        mesh_of(scene, outline, fineness_of(scene, outline, length, false), result.upper);
   } catch (const GroundTooFine& narrow) {
     diagnosis.error(
         fmt::format("region.{}.outline", scene.regions[narrow.region].number),
@@ -301,6 +321,9 @@ std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagn
   if (!diagnosis.errors().empty()) return std::nullopt;
   if (has_columns) outline = ground_outline(scene, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
+  if (const auto told = pressure_in_triangles(scene)) {
+    divide_at_kinks(scene, told->field(), outline);
+  }
   const std::optional<Base> base = find_base(scene, outline, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   problem::Cases result{case_of(scene, outline, base, false, diagnosis), std::nullopt};

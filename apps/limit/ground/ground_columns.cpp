@@ -9,6 +9,7 @@
 
 #include "limit/ground/ground_boundary.hpp"
 #include "limit/ground/ground_cut.hpp"
+#include "limit/ground/ground_pressure.hpp"
 #include "limit/problem/bare_corners.hpp"
 
 namespace limit::ground {
@@ -72,6 +73,7 @@ std::vector<Face> faces_of(const GroundScene& scene, const GroundOutline& outlin
 // water, per volume: linear, as a weight is, and so largest in corners.
 struct Push {
   double least = 0.0, largest = 0.0;
+  double least_of_water = 0.0, largest_of_water = 0.0;  // alone
 
   [[nodiscard]] bool is_none() const { return least == 0.0 && largest == 0.0; }
   [[nodiscard]] bool is_outwards(const Face& face) const {
@@ -80,13 +82,19 @@ struct Push {
 };
 
 Push push_on(const GroundScene& scene, const problem::Soil& soil,
-             const std::vector<GroundPart>& parts) {
-  Push push;
+             const std::vector<GroundPart>& parts, const std::vector<mesh::Point>& wedge) {
+  Push push{0.0, 0.0, soil.seepage.x(), soil.seepage.x()};
+  if (const auto told = pressure_in_triangles(scene)) {
+    for (const auto& piece : told->field().within(wedge)) {
+      push.least_of_water = std::min(push.least_of_water, -piece.gradient.x());
+      push.largest_of_water = std::max(push.largest_of_water, -piece.gradient.x());
+    }
+  }
   for (const GroundPart& part : parts) {
     for (const mesh::Point& place : part.region.outline) {
-      const double at_place = scene.load.kh * soil.unit_weight_at(place) + soil.seepage.x();
-      push.least = std::min(push.least, at_place);
-      push.largest = std::max(push.largest, at_place);
+      const double shaken = scene.load.kh * soil.unit_weight_at(place);
+      push.least = std::min(push.least, shaken + push.least_of_water);
+      push.largest = std::max(push.largest, shaken + push.largest_of_water);
     }
   }
   return push;
@@ -133,13 +141,13 @@ void check_push(const GroundScene& scene, const Face& face, std::size_t material
         "a slice of it falls off at once, however little pushes: allowed are a face that leans "
         "back, a push into the ground, or a trace of tension, as a thousandth of the cohesion");
   };
-  const problem::Soil& soil = scene.materials[material].soil;
   if (push.is_outwards(face)) {
     if (scene.load.kh * face.inwards < 0.0) {
       refuse("load.kh", fmt::format("found {:g}, which", scene.load.kh));
     } else {
       refuse(fmt::format("material.{}.tension_cutoff", told_as(scene, material)),
-             fmt::format("found 0, and water that seeps, {:.6g} N/m3 along x,", soil.seepage.x()));
+             fmt::format("found 0, and water that seeps, {:.6g} N/m3 along x,",
+                         face.inwards > 0.0 ? push.least_of_water : push.largest_of_water));
     }
   }
   for (const TopShear& shear : shears_on(scene, face)) {
@@ -191,7 +199,7 @@ bool cut_columns(GroundScene& scene, const GroundOutline& outline, tables::Diagn
       auto columns = parts_within(whole, wedge, ground);
       const problem::Soil& soil = scene.materials[whole.material].soil;
       const bool bears_none = !columns.empty() && soil.tension == 0.0;
-      const Push push = push_on(scene, soil, columns);
+      const Push push = push_on(scene, soil, columns, wedge);
       if (bears_none) {
         check_push(scene, face, whole.material, push, diagnosis);
         warn_of_load(scene, face, whole.material, diagnosis);

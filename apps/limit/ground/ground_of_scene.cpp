@@ -202,7 +202,9 @@ class Reader {
     found_.water.table = points_of(scene_.water.table);
     found_.water.unit_weight = scene_.water.unit_weight;
     found_.water.r_u = scene_.water.r_u;
-    const bool grows = found_.load.sought == Sought::gravity && found_.water.is_there();
+    found_.water.pore_pressure = scene_.water.pore_pressure;
+    const bool grows =
+        found_.load.sought == Sought::gravity && found_.water.is_there() && !found_.water.r_u;
     refuse(grows && !scene_.load.sought, "drive.scales", "found gravity, in ground under water",
            "in a run the water's weight grows, too, in fpm-limit it stays: say what is sought by "
            "load.sought");

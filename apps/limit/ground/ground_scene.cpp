@@ -102,6 +102,12 @@ GroundTable water() {
             .range = {.lower = 0.0, .upper = 1.0, .upper_open = true},
             .doc = "its pressure over the weight of the ground straight above, instead of a table",
             .absent = "the table says it"})
+      .key("pore_pressure", &GroundWater::pore_pressure,
+           {.need = Need::optional,
+            .unit = "Pa",
+            .doc = "its pressure itself, instead of a table, all over the ground; less than none "
+                   "counts as none",
+            .absent = "the table says it"})
       .build();
 }
 

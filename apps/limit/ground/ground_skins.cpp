@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "limit/ground/ground_pressure.hpp"
+
 namespace limit::ground {
 
 namespace {
@@ -20,7 +22,106 @@ bool presses(const GroundSide& side) {
   return side.kind == SideKind::loaded && (side.pressure != 0.0 || side.shear != 0.0);
 }
 
+bool is_bare(const GroundSide& side) {
+  return side.kind == SideKind::free || (side.kind == SideKind::loaded && !presses(side) &&
+                                         side.live_pressure == 0.0 && side.live_shear == 0.0);
+}
+
+// Forces [N/m3] of the water in skins of a straight piece of the outline: one, or of each part of
+// it along which a pressure that is told is linear.
+std::vector<mesh::Point> water_in_skins(const GroundScene& scene, const problem::Soil& soil,
+                                        const mesh::Point& first, const mesh::Point& second) {
+  const auto told = pressure_in_triangles(scene);
+  if (!told) return {soil.seepage + soil.live_seepage};
+  constexpr double thin = 1e-6, rounding = 1e-3;
+  const mesh::Point way = second - first, inwards = thin * mesh::Point(-way.y(), way.x());
+  std::vector<mesh::Point> forces;
+  for (const auto& piece :
+       told->field().within({first, second, second + inwards, first + inwards})) {
+    if (piece.area > rounding * thin * way.squaredNorm()) forces.emplace_back(-piece.gradient);
+  }
+  return forces;
+}
+
+const char* key_of_water(const GroundScene& scene) {
+  if (scene.water.pore_pressure) return "water.pore_pressure";
+  return scene.water.r_u ? "water.r_u" : "water.table";
+}
+
+// The skin of a side of the scene as a message names it.
+std::string skin_words(const GroundScene& scene, std::size_t material, const GroundSide& side,
+                       const mesh::Point& place) {
+  return fmt::format("{}, which has no cohesion, off the side \"{}\" at ({:.6g}, {:.6g})",
+                     scene.materials[material].name, side.name, place.x(), place.y());
+}
+
 }  // namespace
+
+void check_bare_faces(const GroundScene& scene, const GroundOutline& outline,
+                      const problem::Problem& problem, tables::Diagnosis& diagnosis) {
+  const bool seeks_strength = scene.load.sought == Sought::strength;
+  for (const GroundSegment& segment : outline.segments) {
+    if (segment.right >= 0) continue;
+    const GroundSide& side = scene.sides[static_cast<std::size_t>(segment.side)];
+    const std::size_t m = scene.regions[static_cast<std::size_t>(segment.left)].material;
+    const problem::Soil& soil = problem.soils[m];
+    if (!is_bare(side) || !soil.is_loose()) continue;
+    const mesh::Point &first = outline.at(segment.first), &second = outline.at(segment.second);
+    const mesh::Point way = (second - first).normalized(), outwards(way.y(), -way.x());
+    const mesh::Point weight =
+        (soil.unit_weight + (seeks_strength ? soil.live_unit_weight : 0.0)) * problem.pull;
+    const std::string skin = skin_words(scene, m, side, (first + second) / 2.0);
+    for (const mesh::Point& water : water_in_skins(scene, soil, first, second)) {
+      const double lift = outwards.dot(water), press = -outwards.dot(weight + water);
+      const double along = std::abs(way.dot(weight + water));
+      const double rounding = 1e-9 * (weight.norm() + water.norm());
+      if (lift > 0.0 && press < -rounding) {
+        diagnosis.error(key_of_water(scene),
+                        fmt::format("water lifts {}, with {:.6g} {} and no more than {:.6g} on it",
+                                    skin, lift, scene.units.unit_weight(), press + lift),
+                        "such ground boils: allowed are less water, a cohesion, or a pressure on "
+                        "the side, as of a filter");
+        return;
+      }
+      // How far a strength may be divided is what is sought then.
+      if (seeks_strength || along <= std::tan(soil.friction_angle) * press + rounding) continue;
+      diagnosis.error(fmt::format("side.{}.kind", segment.side),
+                      fmt::format("what is given lets a skin slide of {}", skin),
+                      "bare sand does not stand steeper than it has friction: allowed are a "
+                      "gentler face, a cohesion, or a side that is held or loaded");
+      return;
+    }
+  }
+}
+
+void check_ends_of_pressure(const GroundScene& scene, const GroundOutline& outline,
+                            const problem::Problem& problem, tables::Diagnosis& diagnosis) {
+  const auto side_of = [&](const GroundSegment& segment) -> const GroundSide& {
+    return scene.sides[static_cast<std::size_t>(segment.side)];
+  };
+  for (const GroundSegment& loaded : outline.segments) {
+    if (loaded.right >= 0 || !presses(side_of(loaded))) continue;
+    const std::size_t m = scene.regions[static_cast<std::size_t>(loaded.left)].material;
+    if (!problem.soils[m].is_loose()) continue;
+    for (const GroundSegment& bare : outline.segments) {
+      if (bare.right >= 0 || bare.left != loaded.left || !is_bare(side_of(bare))) continue;
+      const bool ends = bare.first == loaded.second, begins = bare.second == loaded.first;
+      if (!ends && !begins) continue;
+      const mesh::Point& place = outline.at(ends ? loaded.second : loaded.first);
+      const bool is_pressure = side_of(loaded).pressure != 0.0;
+      diagnosis.error(
+          fmt::format("side.{}.{}", loaded.side, is_pressure ? "pressure" : "shear"),
+          fmt::format(
+              "found {:g}, which ends at ({:.6g}, {:.6g}) beside the bare side \"{}\" of {}, "
+              "which has no cohesion",
+              is_pressure ? side_of(loaded).pressure : side_of(loaded).shear, place.x(), place.y(),
+              side_of(bare).name, scene.materials[m].name),
+          "where nothing presses on sand it bears nothing, and gives way under what is given: "
+          "allowed are a cohesion, as of a thousandth of the pressure, or a pressure beside, too");
+      return;
+    }
+  }
+}
 
 void say_skins(const GroundScene& scene, const GroundOutline& outline,
                const problem::Problem& soils, problem::Case& result) {
@@ -42,18 +143,22 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
     if (outline.at(segment.second).x() > outline.at(segment.first).x()) gentlest = 0.0;
     if (!soil.is_loose()) continue;
     // The weight, aslant in an earthquake, along the skin and across it.
-    const mesh::Point way = (outline.at(segment.second) - outline.at(segment.first)).normalized();
-    const mesh::Point force = soils.live_force(soil, soil.centre);
-    const double along = std::abs(way.dot(force));
-    const double presses_on = way.x() * force.y() - way.y() * force.x();
-    // What water lifts off the face has no strength at all.
-    const double across = scene.water.is_there() ? std::max(0.0, presses_on) : std::abs(presses_on);
-    if (along <= level * across) continue;
-    const double slides = std::tan(soil.friction_angle) * across / along;
-    if (slides >= result.known_upper.value_or(INFINITY)) continue;
-    result.known_upper = slides;
-    weakest =
-        fmt::format("{} without cohesion at the side \"{}\"", scene.materials[m].name, side.name);
+    const mesh::Point &first = outline.at(segment.first), &second = outline.at(segment.second);
+    const mesh::Point way = (second - first).normalized();
+    for (const mesh::Point& water : water_in_skins(scene, soil, first, second)) {
+      const mesh::Point force = soil.live_unit_weight * soils.live_pull + water;
+      const double along = std::abs(way.dot(force));
+      const double presses_on = way.x() * force.y() - way.y() * force.x();
+      // What water lifts off the face has no strength at all.
+      const double across =
+          scene.water.is_there() ? std::max(0.0, presses_on) : std::abs(presses_on);
+      if (along <= level * across) continue;
+      const double slides = std::tan(soil.friction_angle) * across / along;
+      if (slides >= result.known_upper.value_or(INFINITY)) continue;
+      result.known_upper = slides;
+      weakest =
+          fmt::format("{} without cohesion at the side \"{}\"", scene.materials[m].name, side.name);
+    }
   }
   if (!result.known_upper) return;
   const bool is_shaken = soils.live_pull.x() != 0.0;

@@ -12,4 +12,15 @@ namespace limit::ground {
 void say_skins(const GroundScene& scene, const GroundOutline& outline,
                const problem::Problem& soils, problem::Case& result);
 
+/// Refuses ground without cohesion that is not at rest under what is given, whatever else acts:
+/// which water lifts off a face with nothing on it, as where it rises steeply, or which is steeper
+/// there than its friction. Not where weights are sought, nor the latter where the strength is.
+void check_bare_faces(const GroundScene& scene, const GroundOutline& outline,
+                      const problem::Problem& problem, tables::Diagnosis& diagnosis);
+
+/// Refuses a given pressure or shear that ends beside a bare face of ground without cohesion, which
+/// bears nothing there.
+void check_ends_of_pressure(const GroundScene& scene, const GroundOutline& outline,
+                            const problem::Problem& problem, tables::Diagnosis& diagnosis);
+
 }  // namespace limit::ground

@@ -104,13 +104,21 @@ struct GroundLoad {
                                // roller, whose mirror image completes it
 };
 
-/// Pore water, hydrostatic below its table or a share of the overburden.
+/// Pore water, hydrostatic below its table, a share of the overburden, or as told.
 struct GroundWater {
-  std::vector<mesh::Point> table;  // [m] from left to right
-  double unit_weight = 9810.0;     // [N/m3]
-  std::optional<double> r_u;       // its pressure over the overburden
+  std::vector<mesh::Point> table;                      // [m] from left to right
+  double unit_weight = 9810.0;                         // [N/m3]
+  std::optional<double> r_u;                           // its pressure over the overburden
+  std::optional<tables::VaryingNumber> pore_pressure;  // [Pa] below zero: none
 
-  [[nodiscard]] bool is_there() const { return !table.empty() || r_u.value_or(0.0) > 0.0; }
+  [[nodiscard]] bool is_there() const {
+    return !table.empty() || r_u.value_or(0.0) > 0.0 || pore_pressure.has_value();
+  }
+  /// Whether it is told in triangles, between points or the values of a raster.
+  [[nodiscard]] bool is_in_triangles() const {
+    return pore_pressure && pore_pressure->samples &&
+           pore_pressure->samples->kind != tables::Samples::Kind::table;
+  }
 };
 
 /// Ground of polygons, its sides and its load, as a scene of fpm-limit's own describes it.

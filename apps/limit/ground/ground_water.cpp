@@ -8,6 +8,7 @@
 
 #include "limit/ground/ground_cut.hpp"
 #include "limit/ground/ground_soils.hpp"
+#include "shape/pressure_field.hpp"
 #include "shape/water.hpp"
 
 namespace limit::ground {
@@ -88,6 +89,63 @@ void wet_by_overburden(GroundScene& scene, const Extent& ground, tables::Diagnos
   scene.regions = std::move(regions);
 }
 
+// A pressure that is linear everywhere, or between the lines of a table: a few parts.
+void wet_as_told(GroundScene& scene, const Extent& ground) {
+  const mesh::Point size = ground.high - ground.low;
+  const mesh::Point low = ground.low - size, high = ground.high + size;
+  const shape::PressureField field(*scene.water.pore_pressure);
+  const auto pieces = field.within({low, {high.x(), low.y()}, high, {low.x(), high.y()}});
+  std::vector<GroundRegion> regions;
+  for (const GroundRegion& whole : scene.regions) {
+    for (const auto& piece : pieces) {
+      for (GroundPart& part : parts_within(whole, piece.ring, ground)) {
+        GroundMaterial wet = scene.materials[whole.material];
+        if (piece.wet && wet.saturated_unit_weight) {
+          take_weight(*wet.saturated_unit_weight, wet.soil);
+        }
+        wet.soil.seepage = -piece.gradient;
+        scene.materials.push_back(std::move(wet));
+        part.region.material = scene.materials.size() - 1;
+        regions.push_back(std::move(part.region));
+      }
+    }
+  }
+  scene.regions = std::move(regions);
+}
+
+// The weight of ground is balanced exactly, and a place may be wet or not within a triangle.
+void check_saturated(const GroundScene& scene, tables::Diagnosis& diagnosis) {
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const GroundMaterial& material = scene.materials[m];
+    if (!material.saturated_unit_weight || *material.saturated_unit_weight == material.unit_weight)
+      continue;
+    diagnosis.error(fmt::format("material.{}.saturated_unit_weight", m),
+                    "given with a pressure that is told by points or a raster",
+                    "there it is not known along a line where ground is saturated: give regions "
+                    "that are wet a material of their own, whose unit_weight that is");
+    return;
+  }
+}
+
+void wet_in_field(GroundScene& scene, const Extent& ground, tables::Diagnosis& diagnosis) {
+  const std::string key = "water.pore_pressure";
+  if (scene.water.r_u || !scene.water.table.empty()) {
+    diagnosis.error(key, fmt::format("found beside {}", scene.water.r_u ? "r_u" : "a table"),
+                    "the pressure is what one of them says: leave the other out");
+    return;
+  }
+  shape::Ring corners;
+  for (const GroundRegion& region : scene.regions) {
+    corners.insert(corners.end(), region.outline.begin(), region.outline.end());
+  }
+  if (!shape::is_pressure_of(*scene.water.pore_pressure, corners, key, diagnosis)) return;
+  if (scene.water.is_in_triangles()) {
+    check_saturated(scene, diagnosis);
+  } else {
+    wet_as_told(scene, ground);
+  }
+}
+
 const GroundMaterial* first_of_uneven_weight(const GroundScene& scene) {
   for (const GroundMaterial& material : scene.materials) {
     if (material.soil.has_uneven_weight()) return &material;
@@ -119,12 +177,20 @@ void warn_of_light_ground(const GroundScene& scene, tables::Diagnosis& diagnosis
 void wet(GroundScene& scene, tables::Diagnosis& diagnosis) {
   if (!scene.water.is_there()) return;
   const Extent ground = extent_of(scene);
-  if (scene.water.r_u && !scene.water.table.empty()) {
+  if (scene.water.pore_pressure) {
+    wet_in_field(scene, ground, diagnosis);
+  } else if (scene.water.r_u && !scene.water.table.empty()) {
     diagnosis.error("water.r_u", fmt::format("found {:g}, and a table", *scene.water.r_u),
                     "the pressure is what one of them says: leave the other out");
-  } else if (scene.water.r_u && scene.load.sought == Sought::gravity) {
-    diagnosis.error("water.r_u", fmt::format("found {:g}, with gravity sought", *scene.water.r_u),
-                    "the water's force stays while weights grow: give a table");
+  } else if (const auto still = std::ranges::find(scene.materials, false, &GroundMaterial::grows);
+             scene.water.r_u && scene.load.sought == Sought::gravity &&
+             still != scene.materials.end()) {
+    diagnosis.error(
+        "water.r_u",
+        fmt::format("found {:g}, with gravity sought, and the weight of {} does not grow",
+                    *scene.water.r_u, still->name),
+        "a share of the weight above grows with all of it: let all materials grow, or "
+        "give a table, whose water stays as it is");
   } else if (const GroundMaterial* uneven = first_of_uneven_weight(scene);
              scene.water.r_u && uneven != nullptr) {
     diagnosis.error("water.r_u",

@@ -68,10 +68,13 @@ std::vector<std::string> assumptions_of(const GroundScene& scene, const problem:
   }
   if (scene.water.is_there()) {
     assumptions.emplace_back(
-        std::string(scene.water.r_u ? "the pressure of pore water is r_u times the weight of the "
-                                      "ground straight above; "
-                                    : "pore water is at rest or seeps as its table tells, "
-                                      "hydrostatic below it; ") +
+        std::string(scene.water.pore_pressure
+                        ? "the pressure of pore water is as told, suction none, and water presses "
+                          "on faces of the ground as it does within; "
+                    : scene.water.r_u ? "the pressure of pore water is r_u times the weight of the "
+                                        "ground straight above; "
+                                      : "pore water is at rest or seeps as its table tells, "
+                                        "hydrostatic below it; ") +
         "loads and pressures are in addition to the water's, stresses effective");
   }
   if (std::any_of(problem.soils.begin(), problem.soils.end(),
@@ -129,7 +132,9 @@ void describe(const GroundScene& scene, problem::Case& result) {
   }
   if (scene.water.is_there()) {
     result.data.emplace_back(
-        "water", scene.water.r_u
+        "water", scene.water.pore_pressure
+                     ? words_of(*scene.water.pore_pressure, scene.units.stress, scene.units.length)
+                 : scene.water.r_u
                      ? fmt::format("r_u = {:g}", *scene.water.r_u)
                      : fmt::format("{:g} {}, {} points of its table", scene.water.unit_weight,
                                    scene.units.unit_weight(), scene.water.table.size()));

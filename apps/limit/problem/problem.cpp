@@ -35,6 +35,8 @@ Problem in_units(const Problem& problem, const Units& units) {
     footing.dead_load[i] /= force * arm;
     footing.live_load[i] *= live / (units.length * arm);
   }
+  scaled.pressure_length *= units.length;
+  scaled.pressure_stress *= scaled.pressure_is_live ? 1.0 / live : units.stress;
   if (scaled.most_multiplier) *scaled.most_multiplier /= units.multiplier();
   return scaled;
 }

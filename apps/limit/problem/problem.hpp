@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -101,6 +102,8 @@ struct Footing {
   std::array<double, 3> live_load{};  // per unit of the multiplier
 };
 
+class PorePressure;
+
 /// A collapse problem: how far the live loads (on the footing, on the outline, of the soil's
 /// weight) can grow by their common multiplier. The multiplier has the unit that makes a live load
 /// times it a load; for a footing pressure it is a pressure, for a weight a number.
@@ -114,7 +117,18 @@ struct Problem {
   /// Where the multiplier is not followed any further, in its unit: where more weight makes more
   /// strength than it takes, nothing limits it. Absent: wherever it ends.
   std::optional<double> most_multiplier;
+  /// A pore pressure that is not linear in each soil, beside their seepage (pore_pressure.hpp);
+  /// stresses are then effective ones.
+  std::shared_ptr<const PorePressure> pore_pressure = nullptr;
+  double pressure_length = 1.0, pressure_stress = 1.0;  // [m], [Pa] in the problem's units
+  bool pressure_is_live = false;                        // per unit of the multiplier
 
+  [[nodiscard]] bool has_water() const {
+    return pore_pressure != nullptr ||
+           std::any_of(soils.begin(), soils.end(), [](const Soil& soil) {
+             return !soil.seepage.isZero(0.0) || !soil.live_seepage.isZero(0.0);
+           });
+  }
   /// Body force on a soil at a place, [N/m3]; live, per unit of the multiplier.
   [[nodiscard]] mesh::Point force(const Soil& soil, const mesh::Point& place) const {
     return soil.unit_weight_at(place) * pull + soil.seepage;

@@ -2,8 +2,10 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "limit/problem/pore_pressure.hpp"
 #include "limit/programme/stress_points.hpp"
 
 namespace limit::programme {
@@ -15,6 +17,7 @@ class Builder {
  public:
   Builder(const problem::Problem& problem, const Parabolas& parabolas)
       : problem_(problem),
+        water_(pressure_on_mesh(problem, problem::Bound::lower)),
         edges_(mesh::edges_of(problem.mesh)),
         points_(problem, parabolas, edges_) {}
 
@@ -58,6 +61,8 @@ class Builder {
       const mesh::Triangle& triangle = mesh.triangles[t];
       const double area2 = mesh::twice_area(mesh, triangle);
       const problem::Soil& soil = problem_.soils[static_cast<std::size_t>(triangle.region)];
+      mesh::Point dead_water = water_.force(t), live_water = mesh::Point::Zero();
+      if (problem_.pressure_is_live) std::swap(dead_water, live_water);
       std::array<mesh::Point, 3> gradients;
       for (int i = 0; i < 3; ++i) {
         const mesh::Point &next = node_of(triangle, i + 1), &last = node_of(triangle, i + 2);
@@ -69,8 +74,8 @@ class Builder {
       for (std::size_t at = 0; at < (is_linear ? 1U : 3U); ++at) {
         const mesh::Point& place = node_of(triangle, static_cast<int>(at));
         for (int row = 0; row < 2; ++row) {
-          begin_equation(-problem_.force(soil, place)[row]);
-          add(multiplier(), problem_.live_force(soil, place)[row]);
+          begin_equation(-problem_.force(soil, place)[row] - dead_water[row]);
+          add(multiplier(), problem_.live_force(soil, place)[row] + live_water[row]);
           for (std::size_t i = 0; i < 3; ++i) {
             // Of the Bezier points only the corner and the middles next to it have slopes there.
             const Eigen::Index stress =
@@ -230,6 +235,7 @@ class Builder {
   }
 
   const problem::Problem& problem_;
+  problem::MeshPressure water_;
   std::vector<mesh::Edge> edges_;
   StressPoints points_;
   algebra::EquationBuilder equations_;

@@ -35,7 +35,8 @@ struct Loads {
   Loads(const problem::Problem& problem, const std::vector<mesh::Edge>& edges)
       : dead(Eigen::VectorXd::Zero(Rows(problem).count)), live(dead) {
     const mesh::Mesh& mesh = problem.mesh;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) add_weight(problem, t);
+    const problem::MeshPressure water = pressure_on_mesh(problem, problem::Bound::upper);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) add_weight(problem, water, t);
     for (const mesh::Edge& edge : edges) {
       if (edge.boundary < 0) continue;
       const problem::Boundary& on = problem.boundaries[static_cast<std::size_t>(edge.boundary)];
@@ -57,8 +58,9 @@ struct Loads {
   Eigen::VectorXd dead, live;
 
  private:
-  void add_weight(const problem::Problem& problem, std::size_t t) {
-    const WeightForces forces = weight_forces(problem, t);
+  void add_weight(const problem::Problem& problem, const problem::MeshPressure& water,
+                  std::size_t t) {
+    const WeightForces forces = weight_forces(problem, water, t);
     for (std::size_t place = 0; place < 6; ++place) {
       const auto row = static_cast<Eigen::Index>(2 * (6 * t + place));
       dead.segment<2>(row) += forces.dead[place];

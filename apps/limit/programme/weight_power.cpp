@@ -5,7 +5,8 @@ namespace limit::programme {
 // The integral of a corner's barycentric coordinate times a quadratic shape function, over the
 // area: of the corner's own 1/30, of another corner's -1/60, of a middle next to it 2/15, of the
 // one across 1/15. Of all three corners together a corner has nothing, and a middle a third.
-WeightForces weight_forces(const problem::Problem& problem, std::size_t triangle) {
+WeightForces weight_forces(const problem::Problem& problem, const problem::MeshPressure& water,
+                           std::size_t triangle) {
   const mesh::Triangle& of = problem.mesh.triangles[triangle];
   const problem::Soil& soil = problem.soils[static_cast<std::size_t>(of.region)];
   const double area = mesh::twice_area(problem.mesh, of) / 2.0;
@@ -15,6 +16,8 @@ WeightForces weight_forces(const problem::Problem& problem, std::size_t triangle
   const auto add = [&](std::size_t place, const mesh::Point& at, double share) {
     forces.dead[place] += share * area * problem.force(soil, at);
     forces.live[place] += share * area * problem.live_force(soil, at);
+    auto& with_water = problem.pressure_is_live ? forces.live : forces.dead;
+    with_water[place] += share * area * water.force(triangle);
   };
   if (!soil.has_uneven_weight()) {
     for (std::size_t middle = 3; middle < 6; ++middle) add(middle, soil.centre, 1.0 / 3.0);

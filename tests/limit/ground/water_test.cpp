@@ -199,6 +199,26 @@ TEST(Water, IsAShareOfTheOverburdenAsWell) {
   }
 }
 
+// Where weights are sought, their share grows with them: the same loads in proportion as where the
+// strength is, in which everything is.
+TEST(Water, ThatIsAShareOfTheOverburdenGrowsWithIt) {
+  const std::string share = "[water]\nr_u = 0.5\n";
+  std::string heavier = slope(1e3, share);
+  heavier.replace(heavier.find("\"strength\""), 10, "\"gravity\"");
+  const auto weights = case_of(heavier), strength = case_of(slope(1e3, share));
+  ASSERT_TRUE(weights && strength);
+  const auto &grown = weights->associated.lower.soils, &all = strength->associated.lower.soils;
+  ASSERT_EQ(grown.size(), all.size());
+  double most = 0.0;
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    EXPECT_EQ(grown[s].live_seepage, all[s].live_seepage);
+    EXPECT_EQ(grown[s].live_unit_weight, all[s].live_unit_weight);
+    EXPECT_TRUE(grown[s].seepage.isZero(0.0));
+    most = std::max(most, grown[s].live_seepage.norm());
+  }
+  EXPECT_GT(most, 0.4 * 20e3);
+}
+
 std::string complaint_of(const std::string& text) {
   tables::Diagnosis diagnosis("scene");
   std::optional<tables::Complaint> unreadable;
@@ -225,7 +245,11 @@ TEST(Water, WhoseShareIsNoneIsRefusedInWords) {
               HasSubstr("water.r_u: found 0.5, and a table"));
   std::string heavier = slope(1e3, share);
   heavier.replace(heavier.find("\"strength\""), 10, "\"gravity\"");
-  EXPECT_THAT(complaint_of(heavier), HasSubstr("water.r_u: found 0.5, with gravity sought"));
+  heavier.replace(heavier.find("unit_weight = 20e3"), 18, "unit_weight = 20e3\ngrows = false");
+  EXPECT_THAT(
+      complaint_of(heavier),
+      HasSubstr("water.r_u: found 0.5, with gravity sought, and the weight of sand does not "
+                "grow; a share of the weight above grows with all of it"));
   // The face made upright.
   std::string cut = slope(1e3, share);
   const std::string toe = fmt::format("[{}, 0], [0, 10]", 10.0 / std::tan(20.0 * degree));

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+
+namespace scene {
+
+struct Scene;
+
+/// Vertical stress [Pa] of geostatic ground at a place, effective where there is water: the
+/// surcharge and the weight above, less what water bears of it, in slices of at most a spacing,
+/// each of the material at its middle.
+[[nodiscard]] double geostatic_stress(const Scene& scene, std::span<const double> place);
+
+}  // namespace scene

@@ -1,0 +1,197 @@
+// Pore pressures that are told from place to place.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "limit/ground/ground_cases.hpp"
+#include "limit/ground/ground_pressure.hpp"
+#include "limit/ground/ground_water.hpp"
+#include "limit/ground/pressure_scenes.hpp"
+#include "shape/outline.hpp"
+
+namespace {
+
+using namespace limit;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+using namespace told;
+
+// What is linear everywhere, or between the lines of a table, is cut along its lines as ground is
+// below a water table: the same weight and the same force of water everywhere.
+TEST(PorePressure, ThatATableHasIsThatTable) {
+  const auto wet = [](const std::string& water) {
+    std::string text = footing(2e3, 17e3, "[water]\nunit_weight = 10e3\n" + water + "\n");
+    text.insert(text.find("unit_weight = 17000"), "saturated_unit_weight = 20e3\n");
+    tables::Diagnosis diagnosis("scene");
+    std::optional<tables::Complaint> unreadable;
+    auto scene = ground::read_ground_scene(text, {}, diagnosis, unreadable);
+    ground::wet(*scene, diagnosis);
+    EXPECT_TRUE(diagnosis.errors().empty());
+    return *scene;
+  };
+  const auto soil_at = [](const ground::GroundScene& scene, const mesh::Point& place) {
+    for (const ground::GroundRegion& region : scene.regions) {
+      if (shape::is_inside(region.outline, place)) return scene.materials[region.material].soil;
+    }
+    return problem::Soil{};
+  };
+  const ground::GroundScene table = wet("table = [[0, -0.5], [5, -0.5]]");
+  for (const char* told :
+       {"pore_pressure = { at = [0, -0.5], value = 0, gradient = [0, -10e3] }",
+        "pore_pressure = { along = \"y\", table = [[-2, 15e3], [-0.5, 0], [0, 0]] }"}) {
+    const ground::GroundScene same = wet(told);
+    for (const mesh::Point& place : {mesh::Point(0.4, -0.3), mesh::Point(4.0, -0.45),
+                                     mesh::Point(0.4, -0.55), mesh::Point(3.0, -1.9)}) {
+      const problem::Soil one = soil_at(table, place), other = soil_at(same, place);
+      EXPECT_EQ(one.unit_weight, other.unit_weight) << told;
+      EXPECT_LT((one.seepage - other.seepage).norm(), 1e-9 * 10e3) << told;
+      EXPECT_EQ(one.unit_weight, place.y() > -0.5 ? 17e3 : 20e3);
+    }
+  }
+}
+
+// Water that rises with a gradient i leaves ground a weight of gamma' - i gamma_w, 20 - 10 - 5
+// kN/m3: the bounds of the first meshes are those of ground as light as that, but for the solver.
+TEST(PorePressure, OfWaterThatRisesLightensTheGround) {
+  const auto solution = [](std::string text) {
+    for (const auto& [from, to] :
+         {std::pair("friction_angle = 25", "friction_angle = 10"),
+          std::pair("[[0, -2], [5, -2], [5, 0], [1, 0], [0, 0]]",
+                    "[[0, -1], [2.5, -1], [2.5, 0], [1, 0], [0, 0]]"),
+          std::pair("[[0, 0], [0, -2]]", "[[0, 0], [0, -1]]"),
+          std::pair("[[1, 0], [5, 0]]", "[[1, 0], [2.5, 0]]"),
+          std::pair("[[0, -2], [5, -2], [5, 0]]", "[[0, -1], [2.5, -1], [2.5, 0]]")}) {
+      text.replace(text.find(from), std::string(from).size(), to);
+    }
+    const auto problem = case_of(text);
+    EXPECT_TRUE(problem);
+    bracket::BracketOptions options;
+    options.gap = 0.4;
+    return problem ? bracket::solution_of(problem->associated, options, {}) : bracket::Solution{};
+  };
+  const bracket::Solution light = solution(footing(2e3, 5e3, ""));
+  const bracket::Solution wet = solution(footing(2e3, 20e3,
+                                                 "[water]\npore_pressure = { points = [[0, 0, 0], "
+                                                 "[5, 0, 0], [0, -2, 30e3], [5, -2, 30e3], "
+                                                 "[2, -1, 15e3]] }\n"));
+  ASSERT_TRUE(light.lower && light.upper && wet.lower && wet.upper);
+  constexpr double solver = 1e-3;
+  EXPECT_NEAR(*wet.lower / *light.lower, 1.0, solver);
+  EXPECT_NEAR(*wet.upper / *light.upper, 1.0, solver);
+}
+
+// A skin of sand slides as the water in it, told by points, lets it: at tan(phi) / tan(beta)
+// (1 - r_u / cos(beta)^2) for seepage along the face.
+TEST(PorePressure, ThatIsToldByPointsLetsASkinSlide) {
+  const auto found = case_of(slope(0.0, points_in_slope([](double d) { return 10e3 * d; })));
+  ASSERT_TRUE(found && found->associated.known_upper);
+  const double cosine = std::cos(20.0 * degree);
+  // Of points written with as many digits as a number has.
+  EXPECT_NEAR(*found->associated.known_upper,
+              std::tan(35.0 * degree) / std::tan(20.0 * degree) * (1.0 - 0.5 / (cosine * cosine)),
+              1e-9);
+}
+
+// On the mesh a pressure that bends within triangles is nowhere less than it is told, or nowhere
+// more, and just as told along the surface.
+TEST(PorePressure, OnAMeshIsNowhereLessOrNowhereMore) {
+  const auto found = case_of(slope(
+      1e3, points_in_slope([](double depth) { return 10e3 * depth * (1.0 - 0.05 * depth); })));
+  ASSERT_TRUE(found);
+  std::mt19937 numbers(3);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (const auto bound : {problem::Bound::lower, problem::Bound::upper}) {
+    const bool is_lower = bound == problem::Bound::lower;
+    const problem::Problem& problem = is_lower ? found->associated.lower : found->associated.upper;
+    const auto pressure = problem::pressure_on_mesh(problem, bound);
+    const auto& nodes = problem.mesh.nodes;
+    double most = 0.0;
+    for (std::size_t t = 0; t < problem.mesh.triangles.size(); ++t) {
+      const auto& corners = problem.mesh.triangles[t].nodes;
+      const auto at = [&](int i) {
+        return nodes[static_cast<std::size_t>(corners[static_cast<std::size_t>(i)])];
+      };
+      for (int k = 0; k < 20; ++k) {
+        double a = share(numbers), b = share(numbers);
+        if (a + b > 1.0) a = 1.0 - a, b = 1.0 - b;
+        const mesh::Point place = at(0) + a * (at(1) - at(0)) + b * (at(2) - at(0));
+        const double here = pressure.nodes[static_cast<std::size_t>(corners[0])] -
+                            pressure.force(t).dot(place - at(0));
+        const double more = (is_lower ? 1.0 : -1.0) * (here - problem.pore_pressure->at(place));
+        EXPECT_GT(more, -1.0) << "Pa, of 60 kPa, at " << place.transpose();
+        most = std::max(most, more);
+      }
+    }
+    EXPECT_GT(most, 100.0) << "it does bend";
+    for (const mesh::BoundaryEdge& edge : problem.mesh.boundary) {
+      if (found->associated.lower.boundaries[static_cast<std::size_t>(edge.boundary)].name !=
+          "surface")
+        continue;
+      for (const int node : {edge.first, edge.second}) {
+        EXPECT_NEAR(pressure.nodes[static_cast<std::size_t>(node)],
+                    problem.pore_pressure->at(nodes[static_cast<std::size_t>(node)]), 1e-6);
+      }
+    }
+  }
+}
+
+std::string complaint_of(const std::string& text) {
+  tables::Diagnosis diagnosis("scene");
+  std::optional<tables::Complaint> unreadable;
+  const auto scene = ground::read_ground_scene(text, {}, diagnosis, unreadable);
+  if (scene) static_cast<void>(ground::ground_case(*scene, diagnosis));
+  return diagnosis.errors().empty() ? "" : diagnosis.errors().front().text();
+}
+
+TEST(PorePressure, ThatIsNoneIsRefusedInWords) {
+  const auto complaint = [](const std::string& water) {
+    return complaint_of(footing(0.0, 20e3, "[water]\n" + water + "\n"));
+  };
+  const std::string points =
+      "pore_pressure = { points = [[0, 0, 0], [5, 0, 0], [0, -2, 2e4], [5, -2, 2e4]] }\n";
+  EXPECT_THAT(complaint(points), IsEmpty());
+  EXPECT_THAT(complaint(points + "table = [[0, 0], [5, 0]]"),
+              HasSubstr("water.pore_pressure: found beside a table; the pressure is what one"));
+  EXPECT_THAT(complaint(points + "r_u = 0.2"),
+              HasSubstr("water.pore_pressure: found beside r_u; the pressure is what one"));
+  EXPECT_THAT(complaint("pore_pressure = { points = [[0, 0, 0], [5, 0, 0], [0, -2, 2e4]] }"),
+              HasSubstr("told of nothing at (5, -2), a corner of the ground"));
+  EXPECT_THAT(complaint("pore_pressure = -2e3"), HasSubstr("found nothing above zero, but -2000"));
+  std::string saturated = footing(2e3, 17e3, "[water]\n" + points);
+  saturated.insert(saturated.find("unit_weight = 17000"), "saturated_unit_weight = 20e3\n");
+  EXPECT_THAT(complaint_of(saturated),
+              HasSubstr("material.0.saturated_unit_weight: given with a pressure that is told by "
+                        "points or a raster; there it is not known along a line where ground is "
+                        "saturated"));
+}
+
+// Sand boils where the gradient is more than gamma' / gamma_w, whoever tells it.
+TEST(PorePressure, ThatLiftsSandIsRefusedInWords) {
+  const auto complaint = [](double gradient, bool by_points) {
+    const double bottom = 2.0 * 10e3 * (1.0 + gradient);
+    return complaint_of(footing(
+        0.0, 20e3,
+        by_points ? fmt::format("[water]\npore_pressure = {{ points = [[0, 0, 0], [5, 0, 0], [0, "
+                                "-2, {0}], [5, -2, {0}]] }}\n",
+                                bottom)
+                  : fmt::format("[water]\npore_pressure = {{ below = 0, table = [[0, 0], [2, {}]] "
+                                "}}\n",
+                                bottom)));
+  };
+  for (const bool by_points : {false, true}) {
+    EXPECT_THAT(complaint(0.99, by_points), IsEmpty());
+    EXPECT_THAT(
+        complaint(1.01, by_points),
+        HasSubstr("water.pore_pressure: water lifts soil, which has no cohesion, off the "
+                  "side \"surface\" at (3, 0), with 20100 N/m3 and no more than 20000 on it; "
+                  "such ground boils"));
+  }
+}
+
+}  // namespace
