@@ -129,9 +129,12 @@ Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
     const scene::Material& other =
         faces.second.empty() ? one : material_of(scene, model, faces.second[k]);
     const fpm::Index beyond = faces.second.empty() ? faces.first[k] : faces.second[k];
-    const double softer =
-        std::min(model.youngs_modulus_of(faces.first[k]), model.youngs_modulus_of(beyond));
     const bool yields = scene::yields(one) || scene::yields(other);
+    const auto modulus = [&](fpm::Index a, const scene::Material& material) {
+      return model.youngs_modulus_of(a) *
+             (yields ? 1.0 : scene::modulus_ratio_of_springs(material));
+    };
+    const double softer = std::min(modulus(faces.first[k], one), modulus(beyond, other));
     const double spacing = std::min(model.spacing_at(faces.first[k]), model.spacing_at(beyond));
     interface.stiffness[c] = scene::resolve_stiffness_factor(contact, yields) * softer / spacing;
     interface.initial_traction.row(c) = initial_traction(scene, model, faces, k).transpose();

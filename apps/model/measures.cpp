@@ -11,6 +11,8 @@
 #include "model/penalty_targets.hpp"
 #include "model/selection.hpp"
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
+#include "scene/ground.hpp"
 #include "scene/scene.hpp"
 #include "scene/stages.hpp"
 
@@ -52,6 +54,7 @@ Measures<Dim>::Measures(const scene::Scene& scene, const Model<Dim>& model)
   if (reduces_strength_) columns_.emplace_back("strength_reduction");
   if (scene::has_stage_drives(scene)) name_drives(scene);
   name_rotations(scene);
+  if (!scene.region.empty() && !scene::is_solid(scene)) outline_ = scene::outline_of(scene);
   for (const scene::Measure& asked : scene::resolve_measures(scene)) {
     Measure& measure = measures_.emplace_back();
     measure.kind = asked.kind;
@@ -139,6 +142,32 @@ fpm::ParticleSet<Dim> by_material(const Model<Dim>& model) {
 
 }  // namespace
 
+// The material of a stress at a point is that of the region the point is in, which may be another
+// one than the nearest particle's. On a joint, chords of an arc included, it is the latter.
+template <int Dim>
+Eigen::Index particle_of_stress(const scene::Scene& scene, const shape::Outline& outline,
+                                const std::vector<double>& at, const Model<Dim>& model) {
+  constexpr double on_joint = 0.01;  // of the spacing
+  const Eigen::Index nearest = nearest_particle(scene, at, model);
+  const double spacing = model.spacing_at(nearest);
+  const auto here = scene::materials_of_regions_at(scene, outline, at, on_joint * spacing);
+  const auto is_here = [&](Eigen::Index a) {
+    const auto material = model.material[static_cast<std::size_t>(a)];
+    return std::ranges::count(here, static_cast<std::size_t>(material)) > 0;
+  };
+  if (here.empty() || is_here(nearest)) return nearest;
+  const Eigen::Map<const Eigen::Matrix<double, 1, Dim>> place(at.data());
+  Eigen::Index best = nearest;
+  double least = 2.0 * spacing;  // further off it has been dug away, or given to its neighbours
+  for (Eigen::Index a = 0; a < model.size(); ++a) {
+    const double distance = (model.particles.position.row(a) - place).norm();
+    if (distance >= least || !is_here(a)) continue;
+    least = distance;
+    best = a;
+  }
+  return best;
+}
+
 template <int Dim>
 void Measures<Dim>::locate(const scene::Scene& scene, const scene::Measure& asked,
                            Measure& measure) const {
@@ -147,16 +176,25 @@ void Measures<Dim>::locate(const scene::Scene& scene, const scene::Measure& aske
     return;
   }
   const fpm::Field<Dim> point = Eigen::Map<const Eigen::Matrix<double, 1, Dim>>(asked.at.data());
-  const bool of_stress = asked.kind == scene::MeasureKind::stress;
-  // On a boundary of materials it is the one of the particle that is named for the point.
-  std::vector<fpm::Index> own;
-  if (of_stress) own.push_back(static_cast<fpm::Index>(measure.particle));
+  if (asked.kind == scene::MeasureKind::displacement) {
+    measure.point =
+        fpm::PointOperator<Dim>(model_.particles, model_.ghosts, point, model_.row_options);
+    return;
+  }
+  if (outline_) measure.particle = particle_of_stress(scene, *outline_, asked.at, model_);
+  const auto particles = by_material(model_);
+  const std::vector<fpm::Index> own{static_cast<fpm::Index>(measure.particle)};
   try {
-    measure.point = fpm::PointOperator<Dim>(of_stress ? by_material(model_) : model_.particles,
-                                            model_.ghosts, point, model_.row_options, own);
+    measure.point =
+        fpm::PointOperator<Dim>(particles, model_.ghosts, point, model_.row_options, own);
+    const auto material = model_.material[static_cast<std::size_t>(measure.particle)];
+    if (scene::is_nearly_incompressible(scene.material[static_cast<std::size_t>(material)])) {
+      fpm::RowOptions wide = model_.row_options;
+      wide.support_radius *= 2.0;  // as of recovered_mean_stress
+      measure.mean = fpm::PointOperator<Dim>(particles, model_.ghosts, point, wide, own);
+    }
   } catch (const fpm::PoorNeighbourhood&) {
     // Where they are too few for a gradient the stress is that of the particle.
-    if (!of_stress) throw;
     measure.kind = scene::MeasureKind::particle_stress;
   }
 }
@@ -306,6 +344,11 @@ constitutive::StressVector<Dim> Measures<Dim>::stress(const Measure& measure,
     }
     sum += weight * seen;
   });
+  if (measure.mean) {
+    const Eigen::VectorXd mean = state.stress.template topRows<3>().colwise().mean().transpose();
+    sum.template head<3>().array() +=
+        measure.mean->scalar_value(0, mean) - sum.template head<3>().mean();
+  }
   return sum;
 }
 

@@ -12,6 +12,7 @@
 #include "scene/choices.hpp"
 #include "scene/drives.hpp"
 #include "scene/scene.hpp"
+#include "shape/outline.hpp"
 
 namespace scene {
 struct Measure;
@@ -45,7 +46,9 @@ class Measures {
   };
   struct Measure {
     scene::MeasureKind kind;
-    fpm::PointOperator<Dim> point;           // of a displacement or stress
+    fpm::PointOperator<Dim> point;  // of a displacement or stress
+    // Of a stress's mean, from further around, where the particles' own alternates.
+    std::optional<fpm::PointOperator<Dim>> mean;
     Eigen::Index particle = 0;               // of a particle's stress or plastic strain
     typename Holders<Dim>::Shares unknowns;  // of a reaction or resultant
     std::vector<std::size_t> penalties;      // the model's, of a reaction or resultant
@@ -75,6 +78,7 @@ class Measures {
     double scale;  // [m] of a displacement, else 1
   };
 
+  std::optional<shape::Outline> outline_;  // of plane regions and prisms
   scene::Course course_;
   bool has_stages_ = false, reduces_strength_ = false;
   std::vector<Place> drives_;  // of a run with several

@@ -25,6 +25,7 @@
 #include "run/recorder.hpp"
 #include "run/report.hpp"
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
 #include "scene/stages.hpp"
@@ -362,9 +363,11 @@ program::ExitCode run_programme(const RunRequest& request, std::ostream& out, st
         << '\n';
     return program::ExitCode::input_refused;
   } catch (const fpm::PoorNeighbourhood& failure) {
-    err << "error: " << failure.what()
-        << ": the particles there are too few or lie too unevenly; of a mesh, refine it there or "
-           "let its elements grow more slowly\n";
+    err << "error: " << failure.what() << ": the particles there are too few or lie too unevenly; "
+        << (scene::has_elements(*begun.scene)
+                ? "refine the mesh there, or let its elements grow more slowly\n"
+                : "of a corner sharper than some 35 degrees, cut the tip off by an edge of two "
+                  "spacings; of a thin part, make geometry.spacing smaller\n");
     return program::ExitCode::input_refused;
   } catch (const stepping::DoesNotSettle& failure) {
     err << "error: " << failure.what() << '\n';

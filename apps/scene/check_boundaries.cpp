@@ -141,6 +141,15 @@ bool is_held(const Scene& scene, Axis axis) {
          (i < scene.drive.direction.size() && scene.drive.direction[i] != 0.0);
 }
 
+/// Whether a side that lies along an axis is held by contact that bears shear.
+bool rubs(const Scene& scene, int axis) {
+  return std::ranges::any_of(scene.support, [&](const Support& support) {
+    return support.method == SupportMethod::contact && support.side &&
+           axis_of(*support.side) != axis &&
+           (support.contact.friction_angle > 0.0 || support.contact.adhesion > 0.0);
+  });
+}
+
 }  // namespace
 
 bool check_side(Side side, const std::string& key, const Scene& scene,
@@ -213,6 +222,14 @@ void check_boundaries(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (!diagnosis.good({"geometry.dimension", "support", "symmetry", "drive"})) return;
   for (int i = 0; i < scene.geometry.dimension; ++i) {
     if (is_held(scene, static_cast<Axis>(i))) continue;
+    if (rubs(scene, i)) {
+      diagnosis.warning(
+          "support",
+          fmt::format("only friction holds the body along {}", name_of(static_cast<Axis>(i))),
+          "where it slides, the forces along it are right to solver.tolerance of the largest there "
+          "are: take 1e-5 for pushes far below the weight");
+      continue;
+    }
     diagnosis.warning("support",
                       fmt::format("nothing holds the body along {}", name_of(static_cast<Axis>(i))),
                       "without a support, a symmetry or a fixed drive it moves freely");

@@ -114,6 +114,24 @@ void check_images(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
 }
 
+/// Particles next to a mirror would stay where they are, half a spacing within.
+void check_supports_on_mirrors(const Scene& scene, tables::Diagnosis& diagnosis) {
+  if (!diagnosis.good({"symmetry"})) return;
+  for (std::size_t i = 0; i < scene.support.size(); ++i) {
+    const Support& support = scene.support[i];
+    const std::string table = fmt::format("support.{}", i);
+    if (!support.side || support.method != SupportMethod::automatic) continue;
+    if (!diagnosis.good({table + ".side", table + ".method", table + ".directions"})) continue;
+    const auto across = static_cast<Axis>(axis_of(*support.side));
+    if (!is_mirror(scene, *support.side)) continue;
+    if (std::ranges::count(support.directions, across) == 0) continue;
+    diagnosis.error(table + ".directions",
+                    fmt::format("found {}, which is across a mirror", name_of(across)),
+                    "the mirror holds its side across: leave the direction out, or name the "
+                    "method direct");
+  }
+}
+
 void check_images_of_drive(const Scene& scene, tables::Diagnosis& diagnosis) {
   const Drive& drive = scene.drive;
   if (drive.kind != DriveKind::displacement || drive.method != DriveMethod::ghosts) return;
@@ -144,6 +162,7 @@ void check_places(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (scene.stage.empty()) check_drive_in_place(scene, diagnosis);
   check_mirrors(scene, diagnosis);
   check_images(scene, diagnosis);
+  check_supports_on_mirrors(scene, diagnosis);
 }
 
 void check_drive_in_place(const Scene& scene, tables::Diagnosis& diagnosis) {

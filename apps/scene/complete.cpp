@@ -9,6 +9,7 @@
 #include <string>
 
 #include "scene/box.hpp"
+#include "scene/check.hpp"
 #include "scene/complete_elements.hpp"
 #include "scene/derived.hpp"
 #include "scene/drives.hpp"
@@ -155,6 +156,7 @@ void check_regions(const Scene& scene, tables::Diagnosis& diagnosis) {
 }
 
 void check_sides(const Scene& scene, tables::Diagnosis& diagnosis) {
+  check_names(scene.side, "side", diagnosis);
   for (std::size_t i = 0; i < scene.side.size(); ++i) {
     const OutlineSide& side = scene.side[i];
     const auto key = [&](const char* name) { return fmt::format("side.{}.{}", i, name); };

@@ -103,11 +103,27 @@ HourglassControl resolve_control(const Scene& scene) {
   return has_sub_points ? HourglassControl::mixed : HourglassControl::incremental;
 }
 
+bool is_nearly_incompressible(const Material& material) {
+  constexpr double nearly = 0.45;
+  return material.poissons_ratio > nearly;
+}
+
+namespace {
+
+bool has_poissons_ratio_above(const Scene& scene, double limit) {
+  return std::ranges::any_of(
+      scene.material, [&](const Material& material) { return material.poissons_ratio > limit; });
+}
+
+}  // namespace
+
 double resolve_stiffness_ratio(const Scene& scene) {
   if (scene.hourglass.stiffness_ratio) return *scene.hourglass.stiffness_ratio;
   switch (resolve_control(scene)) {
     case HourglassControl::stiffness:
-      return 0.1;
+      // What the control bears comes back as a mean stress that alternates, the more the stiffer
+      // the volume is.
+      return scene.geometry.dimension == 2 && has_poissons_ratio_above(scene, 0.49) ? 0.03 : 0.1;
     case HourglassControl::incremental:
       // No plate keeps what collapses from going on, borne by the control.
       if (has_new_ground(scene) && std::ranges::none_of(scene.material, yields)) return 0.1;
@@ -232,12 +248,27 @@ bool is_cut(const Scene& scene) {
   return !scene.cutout.empty() || !scene.region.empty();
 }
 
-// Beyond this blocks and grid take ever more evaluations: sixty here, where 0.3 takes twenty.
-bool is_nearly_incompressible(const Scene& scene) {
-  constexpr double nearly = 0.49;
-  return std::ranges::any_of(
-      scene.material, [](const Material& material) { return material.poissons_ratio > nearly; });
+namespace {
+
+// Factors serve what blocks and grid do badly. Next to incompressibility these take ever more
+// evaluations: sixty at 0.49, where 0.3 takes twenty; what does not yield is solved to tighter
+// tolerances and has its factors once and for all. An elastic body of any shape has tips, sides
+// aslant and faces in contact, which take hundreds; its factors are small up to so many cells.
+bool wants_factors(const Scene& scene) {
+  if (scene.geometry.dimension != 2) return false;
+  const bool is_elastic = std::ranges::none_of(scene.material, yields);
+  if (has_poissons_ratio_above(scene, is_elastic ? 0.45 : 0.49)) return true;
+  if (!is_elastic || !is_cut(scene)) return false;
+  constexpr double most = 20'000.0;
+  const Geometry& geometry = scene.geometry;
+  double cells = 1.0;
+  for (std::size_t i = 0; i < std::min(geometry.min.size(), geometry.max.size()); ++i) {
+    cells *= (geometry.max[i] - geometry.min[i]) / geometry.spacing;
+  }
+  return cells > 0.0 && cells <= most;
 }
+
+}  // namespace
 
 SolverSettings resolve_solver(const Scene& scene) {
   const Solver& solver = scene.solver;
@@ -248,9 +279,8 @@ SolverSettings resolve_solver(const Scene& scene) {
       solver.method.value_or(paper ? SolverMethod::newton_krylov : SolverMethod::hybrid);
   settings.jacobian =
       solver.jacobian.value_or(paper ? JacobianKind::finite_difference : JacobianKind::analytic);
-  const PreconditionerKind usual = scene.geometry.dimension == 2 && is_nearly_incompressible(scene)
-                                       ? PreconditionerKind::factors
-                                       : PreconditionerKind::two_level;
+  const PreconditionerKind usual =
+      wants_factors(scene) ? PreconditionerKind::factors : PreconditionerKind::two_level;
   settings.preconditioner =
       solver.preconditioner.value_or(paper ? PreconditionerKind::none : usual);
   return settings;
@@ -350,6 +380,11 @@ Interface interface_between(const Scene& scene, std::size_t one, std::size_t oth
 
 double resolve_stiffness_factor(const Contact& contact, bool yields) {
   return contact.stiffness_factor.value_or(yields ? 10.0 : 100.0);
+}
+
+double modulus_ratio_of_springs(const Material& material) {
+  const double nu = material.poissons_ratio;
+  return is_nearly_incompressible(material) ? (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)) : 1.0;
 }
 
 bool is_associated(const Scene& scene) {

@@ -50,6 +50,10 @@ struct Support;
 /// pressure, incremental otherwise.
 [[nodiscard]] HourglassControl resolve_control(const Scene& scene);
 
+/// Whether a material gives way in its shape far more than in its volume (Poisson's ratio above
+/// 0.45): its mean stress alternates from particle to particle.
+[[nodiscard]] bool is_nearly_incompressible(const Material& material);
+
 /// Hourglass modulus ratio gamma in force: the scene's, else 0.1 for stiffness and incremental, the
 /// latter 0.001 under a load that grows, 0.01 for mixed, 0 for none and viscosity.
 [[nodiscard]] double resolve_stiffness_ratio(const Scene& scene);
@@ -122,6 +126,12 @@ struct SolverSettings {
 /// Stiffness of a face over the softer Young's modulus per spacing: the scene's, else 100 between
 /// elastic materials, whose gap is all the error there is, and 10 where one yields.
 [[nodiscard]] double resolve_stiffness_factor(const Contact& contact, bool yields);
+
+/// What the springs of a face between elastic materials count by, over Young's modulus: 1, and next
+/// to incompressibility the modulus of compression without strain across. A body that is held all
+/// around gives way by that, and springs of a hundred Young's moduli would be softer than all of
+/// it.
+[[nodiscard]] double modulus_ratio_of_springs(const Material& material);
 
 /// Whether every soil dilates by its friction angle.
 [[nodiscard]] bool is_associated(const Scene& scene);

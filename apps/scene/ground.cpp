@@ -57,24 +57,44 @@ std::size_t material_of(const Scene& scene, std::size_t region) {
                                   scene.material.begin());
 }
 
+namespace {
+
+// 0 within it.
+double distance_to(const std::vector<shape::Ring>& rings, const shape::Point& place) {
+  if (shape::is_inside(rings, place)) return 0.0;
+  double distance = std::numeric_limits<double>::infinity();
+  for (const shape::Ring& ring : rings) {
+    for (std::size_t k = 0; k < ring.size() && distance > 0.0; ++k) {
+      distance = std::min(distance, shape::distance(place, ring[k], ring[(k + 1) % ring.size()]));
+    }
+  }
+  return distance;
+}
+
+}  // namespace
+
 std::size_t material_of_region_at(const Scene& scene, const shape::Outline& outline,
                                   std::span<const double> place) {
   const shape::Point here(place[0], place[1]);
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t r = 0; r < outline.regions.size(); ++r) {
-    const std::vector<shape::Ring> rings = outline.rings(r);
-    double distance = shape::is_inside(rings, here) ? 0.0 : least;
-    for (const shape::Ring& ring : rings) {
-      for (std::size_t k = 0; k < ring.size() && distance > 0.0; ++k) {
-        distance = std::min(distance, shape::distance(here, ring[k], ring[(k + 1) % ring.size()]));
-      }
-    }
+    const double distance = distance_to(outline.rings(r), here);
     if (distance >= least) continue;
     least = distance;
     nearest = r;
   }
   return material_of(scene, nearest);
+}
+
+std::vector<std::size_t> materials_of_regions_at(const Scene& scene, const shape::Outline& outline,
+                                                 std::span<const double> place, double slack) {
+  std::vector<std::size_t> materials;
+  const shape::Point here(place[0], place[1]);
+  for (std::size_t r = 0; r < outline.regions.size(); ++r) {
+    if (distance_to(outline.rings(r), here) <= slack) materials.push_back(material_of(scene, r));
+  }
+  return materials;
 }
 
 std::vector<shape::Point> singular_corners(const Scene& scene) {

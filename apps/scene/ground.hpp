@@ -33,6 +33,12 @@ struct Scene;
 [[nodiscard]] std::size_t material_of_region_at(const Scene& scene, const shape::Outline& outline,
                                                 std::span<const double> place);
 
+/// Materials of the regions, of plane bodies and prisms, that a place is in or within `slack` of.
+[[nodiscard]] std::vector<std::size_t> materials_of_regions_at(const Scene& scene,
+                                                               const shape::Outline& outline,
+                                                               std::span<const double> place,
+                                                               double slack);
+
 /// Whether a support or a mirror holds a face of the box.
 [[nodiscard]] bool is_held(const Scene& scene, Side face);
 

@@ -389,13 +389,13 @@ SceneTable hourglass() {
                "else "
                "incremental.",
            .source = "viscosity: Chen, Huang & Lyamin 2020, Eq. 15-20"})
-      .key(
-          "stiffness_ratio", &Hourglass::stiffness_ratio,
-          {.need = tables::Need::optional,
-           .range = tables::between(0.0, 1.0),
-           .doc = "gamma: control stiffness over Young's modulus.",
-           .absent = "0.1 for stiffness and incremental, the latter 0.001 under a load that grows; "
-                     "0.01 for mixed"})
+      .key("stiffness_ratio", &Hourglass::stiffness_ratio,
+           {.need = tables::Need::optional,
+            .range = tables::between(0.0, 1.0),
+            .doc = "gamma: control stiffness over Young's modulus.",
+            .absent = "0.1 for stiffness and incremental, the former 0.03 in the plane where some "
+                      "poissons_ratio is above 0.49, the latter 0.001 under a load that grows; "
+                      "0.01 for mixed"})
       .key("modulus_factor", &Hourglass::modulus_factor,
            {.range = tables::positive(),
             .doc =

@@ -23,8 +23,9 @@ tables::TableBuilder<Root, Struct>& with_contact(tables::TableBuilder<Root, Stru
            {.need = tables::Need::optional,
             .range = tables::positive(),
             .doc = "tied and contact: stiffness of the face over the softer Young's modulus per "
-                   "spacing; the gap falls as its inverse, the number of evaluations grows with "
-                   "it.",
+                   "spacing, or, between elastic materials of a Poisson's ratio above 0.45, over "
+                   "the softer modulus of confined compression; the gap falls as its inverse, the "
+                   "number of evaluations grows with it.",
             .absent =
                 "100 between elastic materials, 10 where one yields, 1 below a plate that turns "
                 "or is loaded there"});

@@ -19,14 +19,14 @@ SceneTable measure() {
             .doc = "Unique; its columns begin with it, so letters, digits and _ only."})
       .key("kind", &Measure::kind,
            {.need = tables::Need::required,
-            .doc =
-                "displacement or stress at a point, interpolated linearly, or extrapolated up "
-                "to a face, by the particles of one material around it, or, if these are too few, "
-                "of the nearest; particle_stress or "
-                "plastic_strain of the particle nearest to a point; reaction, the force of a "
-                "support on the body; resultant, the force on the body at a side, of supports, "
-                "drive and tractions; "
-                "max_displacement, the length of the largest one."})
+            .doc = "displacement or stress at a point, interpolated linearly, or extrapolated up "
+                   "to a face, by the particles of one material around it, that of the region the "
+                   "point is in, or, if these are too few, of the nearest; the mean stress, where "
+                   "poissons_ratio is above 0.45, from twice as far around; particle_stress or "
+                   "plastic_strain of the particle nearest to a point; reaction, the force of a "
+                   "support on the body; resultant, the force on the body at a side, of supports, "
+                   "drive and tractions; "
+                   "max_displacement, the length of the largest one."})
       .key("at", &Measure::at,
            {.need = tables::Need::optional,
             .unit = "m",

@@ -77,7 +77,8 @@ SceneTable solver() {
                    "factors: Cholesky factors of the elastic stiffness of the particles, for the "
                    "plane or few particles.",
             .absent = "the preset's; factors in the plane where some poissons_ratio is above "
-                      "0.49"})
+                      "0.49, or 0.45 if all is elastic, and of an elastic body of [[region]]s or "
+                      "with [[cutout]]s whose box has at most 20 000 cells"})
       .key("coarse_spacing_over_spacing", &Solver::coarse_spacing_over_spacing,
            {.range = tables::between(1.0, 20.0),
             .doc = "two_level: spacing of the background grid."})

@@ -81,12 +81,44 @@ TEST(Solver, TakesFactorsNextToIncompressibilityInThePlane) {
   Scene scene;
   scene.geometry.dimension = 2;
   scene.material.resize(2);
-  scene.material[1].poissons_ratio = 0.49;
-  EXPECT_EQ(resolve_solver(scene).preconditioner, PreconditionerKind::two_level);
+  const auto taken = [&] { return resolve_solver(scene).preconditioner; };
+  scene.material[1].poissons_ratio = 0.45;
+  EXPECT_EQ(taken(), PreconditionerKind::two_level);
+  scene.material[1].poissons_ratio = 0.46;
+  EXPECT_EQ(taken(), PreconditionerKind::factors);
+  EXPECT_EQ(resolve_stiffness_ratio(scene), 0.1);
+  scene.material[0].model = "von_mises";
+  EXPECT_EQ(taken(), PreconditionerKind::two_level);
   scene.material[1].poissons_ratio = 0.4999;
-  EXPECT_EQ(resolve_solver(scene).preconditioner, PreconditionerKind::factors);
+  EXPECT_EQ(taken(), PreconditionerKind::factors);
+  scene.material[0].model = "elastic";
+  EXPECT_EQ(resolve_stiffness_ratio(scene), 0.03);
   scene.geometry.dimension = 3;
-  EXPECT_EQ(resolve_solver(scene).preconditioner, PreconditionerKind::two_level);
+  EXPECT_EQ(taken(), PreconditionerKind::two_level);
+  EXPECT_EQ(resolve_stiffness_ratio(scene), 0.1);
+}
+
+TEST(Solver, TakesFactorsOfElasticBodiesOfAnyShapeInTheirSize) {
+  Scene scene;
+  scene.geometry = {.dimension = 2, .min = {0.0, 0.0}, .max = {2.0, 1.0}, .spacing = 0.01};
+  scene.material.resize(1);
+  const auto taken = [&] { return resolve_solver(scene).preconditioner; };
+  EXPECT_EQ(taken(), PreconditionerKind::two_level);
+  scene.region.resize(1);
+  EXPECT_EQ(taken(), PreconditionerKind::factors);  // 20 000 cells
+  scene.geometry.spacing = 0.0099;
+  EXPECT_EQ(taken(), PreconditionerKind::two_level);
+  scene.geometry.spacing = 0.1;
+  scene.material[0].model = "von_mises";
+  EXPECT_EQ(taken(), PreconditionerKind::two_level);
+}
+
+TEST(Springs, CountByTheStiffnessOfTheVolumeNextToIncompressibility) {
+  Material material;
+  material.poissons_ratio = 0.45;
+  EXPECT_EQ(modulus_ratio_of_springs(material), 1.0);
+  material.poissons_ratio = 0.4999;  // 0.5001 / (1.4999 * 0.0002)
+  EXPECT_NEAR(modulus_ratio_of_springs(material), 1667.11, 0.01);
 }
 
 TEST(Lattice, CountsCellsOrVertices) {

@@ -286,6 +286,8 @@ TEST(GroundScene, ThatIsNoGroundIsRefused) {
       {replaced(good, "material = \"rock\"", "material = \"rocks\""),
        "s.toml:15:12: region.0.material: found \"rocks\"; materials are clay, rock; did you mean "
        "\"rock\"?"},
+      {replaced(good, "name = \"slope\"", "name = \"rigid\""),
+       "s.toml:29:8: side.2.name: found \"rigid\" again; names of sides are unique"},
       {replaced(good, "[1.2, 1], [0, 1]]", "[0, 1], [1.2, 1]]"),
        "s.toml:19:11: region.1.outline: the polygon crosses itself at (0.846192, 0.793612); an "
        "outline passes no place twice"},

@@ -88,6 +88,21 @@ TEST(SceneReader, WarnsOfABodyThatNothingHolds) {
                           "symmetry or a fixed drive it moves freely"));
 }
 
+// What slides is right to the tolerance of all forces, the weight's too: 15 % of a push of 3 % of
+// it.
+TEST(SceneReader, WarnsOfABodyThatFrictionAloneHolds) {
+  auto loose = support::sample_with(
+      "side = \"bottom\"\ndirections = [\"x\", \"y\"]\n",
+      "side = \"right\"\ndirections = [\"x\"]\nmethod = \"contact\"\nadhesion = 10.0\n");
+  loose.replace(loose.find("kind = \"displacement\""), std::string::npos, "kind = \"none\"\n");
+  const auto reading = parse_scene(loose, "s.toml");
+  ASSERT_TRUE(reading.scene) << texts(reading.errors).front();
+  EXPECT_THAT(texts(reading.warnings),
+              ElementsAre(::testing::HasSubstr(
+                  "only friction holds the body along y; where it slides, the forces along it are "
+                  "right to solver.tolerance of the largest there are")));
+}
+
 TEST(SceneReader, WarnsOfAStrengthWithoutEffect) {
   const auto reading = parse_scene(support::sample_with("\"drucker_prager\"", "\"von_mises\""),
                                    "s.toml", std::vector<std::string>{"initial_stress.K0=1.0"});

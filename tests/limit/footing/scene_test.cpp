@@ -176,7 +176,8 @@ TEST(SceneCase, RefusesWhatIsNoSuchFootingByFileLineAndKey) {
               AllOf(HasSubstr("--set material.0.cohesion=0: material.0.cohesion"),
                     HasSubstr("the soil bears nothing")));
   // All of them at once.
-  EXPECT_THAT(refusal({"symmetry.0.position=5.0", "drive.side=bottom", "support.0.side=top"}),
+  EXPECT_THAT(refusal({"symmetry.0.position=5.0", "support.1.method=direct", "drive.side=bottom",
+                       "support.0.side=top"}),
               AllOf(HasSubstr("the left side is no mirror"), HasSubstr("nothing is pressed")));
   EXPECT_EQ(refusal({}), "");
 }

@@ -53,6 +53,7 @@ TEST(GroundScene, RefusesWhatIsNoGroundByFileLineAndKey) {
   EXPECT_THAT(with("region.soft.outline=[[0, -2], [4, -2], [4, -1], [2, -1], [2.2, -1.5], "
                    "[1.8, -1.5], [1, -1], [0, -1]]"),
               HasSubstr("outline of a hole"));
+  EXPECT_THAT(with("side.surface.name=rigid"), HasSubstr("found \"rigid\" again"));
   EXPECT_THAT(with("side.surface.along=[[1, 0], [3, 0]]"),
               AllOf(HasSubstr("no [[side]] names"), HasSubstr("(4, 0) - (3, 0)")));
   EXPECT_THAT(with("side.surface.along=[[0.5, 0], [4, 0]]"), HasSubstr("is named by side"));
