@@ -140,7 +140,26 @@ fpm::ParticleSet<Dim> by_material(const Model<Dim>& model) {
   return particles;
 }
 
-}  // namespace
+// Those of the point's body that its rows lead to in two steps. What lies as near beyond a slot is
+// made another body's.
+template <int Dim>
+fpm::ParticleSet<Dim> within_reach(fpm::ParticleSet<Dim> particles,
+                                   const fpm::PointOperator<Dim>& point, fpm::Index own) {
+  std::vector<fpm::Index> near;
+  point.for_each_value(
+      0, [&](fpm::Index a, double /*weight*/, const auto& /*sign*/) { near.push_back(a); });
+  const fpm::Index body = particles.body[static_cast<std::size_t>(own)];
+  const fpm::Index beyond = *std::ranges::max_element(particles.body) + 1;
+  const double step = point.support_radius(0);
+  for (fpm::Index a = 0; a < particles.size(); ++a) {
+    auto& of = particles.body[static_cast<std::size_t>(a)];
+    const auto leads_here = [&](fpm::Index b) {
+      return (particles.position.row(a) - particles.position.row(b)).norm() <= step;
+    };
+    if (of == body && std::ranges::none_of(near, leads_here)) of = beyond;
+  }
+  return particles;
+}
 
 // The material of a stress at a point is that of the region the point is in, which may be another
 // one than the nearest particle's. On a joint, chords of an arc included, it is the latter.
@@ -168,6 +187,8 @@ Eigen::Index particle_of_stress(const scene::Scene& scene, const shape::Outline&
   return best;
 }
 
+}  // namespace
+
 template <int Dim>
 void Measures<Dim>::locate(const scene::Scene& scene, const scene::Measure& asked,
                            Measure& measure) const {
@@ -187,15 +208,20 @@ void Measures<Dim>::locate(const scene::Scene& scene, const scene::Measure& aske
   try {
     measure.point =
         fpm::PointOperator<Dim>(particles, model_.ghosts, point, model_.row_options, own);
-    const auto material = model_.material[static_cast<std::size_t>(measure.particle)];
-    if (scene::is_nearly_incompressible(scene.material[static_cast<std::size_t>(material)])) {
-      fpm::RowOptions wide = model_.row_options;
-      wide.support_radius *= 2.0;  // as of recovered_mean_stress
-      measure.mean = fpm::PointOperator<Dim>(particles, model_.ghosts, point, wide, own);
-    }
   } catch (const fpm::PoorNeighbourhood&) {
     // Where they are too few for a gradient the stress is that of the particle.
     measure.kind = scene::MeasureKind::particle_stress;
+    return;
+  }
+  const auto material = model_.material[static_cast<std::size_t>(measure.particle)];
+  if (!scene::is_nearly_incompressible(scene.material[static_cast<std::size_t>(material)])) return;
+  fpm::RowOptions wide = model_.row_options;
+  wide.support_radius *= 2.0;  // as of recovered_mean_stress
+  try {
+    measure.mean = fpm::PointOperator<Dim>(within_reach(particles, measure.point, own.front()),
+                                           model_.ghosts, point, wide, own);
+  } catch (const fpm::PoorNeighbourhood&) {
+    // The mean is that of the point's own rows, then.
   }
 }
 

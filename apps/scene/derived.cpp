@@ -9,6 +9,7 @@
 
 #include "constitutive/parameters.hpp"
 #include "scene/course.hpp"
+#include "scene/factors.hpp"
 #include "scene/ground.hpp"
 #include "scene/outline_faces.hpp"
 #include "scene/scene.hpp"
@@ -108,14 +109,13 @@ bool is_nearly_incompressible(const Material& material) {
   return material.poissons_ratio > nearly;
 }
 
-namespace {
-
-bool has_poissons_ratio_above(const Scene& scene, double limit) {
-  return std::ranges::any_of(
-      scene.material, [&](const Material& material) { return material.poissons_ratio > limit; });
+double largest_poissons_ratio(const Scene& scene) {
+  double largest = -1.0;
+  for (const Material& material : scene.material) {
+    largest = std::max(largest, material.poissons_ratio);
+  }
+  return largest;
 }
-
-}  // namespace
 
 double resolve_stiffness_ratio(const Scene& scene) {
   if (scene.hourglass.stiffness_ratio) return *scene.hourglass.stiffness_ratio;
@@ -123,7 +123,7 @@ double resolve_stiffness_ratio(const Scene& scene) {
     case HourglassControl::stiffness:
       // What the control bears comes back as a mean stress that alternates, the more the stiffer
       // the volume is.
-      return scene.geometry.dimension == 2 && has_poissons_ratio_above(scene, 0.49) ? 0.03 : 0.1;
+      return scene.geometry.dimension == 2 && largest_poissons_ratio(scene) > 0.49 ? 0.03 : 0.1;
     case HourglassControl::incremental:
       // No plate keeps what collapses from going on, borne by the control.
       if (has_new_ground(scene) && std::ranges::none_of(scene.material, yields)) return 0.1;
@@ -247,28 +247,6 @@ bool resolve_consistency(const Scene& scene) {
 bool is_cut(const Scene& scene) {
   return !scene.cutout.empty() || !scene.region.empty();
 }
-
-namespace {
-
-// Factors serve what blocks and grid do badly. Next to incompressibility these take ever more
-// evaluations: sixty at 0.49, where 0.3 takes twenty; what does not yield is solved to tighter
-// tolerances and has its factors once and for all. An elastic body of any shape has tips, sides
-// aslant and faces in contact, which take hundreds; its factors are small up to so many cells.
-bool wants_factors(const Scene& scene) {
-  if (scene.geometry.dimension != 2) return false;
-  const bool is_elastic = std::ranges::none_of(scene.material, yields);
-  if (has_poissons_ratio_above(scene, is_elastic ? 0.45 : 0.49)) return true;
-  if (!is_elastic || !is_cut(scene)) return false;
-  constexpr double most = 20'000.0;
-  const Geometry& geometry = scene.geometry;
-  double cells = 1.0;
-  for (std::size_t i = 0; i < std::min(geometry.min.size(), geometry.max.size()); ++i) {
-    cells *= (geometry.max[i] - geometry.min[i]) / geometry.spacing;
-  }
-  return cells > 0.0 && cells <= most;
-}
-
-}  // namespace
 
 SolverSettings resolve_solver(const Scene& scene) {
   const Solver& solver = scene.solver;

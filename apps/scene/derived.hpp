@@ -54,6 +54,9 @@ struct Support;
 /// 0.45): its mean stress alternates from particle to particle.
 [[nodiscard]] bool is_nearly_incompressible(const Material& material);
 
+/// Of all materials; -1 if there is none.
+[[nodiscard]] double largest_poissons_ratio(const Scene& scene);
+
 /// Hourglass modulus ratio gamma in force: the scene's, else 0.1 for stiffness and incremental, the
 /// latter 0.001 under a load that grows, 0.01 for mixed, 0 for none and viscosity.
 [[nodiscard]] double resolve_stiffness_ratio(const Scene& scene);

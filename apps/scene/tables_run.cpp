@@ -76,9 +76,10 @@ SceneTable solver() {
             .doc = "two_level: elastic blocks of the particles plus an elastic background grid. "
                    "factors: Cholesky factors of the elastic stiffness of the particles, for the "
                    "plane or few particles.",
-            .absent = "the preset's; factors in the plane where some poissons_ratio is above "
-                      "0.49, or 0.45 if all is elastic, and of an elastic body of [[region]]s or "
-                      "with [[cutout]]s whose box has at most 20 000 cells"})
+            .absent = "the preset's; in the plane factors where some poissons_ratio is above 0.49, "
+                      "of elastic bodies in a box of at most 5 000 cells above 0.45 or where a "
+                      "side aslant is held, and, of at most 20 000, where a [[region]] has a "
+                      "corner sharper than 40 degrees or a body that is no box is in contact"})
       .key("coarse_spacing_over_spacing", &Solver::coarse_spacing_over_spacing,
            {.range = tables::between(1.0, 20.0),
             .doc = "two_level: spacing of the background grid."})

@@ -98,14 +98,27 @@ TEST(Solver, TakesFactorsNextToIncompressibilityInThePlane) {
   EXPECT_EQ(resolve_stiffness_ratio(scene), 0.1);
 }
 
-TEST(Solver, TakesFactorsOfElasticBodiesOfAnyShapeInTheirSize) {
+TEST(Solver, TakesFactorsOfSmallElasticBodiesThatAreHard) {
   Scene scene;
-  scene.geometry = {.dimension = 2, .min = {0.0, 0.0}, .max = {2.0, 1.0}, .spacing = 0.01};
+  scene.geometry = {.dimension = 2, .min = {0.0, 0.0}, .max = {2.0, 1.0}, .spacing = 0.02};
   scene.material.resize(1);
   const auto taken = [&] { return resolve_solver(scene).preconditioner; };
   EXPECT_EQ(taken(), PreconditionerKind::two_level);
   scene.region.resize(1);
-  EXPECT_EQ(taken(), PreconditionerKind::factors);  // 20 000 cells
+  scene.region[0].outline = {{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {0.0, 1.0}};
+  EXPECT_EQ(taken(), PreconditionerKind::two_level);
+  // 5 000 cells, held aslant.
+  scene.side.resize(1);
+  scene.side[0].along = {{2.0, 0.0}, {2.0, 1.0}, {1.0, 0.5}};
+  EXPECT_EQ(taken(), PreconditionerKind::two_level);
+  scene.side[0].kind = OutlineKind::roller;
+  EXPECT_EQ(taken(), PreconditionerKind::factors);
+  scene.geometry.spacing = 0.0199;
+  EXPECT_EQ(taken(), PreconditionerKind::two_level);
+  // A corner of 27 degrees, 20 000 cells.
+  scene.region[0].outline = {{0.0, 0.0}, {2.0, 0.0}, {0.0, 1.0}};
+  scene.geometry.spacing = 0.01;
+  EXPECT_EQ(taken(), PreconditionerKind::factors);
   scene.geometry.spacing = 0.0099;
   EXPECT_EQ(taken(), PreconditionerKind::two_level);
   scene.geometry.spacing = 0.1;
