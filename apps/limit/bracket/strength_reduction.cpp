@@ -182,12 +182,14 @@ class Reduction {
     BracketOptions rest = options_;
     // What takes more than a good share of it ends nowhere, and another factor might, or, sooner,
     // the same one with steep soils at rest, unless such solves have ended well so far.
-    constexpr double share = 0.3, before_rest = 0.1, patience = 2.0, roughly = 0.02;
+    constexpr double share = 0.3, before_rest = 0.1, patience = 2.0, roughly = 0.05;
     const bool is_rough = rough_ && &flank == &*rough_;
     const double least = is_rough ? roughly : flank.may_rest(factor) ? before_rest : share;
     const double seconds = std::clamp(patience * flank.expected_seconds(),
                                       least * options_.max_seconds, share * options_.max_seconds);
     rest.max_seconds = std::min(remaining(), seconds);
+    constexpr int enough = 50;  // more than what ends well takes on few triangles
+    if (is_rough) rest.max_iterations = std::min(rest.max_iterations, enough);
     rest.solver_gap = solver_gap();
     flank.solve_at(factor, rest, watch_, result_.bracket.attempts);
     return gap() > options_.gap || !flank.factor();
