@@ -235,12 +235,13 @@ void add_long_meshes(const GroundScene& scene, const GroundOutline& outline, dou
 }
 
 // Twice as coarse as the upper bound's first mesh everywhere.
-mesh::Mesh rough_mesh(const GroundScene& scene, const GroundOutline& outline, double length) {
+mesh::Mesh rough_mesh(const GroundScene& scene, const GroundOutline& outline, double length,
+                      const problem::Problem& loads) {
   GroundFineness fineness = fineness_of(scene, outline, length, false);
   fineness.rays_per_radian /= 2.0;
   fineness.rings /= 2;
   fineness.longest *= 2.0;
-  return ground_mesh(scene, outline, fineness);
+  return mesh_of(scene, outline, fineness, loads);
 }
 
 problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
@@ -281,7 +282,7 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
     return result;
   }
   if (result.seeks_strength && scene.materials.size() > 1) {
-    result.rough_upper = rough_mesh(scene, outline, length);
+    result.rough_upper = rough_mesh(scene, outline, length, result.upper);
     add_long_meshes(scene, outline, length, result);
   }
   return result;
