@@ -69,7 +69,7 @@ problem::Problem loads_of(const GroundScene& scene, const std::optional<Base>& b
   const bool is_shaken = scene.load.sought != Sought::earthquake;
   problem.pull = {is_shaken ? scene.load.kh : 0.0, scene.load.kv - 1.0};
   problem.live_pull = is_shaken ? problem.pull : mesh::Point(scene.load.kh, 0.0);
-  problem.pore_pressure = pressure_in_triangles(scene);
+  problem.pore_pressure = scene.water.in_triangles;
   for (const GroundSide& side : scene.sides) problem.boundaries.push_back(boundary_of(scene, side));
   if (base) problem.footing = footing_of(scene, *base, diagnosis);
   if (scene.load.sought == Sought::strength) make_live(problem);
@@ -322,8 +322,8 @@ std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagn
   if (!diagnosis.errors().empty()) return std::nullopt;
   if (has_columns) outline = ground_outline(scene, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
-  if (const auto told = pressure_in_triangles(scene)) {
-    divide_at_kinks(scene, told->field(), outline);
+  if (scene.water.in_triangles) {
+    divide_at_kinks(scene, scene.water.in_triangles->field(), outline);
   }
   const std::optional<Base> base = find_base(scene, outline, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;

@@ -31,7 +31,7 @@ bool is_bare(const GroundSide& side) {
 // it along which a pressure that is told is linear.
 std::vector<mesh::Point> water_in_skins(const GroundScene& scene, const problem::Soil& soil,
                                         const mesh::Point& first, const mesh::Point& second) {
-  const auto told = pressure_in_triangles(scene);
+  const auto& told = scene.water.in_triangles;
   if (!told) return {soil.seepage + soil.live_seepage};
   constexpr double thin = 1e-6, rounding = 1e-3;
   const mesh::Point way = second - first, inwards = thin * mesh::Point(-way.y(), way.x());
