@@ -270,4 +270,38 @@ TEST(PorePressure, ThatLiftsSandIsRefusedInWords) {
   }
 }
 
+// Where the weight grows with depth it is that of the face which counts: 20 kN/m3 at the surface,
+// whatever the middle of the ground has.
+TEST(PorePressure, ThatLiftsSandIsHeldAgainstTheWeightOfTheFace) {
+  const auto complaint = [](double bottom) {
+    std::string text =
+        footing(0.0, 20e3,
+                fmt::format("[water]\npore_pressure = {{ points = [[0, 0, 0], [5, 0, 0], [0, -2, "
+                            "{0}], [5, -2, {0}]] }}\n",
+                            bottom));
+    const std::string even = "unit_weight = 20000";
+    text.replace(text.find(even), even.size(),
+                 "unit_weight = { at = [0, -2], value = 24e3, gradient = [0, -2e3] }");
+    return complaint_of(text);
+  };
+  EXPECT_THAT(complaint(39.8e3), IsEmpty());
+  EXPECT_THAT(complaint(42e3), HasSubstr("with 21000 N/m3 and no more than 20000 on it"));
+}
+
+// A skin of sand that grows lighter up the face, 20 kN/m3 at its foot, 17 at its head, slides first
+// where seepage along the face, of 10 kN/m3 by depth, has the least weight against it.
+TEST(PorePressure, LetsASkinSlideWhereItIsLightest) {
+  std::string text = slope(0.0, points_in_slope([](double d) { return 10e3 * d; }));
+  const std::string even = "unit_weight = 20e3";
+  text.replace(text.find(even), even.size(),
+               "unit_weight = { at = [0, 0], value = 20e3, gradient = [0, -0.3e3] }");
+  const auto found = case_of(text);
+  ASSERT_TRUE(found && found->associated.known_upper);
+  const double cosine = std::cos(20.0 * degree);
+  EXPECT_NEAR(
+      *found->associated.known_upper,
+      std::tan(35.0 * degree) / std::tan(20.0 * degree) * (1.0 - 10.0 / 17.0 / (cosine * cosine)),
+      1e-9);
+}
+
 }  // namespace
