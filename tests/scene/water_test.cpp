@@ -54,6 +54,20 @@ std::vector<std::string> texts(const std::vector<tables::Complaint>& complaints)
   return all;
 }
 
+TEST(PoreWater, ThatGrowsUpwardsOrHasAWeightOfNoEffectIsWarnedOf) {
+  const std::string told = "[water]\npore_pressure = { at = [0, -2], value = 0, gradient = [0, ";
+  const auto slipped = read(box + told + "10e3] }\nunit_weight = 10e3\n");
+  ASSERT_TRUE(slipped.scene) << texts(slipped.errors)[0];
+  EXPECT_THAT(
+      texts(slipped.warnings),
+      ElementsAre(HasSubstr("water.unit_weight: found 10000 beside pore_pressure; it has no "
+                            "effect"),
+                  HasSubstr("water.pore_pressure: found a pressure that grows upwards "
+                            "wherever there is any")));
+  const std::string right = "[water]\npore_pressure = { at = [0, 0], value = 0, gradient = [0, ";
+  EXPECT_THAT(texts(read(box + right + "-10e3] }\n").warnings), IsEmpty());
+}
+
 TEST(PoreWater, IsHydrostaticBelowItsTable) {
   // It falls by 1 m over the left half and goes on level.
   const auto reading = read(box + table("[[0, 0], [2, -1], [4, -1]]"));

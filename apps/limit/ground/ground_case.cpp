@@ -11,6 +11,7 @@
 #include "limit/ground/ground_columns.hpp"
 #include "limit/ground/ground_cut.hpp"
 #include "limit/ground/ground_footing.hpp"
+#include "limit/ground/ground_lift.hpp"
 #include "limit/ground/ground_mesh.hpp"
 #include "limit/ground/ground_outline.hpp"
 #include "limit/ground/ground_pressure.hpp"
@@ -266,6 +267,7 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
   if (result.seeks_strength) {
     say_skins(scene, outline, result.lower, result);
   }
+  say_pressure(scene, outline, result);
   try {
     result.lower.mesh =
         mesh_of(scene, outline, fineness_of(scene, outline, length, true), result.lower);

@@ -18,6 +18,8 @@
 namespace {
 
 using namespace limit;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -302,6 +304,78 @@ TEST(PorePressure, LetsASkinSlideWhereItIsLightest) {
       *found->associated.known_upper,
       std::tan(35.0 * degree) / std::tan(20.0 * degree) * (1.0 - 10.0 / 17.0 / (cosine * cosine)),
       1e-9);
+}
+
+std::string warnings_of(const std::string& text) {
+  tables::Diagnosis diagnosis("scene");
+  std::optional<tables::Complaint> unreadable;
+  const auto scene = ground::read_ground_scene(text, {}, diagnosis, unreadable);
+  if (scene) static_cast<void>(ground::ground_case(*scene, diagnosis));
+  EXPECT_TRUE(diagnosis.errors().empty());
+  std::string said;
+  for (const tables::Complaint& one : diagnosis.warnings()) said += one.text() + '\n';
+  return said;
+}
+
+// With the sign of a gradient the wrong way around, the surface is under the most water.
+TEST(PorePressure, ThatGrowsUpwardsIsWarnedOf) {
+  const auto told = [](const std::string& water) {
+    return footing(
+        2e3, 20e3,
+        "[water]\npore_pressure = { at = [0, -2], value = 0, gradient = [0, " + water + "] }\n");
+  };
+  EXPECT_THAT(
+      warnings_of(told("10e3")),
+      HasSubstr("water.pore_pressure: found a pressure that grows upwards wherever there is "
+                "any; at rest water presses the more, the deeper it is"));
+  std::string right = told("-10e3");
+  right.replace(right.find("[0, -2], value = 0"), 18, "[0, -2], value = 9e3");
+  EXPECT_THAT(warnings_of(right), IsEmpty());
+  right.insert(right.find("pore_pressure"), "unit_weight = 10e3\n");
+  EXPECT_THAT(warnings_of(right), HasSubstr("water.unit_weight: found 10000 beside pore_pressure; "
+                                            "it has no effect"));
+}
+
+// What is told on a free face is water that stands there: 19.62 kPa are 2 m of it.
+TEST(PorePressure, OnAFreeFaceIsSaidToStandThere) {
+  const auto notes = [](double value) {
+    const auto found =
+        case_of(footing(2e3, 20e3,
+                        fmt::format("[water]\npore_pressure = {{ at = [0, 0], value = {}, gradient "
+                                    "= [1e3, -10e3] }}\n",
+                                    value)));
+    EXPECT_TRUE(found);
+    return found ? found->associated.notes : std::vector<std::string>{};
+  };
+  EXPECT_THAT(notes(14.62e3),
+              ElementsAre("water stands on the side \"surface\", as told: with up to 19620 Pa, at "
+                          "(5, 0), 2 m deep"));
+  EXPECT_THAT(notes(-6e3), IsEmpty());
+}
+
+// Artesian water of 30 kPa below 1 m of sand of 20 kN/m3 lifts it with 10 kPa, 6 kPa of them left
+// below 4 kPa of pressure or under water that stands on it with 4; where no bound is found, that is
+// the reason. Of ground that is heavy enough nothing is said.
+TEST(PorePressure, AboveTheWeightOnItIsTheReasonForNoBounds) {
+  const auto reasons = [](double surface, double artesian, double pressure) {
+    std::string text = footing(0.0, 20e3,
+                               fmt::format("[water]\npore_pressure = {{ along = \"y\", table = "
+                                           "[[-2, {1}], [-1, {0}], [-0.5, {2}], [0, {3}]] }}\n",
+                                           artesian, artesian + 10e3, surface + 5e3, surface));
+    text.replace(text.find("kind = \"free\""), 13,
+                 fmt::format("kind = \"loaded\"\npressure = {}", pressure));
+    const auto found = case_of(text);
+    EXPECT_TRUE(found);
+    return found ? found->associated.reasons : std::vector<std::string>{};
+  };
+  const auto lifted = [](const char* by) {
+    return ElementsAre(AllOf(HasSubstr(", -1) is " + std::string(by) + " Pa above what all that"),
+                             HasSubstr("it lifts ground that little else holds down")));
+  };
+  EXPECT_THAT(reasons(0.0, 30e3, 0.0), lifted("9999.99"));
+  EXPECT_THAT(reasons(0.0, 30e3, 4e3), lifted("5999.99"));
+  EXPECT_THAT(reasons(4e3, 30e3, 0.0), lifted("5999.99"));
+  EXPECT_THAT(reasons(0.0, 19.9e3, 0.0), IsEmpty());
 }
 
 }  // namespace
