@@ -153,7 +153,7 @@ TEST(PoreWater, IsAShareOfTheOverburden) {
 }
 
 std::string told(const std::string& pressure) {
-  return "[water]\nunit_weight = 10e3\npore_pressure = " + pressure + "\n";
+  return "[water]\npore_pressure = " + pressure + "\n";
 }
 
 // A pressure that is that below a table does to cells what the table does.
@@ -199,7 +199,7 @@ TEST(PoreWater, ThatIsToldAndIsNoneIsRefusedInWords) {
   };
   const std::string artesian = told("{ at = [0, 0], value = 0, gradient = [0, -14e3] }");
   EXPECT_THAT(errors(box + artesian + "table = [[0, 0], [4, 0]]\n"),
-              ElementsAre("s.toml:22:17: water.pore_pressure: found beside a table; the pressure "
+              ElementsAre("s.toml:21:17: water.pore_pressure: found beside a table; the pressure "
                           "is what one of them says: leave the other out"));
   EXPECT_THAT(errors(slope + artesian, {"water.r_u=0.2"}),
               ElementsAre(HasSubstr("water.pore_pressure: found beside r_u; the pressure is")));
