@@ -19,6 +19,13 @@ namespace {
 
 constexpr double rounding = 1e-3;  // of the largest pressure: of points written with few digits
 
+// [Pa] What differences are held against: of what is linear, the largest is known of places alone.
+double largest_of(const GroundOutline& outline, const shape::PressureField& field) {
+  double largest = field.largest();
+  for (const mesh::Point& place : outline.points) largest = std::max(largest, field.at(place));
+  return largest;
+}
+
 // A water's unit weight in a scene's units, where those are known.
 std::optional<double> weight_of_water(const problem::UnitNames& units) {
   if (units.length != "m") return std::nullopt;
@@ -29,7 +36,7 @@ std::optional<double> weight_of_water(const problem::UnitNames& units) {
 
 void say_standing(const GroundScene& scene, const GroundOutline& outline,
                   const shape::PressureField& field, problem::Case& result) {
-  double most = rounding * field.largest();
+  double most = rounding * largest_of(outline, field);
   std::string words;
   for (const GroundSegment& segment : outline.segments) {
     if (segment.right >= 0) continue;
@@ -65,7 +72,7 @@ class Lift {
       for (const auto& hole : region.holes) heavy_.push_back({hole, -weight});
     }
     for (const GroundSide& side : scene.sides) pressed_ = std::max(pressed_, side.pressure);
-    most_ = rounding * field.largest();
+    most_ = rounding * largest_of(outline, field);
   }
 
   void look_at(const mesh::Point& place, double pressure) {
