@@ -212,6 +212,11 @@ void say_solver(std::string& text, const bracket::Bracket& bracket) {
   if (bracket.upper) say("upper", bracket.upper->attempt);
 }
 
+std::vector<std::string> reasons_of(const problem::Case& problem, const Answer& answer) {
+  const bool is_any = answer.found.lower || answer.found.upper;
+  return is_any ? std::vector<std::string>{} : problem.reasons;
+}
+
 }  // namespace
 
 std::string attempt_line(const problem::Case& problem, const bracket::Attempt& attempt) {
@@ -239,6 +244,9 @@ std::string text_report(const problem::Case& problem, const Answer& answer,
   text += '\n' + heading + ":\n";
   say_bounds(text, answer.found, unit);
   for (const std::string& note : problem.notes) fmt::format_to(out, "  {}\n", note);
+  for (const std::string& reason : reasons_of(problem, answer)) {
+    fmt::format_to(out, "  {}\n", reason);
+  }
   if (answer.found.lower && answer.found.upper && !bracket.reached) {
     fmt::format_to(out,
                    "  wider than the gap asked for, {:g} %: allow more by --max-triangles ({}) or "
@@ -284,6 +292,8 @@ std::string json_report(const problem::Case& problem, const Answer& answer,
   for (const auto& [what, value] : problem.data) json["data"][what] = value;
   json["assumptions"] = problem.assumptions;
   if (!problem.notes.empty()) json["notes"] = problem.notes;
+  const std::vector<std::string> reasons = reasons_of(problem, answer);
+  if (!reasons.empty()) json["reasons"] = reasons;
   for (const problem::HandFormula& formula : problem.hand) {
     json["hand_formulas_" + problem.names.stress][formula.name] = formula.pressure;
   }

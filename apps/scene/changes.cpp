@@ -34,6 +34,17 @@ bool is_measure(const SceneTable& table, std::string_view key, const Scene& befo
   return table.name == "stage" && key == "drive.target" && goes_to(before) && goes_to(after);
 }
 
+// Of a long text what is around the place from which on it differs from another.
+std::string around_change(const std::string& text, const std::string& other) {
+  constexpr std::size_t longest = 200, before = 40, shown = 100;
+  if (text.size() <= longest) return text;
+  const auto differs =
+      static_cast<std::size_t>(std::ranges::mismatch(text, other).in1 - text.begin());
+  const std::size_t from = std::min(differs - std::min(differs, before), text.size() - shown);
+  return fmt::format("{}{}{} ({} characters)", from > 0 ? "... " : "", text.substr(from, shown),
+                     from + shown < text.size() ? " ..." : "", text.size());
+}
+
 }  // namespace
 
 std::string SceneChange::text() const {
@@ -72,6 +83,9 @@ std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after, 
         SceneChange change{table.path(i, field.key), text_at(table, field, before, i),
                            text_at(table, field, after, i), false};
         if (change.before == change.after) continue;
+        const std::string former = change.before;
+        change.before = around_change(former, change.after);
+        change.after = around_change(change.after, former);
         change.allowed = may_change_on_resume(change.key) || (table.name == "stage" && i > stage) ||
                          is_measure(table, field.key, before, after, i);
         changes.push_back(std::move(change));

@@ -11,7 +11,7 @@ struct Scene;
 /// A key whose value differs between two scenes.
 struct SceneChange {
   std::string key;     // dotted, as --set takes it
-  std::string before;  // as TOML, or `absent`
+  std::string before;  // as TOML, or `absent`; if that is long, of it where it changes
   std::string after;
   bool allowed = false;  // see may_change_on_resume
 

@@ -99,6 +99,12 @@ void check_told(const Scene& scene, const tables::VaryingNumber& told,
                 tables::Diagnosis& diagnosis) {
   if (!box_is_good(scene, diagnosis)) return;
   const std::string key = "water.pore_pressure";
+  // A scene that was printed has the default.
+  if (scene.water.unit_weight != Water{}.unit_weight) {
+    diagnosis.warning("water.unit_weight",
+                      fmt::format("found {} beside pore_pressure", scene.water.unit_weight),
+                      "it has no effect: that is of a table's water");
+  }
   const shape::Ring corners = corners_of_ground(scene);
   const bool is_good = shape::is_pressure_of(told, corners, key, diagnosis);
   if (is_good && scene.initial_stress.kind == InitialStressKind::geostatic && !is_level(told) &&

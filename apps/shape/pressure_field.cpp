@@ -334,6 +334,31 @@ std::vector<PressureField::Piece> PressureField::within(const Ring& polygon) con
   return pieces;
 }
 
+namespace {
+
+// Water whose pressure is less the deeper it is nowhere is: a sign has slipped.
+void warn_of_rise(const PressureField& field, const Ring& corners, const std::string& key,
+                  tables::Diagnosis& diagnosis) {
+  Point low = corners.front(), high = low;
+  for (const Point& corner : corners) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  constexpr double rounding = 1e-9;
+  const double slack = rounding * field.largest() / (high - low).norm();
+  bool rises = false;
+  for (const auto& piece : field.within({low, {high.x(), low.y()}, high, {low.x(), high.y()}})) {
+    if (piece.gradient.y() < -slack) return;
+    rises = rises || piece.gradient.y() > slack;
+  }
+  if (!rises) return;
+  diagnosis.warning(key, "found a pressure that grows upwards wherever there is any",
+                    "at rest water presses the more, the deeper it is, by some -10 kN/m3 along y, "
+                    "which points upwards: has a sign slipped?");
+}
+
+}  // namespace
+
 bool is_pressure_of(const tables::VaryingNumber& told, const Ring& corners, const std::string& key,
                     tables::Diagnosis& diagnosis) {
   const bool is_raster = told.samples && told.samples->kind == Kind::raster;
@@ -361,7 +386,10 @@ bool is_pressure_of(const tables::VaryingNumber& told, const Ring& corners, cons
   std::vector<std::array<double, 2>> places;
   for (const Point& corner : corners) places.push_back({corner.x(), corner.y()});
   const auto [least, most] = told.extremes(places);
-  if (most > 0.0 || least >= 0.0) return true;
+  if (most > 0.0 || least >= 0.0) {
+    warn_of_rise(field, corners, key, diagnosis);
+    return true;
+  }
   diagnosis.error(key, fmt::format("found nothing above zero, but {:g}", least),
                   "water presses with more than zero; less, suction, counts as none");
   return false;

@@ -56,7 +56,7 @@ class PressureField {
 
 /// Whether numbers are a pressure of water all over ground between some corners: told of each of
 /// them, by points that are not on one line, and not suction alone. What is none is an error of the
-/// diagnosis, under `key`.
+/// diagnosis, under `key`; one that grows upwards all over the ground is a warning.
 [[nodiscard]] bool is_pressure_of(const tables::VaryingNumber& told, const Ring& corners,
                                   const std::string& key, tables::Diagnosis& diagnosis);
 

@@ -138,6 +138,23 @@ TEST(SceneSettings, CannotSmuggleFurtherKeysIn) {
 }
 
 // The measure of a stage's drive follows from how far all stages go, those to come among them.
+// Of a thousand points one may differ.
+TEST(SceneChanges, OfALongListAreShownWhereItChanges) {
+  Scene before, after;
+  std::vector<std::array<double, 3>> points;
+  for (int i = 0; i < 1000; ++i) points.push_back({0.25 * i, i % 2 * 2.0, 1000.0 + i});
+  before.water.pore_pressure = tables::VaryingNumber(tables::point_samples(points));
+  points[500][2] = 7.5;
+  after.water.pore_pressure = tables::VaryingNumber(tables::point_samples(points));
+  const auto changes = scene_changes(before, after, 0);
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0].key, "water.pore_pressure");
+  EXPECT_LT(changes[0].text().size(), 320U);
+  EXPECT_THAT(changes[0].before, testing::HasSubstr("[125.0, 0.0, 1500.0], [125.25"));
+  EXPECT_THAT(changes[0].after, testing::HasSubstr("[125.0, 0.0, 7.5], [125.25"));
+  EXPECT_THAT(changes[0].after, testing::HasSubstr(" characters)"));
+}
+
 TEST(SceneChanges, OfAStageToComeMayReachFarther) {
   const std::string text = support::sample_with(
       "kind = \"displacement\"\nrange_min = 0.0\nrange_max = 0.5\ndirection = [0.0, -1.0]\n"

@@ -54,6 +54,20 @@ std::vector<std::string> texts(const std::vector<tables::Complaint>& complaints)
   return all;
 }
 
+TEST(PoreWater, ThatGrowsUpwardsOrHasAWeightOfNoEffectIsWarnedOf) {
+  const std::string told = "[water]\npore_pressure = { at = [0, -2], value = 0, gradient = [0, ";
+  const auto slipped = read(box + told + "10e3] }\nunit_weight = 10e3\n");
+  ASSERT_TRUE(slipped.scene) << texts(slipped.errors)[0];
+  EXPECT_THAT(
+      texts(slipped.warnings),
+      ElementsAre(HasSubstr("water.unit_weight: found 10000 beside pore_pressure; it has no "
+                            "effect"),
+                  HasSubstr("water.pore_pressure: found a pressure that grows upwards "
+                            "wherever there is any")));
+  const std::string right = "[water]\npore_pressure = { at = [0, 0], value = 0, gradient = [0, ";
+  EXPECT_THAT(texts(read(box + right + "-10e3] }\n").warnings), IsEmpty());
+}
+
 TEST(PoreWater, IsHydrostaticBelowItsTable) {
   // It falls by 1 m over the left half and goes on level.
   const auto reading = read(box + table("[[0, 0], [2, -1], [4, -1]]"));
@@ -139,7 +153,7 @@ TEST(PoreWater, IsAShareOfTheOverburden) {
 }
 
 std::string told(const std::string& pressure) {
-  return "[water]\nunit_weight = 10e3\npore_pressure = " + pressure + "\n";
+  return "[water]\npore_pressure = " + pressure + "\n";
 }
 
 // A pressure that is that below a table does to cells what the table does.
@@ -185,7 +199,7 @@ TEST(PoreWater, ThatIsToldAndIsNoneIsRefusedInWords) {
   };
   const std::string artesian = told("{ at = [0, 0], value = 0, gradient = [0, -14e3] }");
   EXPECT_THAT(errors(box + artesian + "table = [[0, 0], [4, 0]]\n"),
-              ElementsAre("s.toml:22:17: water.pore_pressure: found beside a table; the pressure "
+              ElementsAre("s.toml:21:17: water.pore_pressure: found beside a table; the pressure "
                           "is what one of them says: leave the other out"));
   EXPECT_THAT(errors(slope + artesian, {"water.r_u=0.2"}),
               ElementsAre(HasSubstr("water.pore_pressure: found beside r_u; the pressure is")));

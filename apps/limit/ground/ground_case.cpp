@@ -11,6 +11,7 @@
 #include "limit/ground/ground_columns.hpp"
 #include "limit/ground/ground_cut.hpp"
 #include "limit/ground/ground_footing.hpp"
+#include "limit/ground/ground_lift.hpp"
 #include "limit/ground/ground_mesh.hpp"
 #include "limit/ground/ground_outline.hpp"
 #include "limit/ground/ground_pressure.hpp"
@@ -69,7 +70,7 @@ problem::Problem loads_of(const GroundScene& scene, const std::optional<Base>& b
   const bool is_shaken = scene.load.sought != Sought::earthquake;
   problem.pull = {is_shaken ? scene.load.kh : 0.0, scene.load.kv - 1.0};
   problem.live_pull = is_shaken ? problem.pull : mesh::Point(scene.load.kh, 0.0);
-  problem.pore_pressure = pressure_in_triangles(scene);
+  problem.pore_pressure = scene.water.in_triangles;
   for (const GroundSide& side : scene.sides) problem.boundaries.push_back(boundary_of(scene, side));
   if (base) problem.footing = footing_of(scene, *base, diagnosis);
   if (scene.load.sought == Sought::strength) make_live(problem);
@@ -235,12 +236,13 @@ void add_long_meshes(const GroundScene& scene, const GroundOutline& outline, dou
 }
 
 // Twice as coarse as the upper bound's first mesh everywhere.
-mesh::Mesh rough_mesh(const GroundScene& scene, const GroundOutline& outline, double length) {
+mesh::Mesh rough_mesh(const GroundScene& scene, const GroundOutline& outline, double length,
+                      const problem::Problem& loads) {
   GroundFineness fineness = fineness_of(scene, outline, length, false);
   fineness.rays_per_radian /= 2.0;
   fineness.rings /= 2;
   fineness.longest *= 2.0;
-  return ground_mesh(scene, outline, fineness);
+  return mesh_of(scene, outline, fineness, loads);
 }
 
 problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
@@ -265,6 +267,7 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
   if (result.seeks_strength) {
     say_skins(scene, outline, result.lower, result);
   }
+  say_pressure(scene, outline, result);
   try {
     result.lower.mesh =
         mesh_of(scene, outline, fineness_of(scene, outline, length, true), result.lower);
@@ -281,7 +284,7 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
     return result;
   }
   if (result.seeks_strength && scene.materials.size() > 1) {
-    result.rough_upper = rough_mesh(scene, outline, length);
+    result.rough_upper = rough_mesh(scene, outline, length, result.upper);
     add_long_meshes(scene, outline, length, result);
   }
   return result;
@@ -321,8 +324,8 @@ std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagn
   if (!diagnosis.errors().empty()) return std::nullopt;
   if (has_columns) outline = ground_outline(scene, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
-  if (const auto told = pressure_in_triangles(scene)) {
-    divide_at_kinks(scene, told->field(), outline);
+  if (scene.water.in_triangles) {
+    divide_at_kinks(scene, scene.water.in_triangles->field(), outline);
   }
   const std::optional<Base> base = find_base(scene, outline, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;

@@ -84,7 +84,7 @@ struct Push {
 Push push_on(const GroundScene& scene, const problem::Soil& soil,
              const std::vector<GroundPart>& parts, const std::vector<mesh::Point>& wedge) {
   Push push{0.0, 0.0, soil.seepage.x(), soil.seepage.x()};
-  if (const auto told = pressure_in_triangles(scene)) {
+  if (const auto& told = scene.water.in_triangles) {
     for (const auto& piece : told->field().within(wedge)) {
       push.least_of_water = std::min(push.least_of_water, -piece.gradient.x());
       push.largest_of_water = std::max(push.largest_of_water, -piece.gradient.x());

@@ -17,11 +17,6 @@ std::vector<problem::PorePressure::Corner> GroundPressure::corners_in(
   return corners;
 }
 
-std::shared_ptr<const GroundPressure> pressure_in_triangles(const GroundScene& scene) {
-  if (!scene.water.is_in_triangles()) return nullptr;
-  return std::make_shared<const GroundPressure>(*scene.water.pore_pressure);
-}
-
 void divide_at_kinks(const GroundScene& scene, const shape::PressureField& field,
                      GroundOutline& outline) {
   std::vector<GroundSegment> segments;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "limit/ground/ground_outline.hpp"
 #include "limit/ground/ground_types.hpp"
 #include "limit/problem/pore_pressure.hpp"
@@ -23,9 +21,6 @@ class GroundPressure final : public problem::PorePressure {
  private:
   shape::PressureField field_;
 };
-
-/// That of a scene whose water is told in triangles; of any other none.
-[[nodiscard]] std::shared_ptr<const GroundPressure> pressure_in_triangles(const GroundScene& scene);
 
 /// Puts points on the outline where the pressure along it is no longer linear, but on sides that
 /// hold the ground across.

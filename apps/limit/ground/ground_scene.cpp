@@ -276,6 +276,11 @@ void check_side(GroundScene& scene, std::size_t i, tables::Diagnosis& diagnosis)
 
 // The default is in newtons and metres.
 void check_water(const GroundScene& scene, tables::Diagnosis& diagnosis) {
+  if (scene.water.pore_pressure && scene.water.unit_weight != GroundWater{}.unit_weight) {
+    diagnosis.warning("water.unit_weight",
+                      fmt::format("found {:g} beside pore_pressure", scene.water.unit_weight),
+                      "it has no effect: that is of a table's water");
+  }
   const problem::UnitNames si;
   const bool is_si = scene.units.stress == si.stress && scene.units.length == si.length;
   if (scene.water.table.empty() || is_si || diagnosis.given("water.unit_weight")) return;

@@ -27,20 +27,39 @@ bool is_bare(const GroundSide& side) {
                                          side.live_pressure == 0.0 && side.live_shear == 0.0);
 }
 
-// Forces [N/m3] of the water in skins of a straight piece of the outline: one, or of each part of
-// it along which a pressure that is told is linear.
-std::vector<mesh::Point> water_in_skins(const GroundScene& scene, const problem::Soil& soil,
-                                        const mesh::Point& first, const mesh::Point& second) {
-  const auto told = pressure_in_triangles(scene);
-  if (!told) return {soil.seepage + soil.live_seepage};
+// A part of a straight piece of the outline, the force [N/m3] of the water in skins of it, which is
+// the same along it, and where the weight of such skins is least and most: it is linear.
+struct Skin {
+  mesh::Point water{0.0, 0.0};
+  std::vector<mesh::Point> places;
+};
+
+// Those of a straight piece of the outline: one, or of each part of it along which a pressure that
+// is told is linear.
+std::vector<Skin> skins_of(const GroundScene& scene, const problem::Soil& soil,
+                           const mesh::Point& first, const mesh::Point& second) {
+  const mesh::Point way = second - first;
+  const auto skin = [&](const mesh::Point& water, double from, double to) {
+    if (!soil.has_uneven_weight()) return Skin{water, {first + (from + to) / 2.0 * way}};
+    return Skin{water, {first + from * way, first + to * way}};
+  };
+  const auto& told = scene.water.in_triangles;
+  if (!told) return {skin(soil.seepage + soil.live_seepage, 0.0, 1.0)};
   constexpr double thin = 1e-6, rounding = 1e-3;
-  const mesh::Point way = second - first, inwards = thin * mesh::Point(-way.y(), way.x());
-  std::vector<mesh::Point> forces;
+  const mesh::Point inwards = thin * mesh::Point(-way.y(), way.x());
+  std::vector<Skin> skins;
   for (const auto& piece :
        told->field().within({first, second, second + inwards, first + inwards})) {
-    if (piece.area > rounding * thin * way.squaredNorm()) forces.emplace_back(-piece.gradient);
+    if (piece.area <= rounding * thin * way.squaredNorm()) continue;
+    double from = 1.0, to = 0.0;
+    for (const mesh::Point& corner : piece.ring) {
+      const double share = std::clamp((corner - first).dot(way) / way.squaredNorm(), 0.0, 1.0);
+      from = std::min(from, share);
+      to = std::max(to, share);
+    }
+    skins.push_back(skin(-piece.gradient, from, to));
   }
-  return forces;
+  return skins;
 }
 
 const char* key_of_water(const GroundScene& scene) {
@@ -60,36 +79,48 @@ std::string skin_words(const GroundScene& scene, std::size_t material, const Gro
 void check_bare_faces(const GroundScene& scene, const GroundOutline& outline,
                       const problem::Problem& problem, tables::Diagnosis& diagnosis) {
   const bool seeks_strength = scene.load.sought == Sought::strength;
+  // @return  whether it bears what acts on it at a place
+  const auto check = [&](const GroundSegment& segment, const mesh::Point& water,
+                         const mesh::Point& place) {
+    const GroundSide& side = scene.sides[static_cast<std::size_t>(segment.side)];
+    const std::size_t m = scene.regions[static_cast<std::size_t>(segment.left)].material;
+    const problem::Soil& soil = problem.soils[m];
+    const mesh::Point way = (outline.at(segment.second) - outline.at(segment.first)).normalized();
+    const mesh::Point outwards(way.y(), -way.x());
+    const mesh::Point weight =
+        (soil.unit_weight_at(place) + (seeks_strength ? soil.live_unit_weight_at(place) : 0.0)) *
+        problem.pull;
+    const double lift = outwards.dot(water), press = -outwards.dot(weight + water);
+    const double along = std::abs(way.dot(weight + water));
+    const double rounding = 1e-9 * (weight.norm() + water.norm());
+    const std::string skin = skin_words(scene, m, side, place);
+    if (lift > 0.0 && press < -rounding) {
+      diagnosis.error(key_of_water(scene),
+                      fmt::format("water lifts {}, with {:.6g} {} and no more than {:.6g} on it",
+                                  skin, lift, scene.units.unit_weight(), press + lift),
+                      "such ground boils: allowed are less water, a cohesion, or a pressure on "
+                      "the side, as of a filter");
+      return false;
+    }
+    // How far a strength may be divided is what is sought then.
+    if (seeks_strength || along <= std::tan(soil.friction_angle) * press + rounding) return true;
+    diagnosis.error(fmt::format("side.{}.kind", segment.side),
+                    fmt::format("what is given lets a skin slide of {}", skin),
+                    "bare sand does not stand steeper than it has friction: allowed are a "
+                    "gentler face, a cohesion, or a side that is held or loaded");
+    return false;
+  };
   for (const GroundSegment& segment : outline.segments) {
     if (segment.right >= 0) continue;
     const GroundSide& side = scene.sides[static_cast<std::size_t>(segment.side)];
     const std::size_t m = scene.regions[static_cast<std::size_t>(segment.left)].material;
     const problem::Soil& soil = problem.soils[m];
     if (!is_bare(side) || !soil.is_loose()) continue;
-    const mesh::Point &first = outline.at(segment.first), &second = outline.at(segment.second);
-    const mesh::Point way = (second - first).normalized(), outwards(way.y(), -way.x());
-    const mesh::Point weight =
-        (soil.unit_weight + (seeks_strength ? soil.live_unit_weight : 0.0)) * problem.pull;
-    const std::string skin = skin_words(scene, m, side, (first + second) / 2.0);
-    for (const mesh::Point& water : water_in_skins(scene, soil, first, second)) {
-      const double lift = outwards.dot(water), press = -outwards.dot(weight + water);
-      const double along = std::abs(way.dot(weight + water));
-      const double rounding = 1e-9 * (weight.norm() + water.norm());
-      if (lift > 0.0 && press < -rounding) {
-        diagnosis.error(key_of_water(scene),
-                        fmt::format("water lifts {}, with {:.6g} {} and no more than {:.6g} on it",
-                                    skin, lift, scene.units.unit_weight(), press + lift),
-                        "such ground boils: allowed are less water, a cohesion, or a pressure on "
-                        "the side, as of a filter");
-        return;
+    for (const Skin& skin :
+         skins_of(scene, soil, outline.at(segment.first), outline.at(segment.second))) {
+      for (const mesh::Point& place : skin.places) {
+        if (!check(segment, skin.water, place)) return;
       }
-      // How far a strength may be divided is what is sought then.
-      if (seeks_strength || along <= std::tan(soil.friction_angle) * press + rounding) continue;
-      diagnosis.error(fmt::format("side.{}.kind", segment.side),
-                      fmt::format("what is given lets a skin slide of {}", skin),
-                      "bare sand does not stand steeper than it has friction: allowed are a "
-                      "gentler face, a cohesion, or a side that is held or loaded");
-      return;
     }
   }
 }
@@ -145,19 +176,21 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
     // The weight, aslant in an earthquake, along the skin and across it.
     const mesh::Point &first = outline.at(segment.first), &second = outline.at(segment.second);
     const mesh::Point way = (second - first).normalized();
-    for (const mesh::Point& water : water_in_skins(scene, soil, first, second)) {
-      const mesh::Point force = soil.live_unit_weight * soils.live_pull + water;
-      const double along = std::abs(way.dot(force));
-      const double presses_on = way.x() * force.y() - way.y() * force.x();
-      // What water lifts off the face has no strength at all.
-      const double across =
-          scene.water.is_there() ? std::max(0.0, presses_on) : std::abs(presses_on);
-      if (along <= level * across) continue;
-      const double slides = std::tan(soil.friction_angle) * across / along;
-      if (slides >= result.known_upper.value_or(INFINITY)) continue;
-      result.known_upper = slides;
-      weakest =
-          fmt::format("{} without cohesion at the side \"{}\"", scene.materials[m].name, side.name);
+    for (const Skin& skin : skins_of(scene, soil, first, second)) {
+      for (const mesh::Point& place : skin.places) {
+        const mesh::Point force = soil.live_unit_weight_at(place) * soils.live_pull + skin.water;
+        const double along = std::abs(way.dot(force));
+        const double presses_on = way.x() * force.y() - way.y() * force.x();
+        // What water lifts off the face has no strength at all.
+        const double across =
+            scene.water.is_there() ? std::max(0.0, presses_on) : std::abs(presses_on);
+        if (along <= level * across) continue;
+        const double slides = std::tan(soil.friction_angle) * across / along;
+        if (slides >= result.known_upper.value_or(INFINITY)) continue;
+        result.known_upper = slides;
+        weakest = fmt::format("{} without cohesion at the side \"{}\"", scene.materials[m].name,
+                              side.name);
+      }
     }
   }
   if (!result.known_upper) return;

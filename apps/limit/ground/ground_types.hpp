@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -104,12 +105,16 @@ struct GroundLoad {
                                // roller, whose mirror image completes it
 };
 
+class GroundPressure;
+
 /// Pore water, hydrostatic below its table, a share of the overburden, or as told.
 struct GroundWater {
   std::vector<mesh::Point> table;                      // [m] from left to right
   double unit_weight = 9810.0;                         // [N/m3]
   std::optional<double> r_u;                           // its pressure over the overburden
   std::optional<tables::VaryingNumber> pore_pressure;  // [Pa] below zero: none
+  /// Of that, once the ground is wet (ground_water.hpp): if it is told in triangles, and else none.
+  std::shared_ptr<const GroundPressure> in_triangles = nullptr;
 
   [[nodiscard]] bool is_there() const {
     return !table.empty() || r_u.value_or(0.0) > 0.0 || pore_pressure.has_value();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "limit/ground/ground_cut.hpp"
+#include "limit/ground/ground_pressure.hpp"
 #include "limit/ground/ground_soils.hpp"
 #include "shape/pressure_field.hpp"
 #include "shape/water.hpp"
@@ -141,6 +142,7 @@ void wet_in_field(GroundScene& scene, const Extent& ground, tables::Diagnosis& d
   if (!shape::is_pressure_of(*scene.water.pore_pressure, corners, key, diagnosis)) return;
   if (scene.water.is_in_triangles()) {
     check_saturated(scene, diagnosis);
+    scene.water.in_triangles = std::make_shared<const GroundPressure>(*scene.water.pore_pressure);
   } else {
     wet_as_told(scene, ground);
   }

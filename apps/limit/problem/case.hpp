@@ -28,7 +28,8 @@ struct Case {
   bool seeks_strength = false;  // the factor that divides the strength, with the live loads at 1
   std::vector<std::pair<std::string, std::string>> data;  // what, value with unit
   std::vector<std::string> assumptions;
-  std::vector<std::string> notes;  // on the bounds, beside them
+  std::vector<std::string> notes;    // on the bounds, beside them
+  std::vector<std::string> reasons;  // why there may be no bounds, said if there are none
   // Bounds that are known in closed form, in the case's unit.
   std::optional<double> known_lower, known_upper;
   std::vector<HandFormula> hand;

@@ -50,12 +50,13 @@ struct MeshPressure {
 /// Ground bears the more, the less pressure is in its pores: with p as in Soil, the stresses that
 /// it bears under a pressure are among those under a smaller one. A stress field under no less is
 /// one under the pressure itself, and what fails under no more does so under that.
-/// @throws std::logic_error  where a triangle has no node off that outline and the pressure is not
-/// linear in it: give it one first (with_inner_nodes)
+/// @throws std::logic_error  where a side that is not on that outline has both its nodes there and
+/// the pressure is not linear along it: give it one first (with_inner_nodes)
 [[nodiscard]] MeshPressure pressure_on_mesh(const Problem& problem, Bound bound);
 
-/// The mesh of a problem, each triangle whose nodes are all on outline where tractions are known
-/// cut in three by a node of its own.
+/// The mesh of a problem, each side between two nodes of outline where tractions are known that is
+/// not on that outline itself halved by a node, and so the triangles beside it. Bisecting it
+/// further makes no such side.
 [[nodiscard]] mesh::Mesh with_inner_nodes(const Problem& problem);
 
 }  // namespace limit::problem
