@@ -257,8 +257,10 @@ SolverSettings resolve_solver(const Scene& scene) {
       solver.method.value_or(paper ? SolverMethod::newton_krylov : SolverMethod::hybrid);
   settings.jacobian =
       solver.jacobian.value_or(paper ? JacobianKind::finite_difference : JacobianKind::analytic);
-  const PreconditionerKind usual =
-      wants_factors(scene) ? PreconditionerKind::factors : PreconditionerKind::two_level;
+  const bool is_elastic = std::ranges::none_of(scene.material, yields);
+  const PreconditionerKind usual = wants_factors(scene, largest_poissons_ratio(scene), is_elastic)
+                                       ? PreconditionerKind::factors
+                                       : PreconditionerKind::two_level;
   settings.preconditioner =
       solver.preconditioner.value_or(paper ? PreconditionerKind::none : usual);
   return settings;

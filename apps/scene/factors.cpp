@@ -5,7 +5,6 @@
 #include <numbers>
 #include <vector>
 
-#include "scene/derived.hpp"
 #include "scene/ground.hpp"
 #include "scene/scene.hpp"
 
@@ -53,21 +52,21 @@ bool is_held_aslant(const OutlineSide& side) {
 
 }  // namespace
 
-bool wants_factors(const Scene& scene) {
+bool wants_factors(const Scene& scene, double poissons_ratio, bool is_elastic) {
   if (scene.geometry.dimension != 2) return false;
   // Sixty evaluations and more at 0.49, where 0.3 takes twenty.
-  const double largest = largest_poissons_ratio(scene);
-  if (largest > 0.49) return true;
-  if (std::ranges::any_of(scene.material, yields)) return false;
+  if (poissons_ratio > 0.49) return true;
+  if (!is_elastic) return false;
   const double cells = cells_of(scene.geometry);
   // Where blocks and grid may not get there at all, and where they take hundreds of evaluations,
   // which cost less than the factors of more particles do.
   constexpr double most = 20'000.0, most_for_speed = 5'000.0;
   const auto is_sharp = [](const Region& region) { return has_sharp_corner(region.outline); };
-  if (std::ranges::any_of(scene.region, is_sharp) || (is_cut(scene) && has_contact(scene))) {
+  const bool is_cut = !scene.region.empty() || !scene.cutout.empty();
+  if (std::ranges::any_of(scene.region, is_sharp) || (is_cut && has_contact(scene))) {
     return cells <= most;
   }
-  return (largest > 0.45 || std::ranges::any_of(scene.side, is_held_aslant)) &&
+  return (poissons_ratio > 0.45 || std::ranges::any_of(scene.side, is_held_aslant)) &&
          cells <= most_for_speed;
 }
 
