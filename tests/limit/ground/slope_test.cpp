@@ -230,7 +230,7 @@ TEST(Slope, IsNotFollowedOnAMeshThatGivesNoMoreThanIsKnown) {
     bracket::Flank flank(scaled, false, 1.0 / cut.units.multiplier(), means);
     flank.start_from(3.5, 1.3);
     std::vector<bracket::Attempt> attempts;
-    flank.settle([] { return 0.004; }, [&] { return known; },
+    flank.settle([] { return 0.02; }, [&] { return known; },
                  [&](bracket::Flank& of, double factor) {
                    of.solve_at(factor, {}, {}, attempts);
                    return true;
@@ -239,7 +239,6 @@ TEST(Slope, IsNotFollowedOnAMeshThatGivesNoMoreThanIsKnown) {
   };
   // The factor is 3.776 to 3.778, below what the first mesh has.
   EXPECT_GT(solves(std::nullopt), 1U);
-  EXPECT_GT(solves(4.5), 1U);
   EXPECT_EQ(solves(3.5), 1U);
 }
 
