@@ -11,7 +11,7 @@
 #include "limit/ground/ground_cases.hpp"
 #include "limit/ground/ground_pressure.hpp"
 #include "limit/ground/ground_water.hpp"
-#include "limit/ground/pressure_scenes.hpp"
+#include "limit/ground/water_scenes.hpp"
 #include "limit/mesh/bisection.hpp"
 #include "shape/outline.hpp"
 

@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "limit/ground/ground_cases.hpp"
 #include "limit/ground/ground_water.hpp"
+#include "limit/ground/water_scenes.hpp"
 #include "shape/outline.hpp"
 
 namespace {
@@ -17,7 +17,10 @@ using namespace limit;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr double degree = std::numbers::pi / 180.0;
+using told::degree;
+using told::run;
+using told::slope;
+using told::solution;
 constexpr double of_water = 10e3;
 
 std::string water(const std::string& table) {
@@ -53,14 +56,6 @@ along = [[0, -2], [5, -2], [5, 0]]
 )";
 }
 
-bracket::Solution solution(const std::string& text) {
-  const auto problem = case_of(text);
-  EXPECT_TRUE(problem);
-  bracket::BracketOptions options;
-  options.gap = 0.07;
-  return problem ? bracket::solution_of(problem->associated, options, {}) : bracket::Solution{};
-}
-
 // Level ground under water, however deep, is ground of the buoyant weight.
 TEST(Water, MakesLevelGroundAsLightAsItIsUnderWater) {
   const bracket::Solution dry = solution(footing(20e3 - of_water, ""));
@@ -85,32 +80,7 @@ TEST(Water, ThatIsBelowTheGroundDoesNotMatter) {
 
 // A face of 20 degrees in sand with the table along it: a skin slides at tan(phi) / tan(beta)
 // (1 - r_u / cos(beta)^2), r_u being the weight of water over the soil's.
-std::string slope(double cohesion, const std::string& more) {
-  const double run = 10.0 / std::tan(20.0 * degree);
-  return more + fmt::format(R"([load]
-sought = "strength"
-[[material]]
-name = "sand"
-cohesion = {0}
-friction_angle = 35
-unit_weight = 20e3
-[[region]]
-material = "sand"
-outline = [[-10, -3], [{2}, -3], [{2}, 0], [{1}, 0], [0, 10], [-10, 10]]
-[[side]]
-name = "surface"
-kind = "free"
-along = [[-10, 10], [0, 10], [{1}, 0], [{2}, 0]]
-[[side]]
-name = "rigid"
-kind = "fixed"
-along = [[-10, 10], [-10, -3], [{2}, -3], [{2}, 0]]
-)",
-                            cohesion, run, run + 10.0);
-}
-
 std::string along_the_face() {
-  const double run = 10.0 / std::tan(20.0 * degree);
   return water(fmt::format("[[-10, 10], [0, 10], [{}, 0], [{}, 0]]", run, run + 10.0));
 }
 

@@ -3,20 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "limit/ground/ground_cases.hpp"
-#include "limit/ground/pressure_scenes.hpp"
+#include "limit/ground/water_scenes.hpp"
 
 namespace {
 
 using namespace limit;
 using namespace told;
-
-bracket::Solution solution(const std::string& text) {
-  const auto problem = case_of(text);
-  EXPECT_TRUE(problem);
-  bracket::BracketOptions options;
-  options.gap = 0.07;
-  return problem ? bracket::solution_of(problem->associated, options, {}) : bracket::Solution{};
-}
 
 // Water that rises with a gradient i leaves ground a weight of gamma' - i gamma_w, with and without
 // cohesion: 20 - 10 - 5 kN/m3.

@@ -6,9 +6,20 @@
 #include <numbers>
 #include <string>
 
+#include "limit/ground/ground_cases.hpp"
+
 namespace limit::told {
 
 inline constexpr double degree = std::numbers::pi / 180.0;
+
+/// To a gap of 7 %.
+inline bracket::Solution solution(const std::string& text) {
+  const auto problem = case_of(text);
+  EXPECT_TRUE(problem);
+  bracket::BracketOptions options;
+  options.gap = 0.07;
+  return problem ? bracket::solution_of(problem->associated, options, {}) : bracket::Solution{};
+}
 
 /// A strip on level ground, one half.
 inline std::string footing(double cohesion, double unit_weight, const std::string& more) {
