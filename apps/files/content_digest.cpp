@@ -25,6 +25,8 @@ void add_dataset(ContentDigest& digest, const Hdf5File& file, const std::string&
   const DatasetInfo info = file.info(path);
   if (info.type == "float64") {
     add_values<double>(digest, file, path);
+  } else if (info.type == "float32") {
+    add_values<float>(digest, file, path);
   } else if (info.type == "int64") {
     add_values<std::int64_t>(digest, file, path);
   } else if (info.type == "int32") {

@@ -89,6 +89,11 @@ struct State {
   // about the axes.
   Columns<Dim> plate_displacement;
   Columns<rotations> plate_rotation;
+  // What the last step's solve learnt of the tangent, which the next one begins with: changes of
+  // the increment and of the residual, a column per pair, each over the length of the latter
+  // (jfnk::SecantPairs).
+  Eigen::MatrixXf secant_step;
+  Eigen::MatrixXf secant_change;
   fpm::Rows<Dim> rows;
   ProgrammeState programme;
 
@@ -152,6 +157,13 @@ struct State {
   template <class Visitor>
   void for_each_penalty_field(Visitor&& visit) {
     if (penalty_target.rows() > 0) visit("target", "m", penalty_target);
+  }
+
+  /// Likewise for the secant pairs, of which there are none before the first step.
+  template <class Visitor>
+  void for_each_secant_field(Visitor&& visit) {
+    visit("step", Dim == 2 ? "m2/N" : "m/N", secant_step);
+    visit("change", "-", secant_change);
   }
 
   /// Likewise for the plates that are free in some ways.

@@ -16,6 +16,7 @@ const std::string row_group = "/state/rows/";
 const std::string interface_group = "/state/interfaces/";
 const std::string penalty_group = "/state/penalties/";
 const std::string plate_group = "/state/plates/";
+const std::string secant_group = "/state/secants/";
 const std::string programme_group = "/state/programme/";
 
 // The reactions were no part of the state before this schema.
@@ -38,8 +39,9 @@ std::span<const typename Values::value_type> span_of(const Values& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
 }
 
-bool all_finite(std::span<const double> values) {
-  return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
+template <class T>
+bool all_finite(std::span<const T> values) {
+  return std::ranges::all_of(values, [](T x) { return std::isfinite(x); });
 }
 
 /// Whether a particle field is component-major (one column per component), as fpm::Field is; the
@@ -69,7 +71,7 @@ class FieldWriter {
   template <class T>
   void write(const std::string& path, std::span<const T> values, const files::Shape& shape,
              std::string_view unit) {
-    if constexpr (std::is_same_v<T, double>) {
+    if constexpr (std::is_floating_point_v<T>) {
       if (!all_finite(values)) {
         throw std::logic_error(path + " is not finite: no checkpoint is written");
       }
@@ -105,7 +107,7 @@ class FieldReader {
     // A field the scene does not have: how long its columns would be does not matter.
     if (values.empty() && file_.read_all<double>(path).empty()) return;
     file_.read<double>(path, values, file_shape(field));
-    require_finite(path, values);
+    require_finite<double>(path, values);
     if constexpr (component_major<Matrix>) {
       field = Eigen::Map<const Eigen::Matrix<double, Matrix::ColsAtCompileTime, Eigen::Dynamic>>(
                   values.data(), field.cols(), field.rows())
@@ -124,18 +126,32 @@ class FieldReader {
     const auto particles = static_cast<std::size_t>(reaction.rows());
     std::vector<double> values(shown * particles);
     file_.read<double>(shown_reactions, values, {particles, shown});
-    require_finite(shown_reactions, values);
+    require_finite<double>(shown_reactions, values);
     reaction = Eigen::Map<const Eigen::Matrix<double, shown, Eigen::Dynamic>>(values.data(), shown,
                                                                               reaction.rows())
                    .template topRows<Dim>()
                    .transpose();
   }
 
+  /// A column per row of the file, as many as there are; none if it has no such field.
+  void read_pairs(const std::string& path, Eigen::Index unknowns, Eigen::MatrixXf& field) const {
+    if (!file_.has(path)) return;
+    const std::vector<float> values = file_.read_all<float>(path);
+    require_finite<float>(path, values);
+    const auto shape = file_.info(path).shape;
+    if (shape.size() != 2 || shape[1] != static_cast<std::size_t>(unknowns)) {
+      throw files::FileError(file_.file(),
+                             fmt::format("{} is not of {} unknowns each", path, unknowns));
+    }
+    field = Eigen::Map<const Eigen::MatrixXf>(values.data(), unknowns,
+                                              static_cast<Eigen::Index>(shape[0]));
+  }
+
   template <class T>
   void read_list(const std::string& name, std::vector<T>& list) const {
     const std::string path = row_group + name;
     list = file_.read_all<T>(path);
-    if constexpr (std::is_same_v<T, double>) require_finite(path, list);
+    if constexpr (std::is_same_v<T, double>) require_finite<double>(path, list);
   }
 
   void read_list(const std::string& name, Eigen::VectorXd& list) const {
@@ -149,11 +165,12 @@ class FieldReader {
   void read_number(const std::string& name, T& number) const {
     const std::string path = programme_group + name;
     file_.read<T>(path, std::span(&number, 1), {1});
-    if constexpr (std::is_same_v<T, double>) require_finite(path, std::span(&number, 1));
+    if constexpr (std::is_same_v<T, double>) require_finite<double>(path, std::span(&number, 1));
   }
 
  private:
-  void require_finite(const std::string& path, std::span<const double> values) const {
+  template <class T>
+  void require_finite(const std::string& path, std::span<const T> values) const {
     if (!all_finite(values)) throw files::FileError(file_.file(), path + " is not finite");
   }
 
@@ -183,6 +200,12 @@ void write_state(files::Hdf5File& file, State<Dim>& state, files::ContentDigest&
   });
   state.for_each_plate_field([&](const char* name, const char* unit, const auto& field) {
     writer.write_columns(plate_group + name, unit, field);
+  });
+  state.for_each_secant_field([&](const char* name, const char* unit, const auto& field) {
+    if (field.size() == 0) return;
+    writer.template write<float>(
+        secant_group + name, span_of(field),
+        {static_cast<std::size_t>(field.cols()), static_cast<std::size_t>(field.rows())}, unit);
   });
   state.rows.for_each_field([&](const char* name, const char* unit, const auto& list) {
     using T = typename std::remove_cvref_t<decltype(list)>::value_type;
@@ -222,6 +245,12 @@ State<Dim> read_state(const files::Hdf5File& file, const Model<Dim>& model, std:
   state.for_each_plate_field([&](const char* name, const char* /*unit*/, auto& field) {
     if (has_sides) reader.read_columns(plate_group + name, field);
   });
+  state.for_each_secant_field([&](const char* name, const char* /*unit*/, auto& field) {
+    reader.read_pairs(secant_group + name, model.unknowns(), field);
+  });
+  if (state.secant_step.cols() != state.secant_change.cols()) {
+    throw files::FileError(file.file(), secant_group + " holds steps without changes");
+  }
   state.rows.for_each_field([&](std::string_view name, const char* /*unit*/, auto& list) {
     if (has_corrections || (name != "corrected_row" && name != "correction")) {
       reader.read_list(std::string(name), list);
@@ -256,6 +285,7 @@ std::size_t bytes_of(State<Dim>& state) {
   state.for_each_interface_field(add);
   state.for_each_penalty_field(add);
   state.for_each_plate_field(add);
+  state.for_each_secant_field(add);
   state.rows.for_each_field(add);
   return bytes;
 }

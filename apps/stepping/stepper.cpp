@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "equilibrium/equilibrium.hpp"
 #include "equilibrium/preconditioner.hpp"
@@ -157,6 +158,8 @@ bool LoadStepper<Dim>::begin_stage() {
   // The last step led elsewhere: the first one is foreseen by the tangent.
   programme.last_increment = 0.0;
   programme.easy_steps = 0;
+  state_.secant_step.resize(0, 0);
+  state_.secant_change.resize(0, 0);
   patience_ = Patience(scene_.programme.patience, nominal_increment_, 0.0);
   if (!state_.layout.staged) return true;
   const auto left = equilibrium_->unbalanced(course.load_begin, course.reduction_begin);
@@ -238,6 +241,21 @@ bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult&
   return false;
 }
 
+// What a solve learns of the tangent serves the next step, unless Newton steps had to help it out
+// or strength changes from step to step: its pairs mislead as often then, and more of them do so
+// too (share/doc/decisions/solver.md).
+template <int Dim>
+void LoadStepper<Dim>::keep_pairs(const StepRecord& record) {
+  constexpr int kept = 10;
+  const scene::Course& course = scene_.course;
+  const bool serve = state_.layout.plastic && record.newton_iterations == 0 &&
+                     course.reduction_begin == course.reduction_end;
+  jfnk::SecantPairs pairs{std::move(state_.secant_step), std::move(state_.secant_change)};
+  solver_.pairs(serve ? kept : 0, pairs);
+  state_.secant_step = std::move(pairs.step);
+  state_.secant_change = std::move(pairs.change);
+}
+
 template <int Dim>
 StepResult LoadStepper<Dim>::advance(const Watch& watch) {
   const model::ProgrammeState before = state_.programme;
@@ -266,6 +284,7 @@ StepResult LoadStepper<Dim>::attempt(const Watch& watch) {
       increment_ = (increment / programme.last_increment) *
                    Eigen::Map<const Eigen::VectorXd>(state_.increment.data(), model_.unknowns());
       set_prescribed(increment, increment_);
+      solver_.begin_with({state_.secant_step, state_.secant_change});
       solved = solve(increment_, watch, result);
     }
     if (!solved && result.outcome != StepOutcome::stopped) {
@@ -273,6 +292,7 @@ StepResult LoadStepper<Dim>::attempt(const Watch& watch) {
                solve(increment_, watch, result);
     }
     if (solved) {
+      keep_pairs(result.record);
       finish_step(increment, result.record);
       return result;
     }

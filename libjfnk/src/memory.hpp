@@ -10,6 +10,7 @@ struct Solver::Memory {
   detail::Workspace work;
   detail::Course course;
   Report report;
+  SecantPairs given;         ///< which the next solve begins with
   bool needs_setup = false;  ///< loaded: the preconditioner must be set up at work.setup_point
 };
 

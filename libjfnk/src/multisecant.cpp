@@ -251,6 +251,22 @@ bool loses_patience(Solve& solve, double change) {
   return course.wild >= wild_patience(solve);
 }
 
+/// Whether pairs of a former solve are still in use and lead nowhere.
+bool given_mislead(const Solve& solve, bool patience_lost) {
+  const int idle = solve.evaluations() - solve.course.multisecant.last_fall;
+  return solve.work.secants.given() > 0 &&
+         (patience_lost || idle >= solve.options.multisecant.given_patience);
+}
+
+/// Goes on from the best point, knowing nothing.
+void forget_given(Solve& solve) {
+  solve.work.secants.clear(keeps_images(solve));
+  solve.return_to_best();
+  forget_base(solve);
+  solve.course.multisecant.last_fall = solve.evaluations();
+  solve.course.multisecant.wild = 0;
+}
+
 /// Measures the noise if that is still due; true if the steps begin anew with what it told.
 bool adapts_to_noise(Solve& solve, Ending& ending) {
   if (!may_measure_noise(solve) || !adapt_to_noise(solve, ending)) return false;
@@ -284,10 +300,13 @@ void begin_multisecant(Solve& solve) {
   course.multisecant.mark = solve.work.best.norm;
   course.multisecant.last_fall = solve.evaluations();
   solve.work.broyden.clear();
+  const bool helped_out = course.stage.round > 0;  // where pairs that were given led
   if (in_preconditioned_norm(solve)) {
     solve.work.secants.clear();  // the preconditioner may be another by now
   } else if (solve.options.multisecant.renew && solve.work.gmres.can_shorten()) {
     renew_memory(solve);
+  } else if (helped_out && solve.work.secants.given() > 0) {
+    solve.work.secants.clear(keeps_images(solve));
   }
 }
 
@@ -319,7 +338,12 @@ Ending multisecant_step(Solve& solve) {
     course.multisecant.mark = work.best.norm;
     course.multisecant.last_fall = solve.evaluations();
   }
-  if (loses_patience(solve, change)) {
+  const bool lost = loses_patience(solve, change);
+  if (given_mislead(solve, lost)) {
+    forget_given(solve);
+    return Ending::go_on;
+  }
+  if (lost) {
     // Steps in the last digits of u: is ||F|| as low as it can be?
     constexpr double last_digits = 1e-13;
     const double size = solve.evaluator.product().norm(work.base.u);

@@ -82,6 +82,7 @@ void check_multisecant(const Multisecant& m, Checker& check) {
   check.up_to_one(m.progress, "multisecant.progress");
   check.require(m.wild > 1.0, "multisecant.wild", "above 1", m.wild);
   check.at_least(m.wild_patience, 1, "multisecant.wild_patience");
+  check.at_least(m.given_patience, 1, "multisecant.given_patience");
   check.require(m.rejection > 1.0, "multisecant.rejection", "above 1", m.rejection);
   check.up_to_one(m.mixing, "multisecant.mixing");
   check.require(m.max_condition > 1.0 && m.max_condition <= 1e6, "multisecant.max_condition",

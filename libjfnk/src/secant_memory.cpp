@@ -1,5 +1,6 @@
 #include "secant_memory.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "passes.hpp"
@@ -23,6 +24,7 @@ void SecantMemory::resize(Eigen::Index n, int capacity, bool single_precision) {
 void SecantMemory::clear(bool with_images) {
   size_ = 0;
   first_ = 0;
+  given_ = 0;
   with_images_ = with_images;
   images_are_old_ = false;
 }
@@ -73,6 +75,31 @@ bool SecantMemory::append(const Vector& du, const ColumnList& q,
   return true;
 }
 
+void SecantMemory::begin_with(const Eigen::MatrixXf& du, const Eigen::MatrixXf& dr,
+                              double max_condition, const InnerProductRef& product) {
+  clear(with_images_);
+  Vector step, change;
+  for (Eigen::Index j = std::max<Eigen::Index>(du.cols() - capacity_, 0); j < du.cols(); ++j) {
+    step = du.col(j).cast<double>();
+    change = dr.col(j).cast<double>();
+    add(step, change, max_condition, product);
+  }
+  given_ = size_;
+}
+
+void SecantMemory::copy_latest(int count, Eigen::MatrixXf& du, Eigen::MatrixXf& dr) const {
+  const int kept = std::clamp(count, 0, size_);
+  du.resize(n_, kept);
+  dr.resize(n_, kept);
+  Vector column;
+  for (int j = 0; j < kept; ++j) {
+    du_.copy_to(slot(size_ - kept + j), column);
+    du.col(j) = column.cast<float>();
+    y_.copy_to(slot(size_ - kept + j), column);
+    dr.col(j) = column.cast<float>();
+  }
+}
+
 // The first `count` columns of a store, oldest first.
 const ColumnList& SecantMemory::columns(const ColumnStore& store, int count) {
   list_.clear();
@@ -105,6 +132,7 @@ bool SecantMemory::well_conditioned(int size, double max_condition) const {
 
 void SecantMemory::drop_oldest() {
   --size_;
+  given_ = std::max(given_ - 1, 0);
   first_ = (first_ + 1) % capacity_;
   for (int j = 0; j < size_; ++j) {
     for (int i = 0; i <= j; ++i) gram_(i, j) = gram_(i + 1, j + 1);

@@ -60,6 +60,16 @@ class SecantMemory {
               const Eigen::Ref<const Eigen::VectorXd>& column, double max_condition,
               const InnerProductRef& product);
 
+  /// Begins anew with the latest pairs of before that there is room for: columns of du and of dr,
+  /// oldest first. Images are to be renewed afterwards.
+  void begin_with(const Eigen::MatrixXf& du, const Eigen::MatrixXf& dr, double max_condition,
+                  const InnerProductRef& product);
+  /// How many of these are still there.
+  [[nodiscard]] int given() const { return given_; }
+  /// The latest pairs, oldest first, as they are kept.
+  /// @param[out] du, dr  resized
+  void copy_latest(int count, Eigen::MatrixXf& du, Eigen::MatrixXf& dr) const;
+
   /// gamma = argmin ||r - Y gamma||; step = -dU gamma, remainder = r - Y gamma.
   /// Cost: 6 n size() flops. No allocation.
   void project(const Vector& r, Vector& step, Vector& remainder, const InnerProductRef& product);
@@ -76,11 +86,13 @@ class SecantMemory {
   void for_each_field(Walker& walk) {
     walk(size_);
     walk(first_);
+    walk(given_);
     walk(with_images_);
     walk(images_are_old_);
     // Damaged, as the reader will find out.
     if (size_ < 0 || size_ > capacity_) size_ = 0;
     if (first_ < 0 || first_ >= capacity_) first_ = 0;
+    if (given_ < 0 || given_ > size_) given_ = 0;
     for (int i = 0; i < size_; ++i) {
       walk_column(walk, du_, slot(i));
       walk_column(walk, y_, slot(i));
@@ -123,6 +135,7 @@ class SecantMemory {
   int capacity_ = 0;
   int size_ = 0;
   int first_ = 0;  // slot of the oldest pair
+  int given_ = 0;  // of the oldest, that were there from the beginning
   ColumnStore du_;
   ColumnStore y_;
   bool with_images_ = false;

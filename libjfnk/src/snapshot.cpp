@@ -10,7 +10,7 @@ namespace detail {
 namespace {
 
 // First integer of a snapshot; raised when its fields change.
-constexpr std::int64_t snapshot_version = 7;
+constexpr std::int64_t snapshot_version = 8;
 
 struct Writer {
   Snapshot& out;

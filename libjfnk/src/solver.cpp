@@ -241,6 +241,22 @@ void require_fit(const Options& options, const ResidualRef& residual, const Vect
   }
 }
 
+void require_pairs_fit(const SecantPairs& pairs, Eigen::Index n) {
+  if (pairs.step.cols() == 0 || pairs.step.rows() == n) return;
+  throw std::invalid_argument("jfnk::Solver: u has size " + std::to_string(n) +
+                              ", the pairs it was given have size " +
+                              std::to_string(pairs.step.rows()));
+}
+
+/// Puts pairs of a former solve into the memory.
+void take_given(Solve& solve, const SecantPairs& given) {
+  const bool of_use = given.step.cols() > 0 && solve.options.method != Method::newton_krylov &&
+                      !in_preconditioned_norm(solve);
+  if (!of_use) return;
+  solve.work.secants.begin_with(given.step, given.change, solve.options.multisecant.max_condition,
+                                solve.evaluator.product());
+}
+
 /// Evaluates the first u; true if there is anything left to do.
 bool start(Solve& solve) {
   Iterate& first = solve.work.best;
@@ -311,6 +327,25 @@ void Solver::set_options(const Options& options) {
   memory_->course = {};
 }
 
+void Solver::begin_with(SecantPairs pairs) {
+  const bool fit =
+      pairs.step.rows() == pairs.change.rows() && pairs.step.cols() == pairs.change.cols();
+  if (!fit || !pairs.step.allFinite() || !pairs.change.allFinite()) {
+    throw std::invalid_argument(
+        fit ? "jfnk::Solver::begin_with: the pairs are not finite"
+            : "jfnk::Solver::begin_with: steps and changes differ in size or number");
+  }
+  memory_->given = std::move(pairs);
+}
+
+void Solver::pairs(int count, SecantPairs& pairs) const {
+  const detail::Workspace& work = memory_->work;
+  const Options& options = memory_->options;
+  const bool of_residual = options.method != Method::newton_krylov &&
+                           !options.multisecant.preconditioned_norm && !work.evaluator_state.learnt;
+  work.secants.copy_latest(of_residual ? count : 0, pairs.step, pairs.change);
+}
+
 const Report& Solver::report() const {
   return memory_->report;
 }
@@ -375,6 +410,7 @@ bool Solver::start_erased(const ResidualRef& residual, const Vector& u,
                           double rounding) {
   Memory& m = *memory_;
   detail::require_fit(m.options, residual, u);
+  detail::require_pairs_fit(m.given, u.size());
   detail::resize(m.work, u.size(), residual.global_size(u.size()), m.options,
                  !preconditioner.is_identity());
   detail::begin(m.report, m.options);
@@ -390,7 +426,11 @@ bool Solver::start_erased(const ResidualRef& residual, const Vector& u,
   m.work.best.u = u;
   evaluator.to_solver_units(m.work.best.u);
   detail::Solve solve{m.options, evaluator, observer, m.work, m.course, m.report};
-  return detail::unless_thrown(m.course, m.report, [&] { return detail::start(solve); });
+  const SecantPairs given = std::exchange(m.given, {});
+  return detail::unless_thrown(m.course, m.report, [&] {
+    detail::take_given(solve, given);
+    return detail::start(solve);
+  });
 }
 
 bool Solver::step_erased(const ResidualRef& residual, const PreconditionerRef& preconditioner,

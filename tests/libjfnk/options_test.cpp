@@ -54,6 +54,7 @@ const Bad bad_options[] = {
     {"multisecant.max_cuts", [](Options& o) { o.multisecant.max_cuts = -1; }},
     {"multisecant.wild", [](Options& o) { o.multisecant.wild = 1.0; }},
     {"multisecant.wild_patience", [](Options& o) { o.multisecant.wild_patience = 0; }},
+    {"multisecant.given_patience", [](Options& o) { o.multisecant.given_patience = 0; }},
     {"globalisation.greatest_cut", [](Options& o) { o.globalisation.greatest_cut = 1.0; }},
     {"globalisation.least_cut", [](Options& o) { o.globalisation.least_cut = 0.6; }},
     {"globalisation.window", [](Options& o) { o.globalisation.window = 11; }},

@@ -149,6 +149,10 @@ struct Multisecant {
   double wild = 3.0;
   /// See wild. Range [1, inf).
   int wild_patience = 6;
+  /// While pairs of a former solve (Solver::begin_with) are still in use, all pairs are dropped
+  /// after this many evaluations without such a fall as `patience` asks for, and the iteration goes
+  /// on from the best point. Range [1, inf).
+  int given_patience = 5;
   /// A point with ||F|| > rejection * best ||F|| is left for the best one. Range (1, inf).
   double rejection = 30.0;
   /// Factor of the preconditioned remainder, u -= mixing P (F - dF gamma). Range (0, 1].

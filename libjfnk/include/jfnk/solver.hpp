@@ -51,6 +51,13 @@ class ObserverRef {
   bool (*call_)(void*, const Iteration&);
 };
 
+/// Changes of u and of F that belong together, of a solve, each divided by the length of the
+/// latter: a column per pair.
+struct SecantPairs {
+  Eigen::MatrixXf step;
+  Eigen::MatrixXf change;
+};
+
 namespace detail {
 
 /// Vectors of doubles of Eigen's: mapped and fixed ones, parts of others, expressions.
@@ -123,10 +130,10 @@ struct Snapshot {
 
 /// Solves F(u) = 0, keeping its memory from one solve to the next.
 ///
-/// Nothing else is kept: a second solve gives bit for bit what a new Solver would. Distinct solvers
-/// may run in distinct threads. Memory grows with the pairs and Krylov vectors in use; a solve that
-/// needs no more than one before allocates nothing but the factors of a Jacobian learnt (see
-/// Learning).
+/// Nothing else is kept, but where `begin_with` asks for it: a second solve gives bit for bit what
+/// a new Solver would. Distinct solvers may run in distinct threads. Memory grows with the pairs
+/// and Krylov vectors in use; a solve that needs no more than one before allocates nothing but the
+/// factors of a Jacobian learnt (see Learning).
 class Solver {
  public:
   /// @throws std::invalid_argument with every message of `validate` if options are not usable
@@ -202,6 +209,21 @@ class Solver {
           return step_erased(ResidualRef(f), PreconditionerRef(p), ObserverRef(observer));
         });
   }
+
+  /// The next solve, of as many unknowns and by multisecants, begins with these pairs of one
+  /// before. They spare evaluations where the same few modes are soft in both, as in load steps of
+  /// plastic flow; where the Jacobian changes smoothly as a whole they cost some. All pairs are
+  /// dropped when they lead nowhere (`Multisecant::given_patience`) or Newton has to help. Not used
+  /// in the norm of P F.
+  /// @param pairs  of a solver with the same u_scale and f_scale, as `pairs` hands them out
+  /// @throws std::invalid_argument if steps and changes differ in size, or are not finite; `start`
+  ///   and `solve` if they are not of the size of u
+  void begin_with(SecantPairs pairs);
+  /// The latest pairs of the last solve, oldest first; none where there are no multisecant stages
+  /// or they are in the norm of P F.
+  /// @param count  no more than so many
+  /// @param[out] pairs  resized
+  void pairs(int count, SecantPairs& pairs) const;
 
   /// What has happened so far: `Status::not_started` before `start`, `Status::in_progress` until
   /// `step` has returned false.
