@@ -13,6 +13,9 @@ std::string where(const Source& a, const Difference& difference) {
   if (difference.name.starts_with("curve/")) {
     return fmt::format("step {}", a.steps.at(difference.row));
   }
+  if (difference.name.starts_with("secants/")) {
+    return fmt::format("pair {} unknown {}", difference.row, difference.component);
+  }
   std::string place = difference.name.starts_with("rows/")
                           ? fmt::format("entry {}", difference.row)
                           : fmt::format("particle {}", difference.row);

@@ -37,6 +37,9 @@ Quantity dataset_of(const Hdf5File& file, const std::string& path) {
   Quantity quantity{info.unit, info.shape, {}};
   if (info.type == "float64") {
     quantity.values = file.read_all<double>(path);
+  } else if (info.type == "float32") {
+    const auto narrow = file.read_all<float>(path);
+    quantity.values = std::vector<double>(narrow.begin(), narrow.end());
   } else if (info.type == "int64") {
     quantity.values = file.read_all<std::int64_t>(path);
   } else if (info.type == "int32") {

@@ -98,6 +98,8 @@ class LoadStepper {
   void set_prescribed(double increment, Eigen::VectorXd& u) const;
   bool predict_by_tangent(double increment, Eigen::VectorXd& u, StepRecord& record);
   bool solve(Eigen::VectorXd& u, const Watch& watch, StepResult& result);
+  [[nodiscard]] bool hands_on_pairs() const;
+  void forget_pairs();
   void keep_pairs(const StepRecord& record);
   StepResult& give_up(StepOutcome outcome, StepResult& result);
   void finish_step(double increment, StepRecord& record);

@@ -356,6 +356,7 @@ std::string content(const files::Hdf5File& file, const std::string& path) {
   if (!file.has(path)) return "absent";
   const std::string type = file.info(path).type;
   if (type == "float64") return type + bits<double>(file, path);
+  if (type == "float32") return type + bits<float>(file, path);
   if (type == "int64") return type + bits<std::int64_t>(file, path);
   if (type == "int32") return type + bits<std::int32_t>(file, path);
   throw std::runtime_error(path + " has type " + type);

@@ -30,6 +30,7 @@ std::filesystem::path stored(std::int64_t schema) {
          ("schema-" + std::to_string(schema) + ".hdf");
 }
 double pressure_of_step_6(std::int64_t schema) {
+  if (schema >= 9) return 32019.051110891956;                   // solves learn from each other
   if (schema >= 8) return 32095.307708028427;                   // rounding has changed since
   if (schema >= 4) return 32095.30770858148;                    // ground at rest is kept by a load
   return schema < 3 ? 31345.504602432295 : 31345.504602432302;  // rounding has changed since

@@ -30,6 +30,12 @@ TEST(StateFile, GivesBackEveryNumberItWasGiven) {
   plane.state.for_each_particle_field([&](const char*, const char*, auto& field) {
     for (Eigen::Index k = 0; k < field.size(); ++k) field.data()[k] = value += 1.0 / 3.0;
   });
+  plane.state.for_each_secant_field([&](const char*, const char*, auto& field) {
+    field.resize(plane.model.unknowns(), 3);
+    for (Eigen::Index k = 0; k < field.size(); ++k) {
+      field.data()[k] = static_cast<float>(value += 1.0 / 3.0);
+    }
+  });
   plane.state.programme.for_each_field([&](const char*, const char*, auto& number) {
     number = static_cast<std::remove_reference_t<decltype(number)>>(value += 1.0);
   });
@@ -46,6 +52,8 @@ TEST(StateFile, GivesBackEveryNumberItWasGiven) {
   EXPECT_EQ(read.displacement, plane.state.displacement);
   EXPECT_EQ(read.stress, plane.state.stress);
   EXPECT_EQ(read.released, plane.state.released);
+  EXPECT_EQ(read.secant_step, plane.state.secant_step);
+  EXPECT_EQ(read.secant_change, plane.state.secant_change);
   EXPECT_EQ(read.programme.external_work, plane.state.programme.external_work);
   EXPECT_EQ(notes.scene, plane.notes.scene);
   EXPECT_EQ(model::scene_of(path, notes), plane.scene);
@@ -61,7 +69,38 @@ TEST(StateFile, IsNotWrittenOfAStateThatIsNotFinite) {
                                          plane.notes, {}),
                  std::logic_error);
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    Plane other;
+    other.state.secant_step.setOnes(other.model.unknowns(), 1);
+    other.state.secant_step(3, 0) = static_cast<float>(bad);
+    EXPECT_THROW(model::write_checkpoint(folder / "step-000001.hdf", other.model, other.state,
+                                         other.notes, {}),
+                 std::logic_error);
   }
+}
+
+TEST(StateFile, IsRefusedByTheSecantPairsThatDoNotFit) {
+  const auto reason = [](auto&& spoil) {
+    const support::TemporaryFolder folder;
+    Plane plane;
+    plane.state.secant_step.setOnes(plane.model.unknowns(), 3);
+    plane.state.secant_change.setOnes(plane.model.unknowns(), 3);
+    spoil(plane.state);
+    const auto path = folder / "step-000000.hdf";
+    model::write_checkpoint(path, plane.model, plane.state, plane.notes, {});
+    record::CheckpointNotes notes;
+    const files::Hdf5File file = record::open_checkpoint(path, notes);
+    try {
+      (void)model::read_state(file, plane.model);
+    } catch (const files::FileError& failure) {
+      return failure.reason();
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(reason([](model::State<2>&) {}), "none");
+  EXPECT_EQ(reason([](model::State<2>& state) { state.secant_change.setOnes(7, 3); }),
+            "/state/secants/change is not of 192 unknowns each");
+  EXPECT_EQ(reason([](model::State<2>& state) { state.secant_change.resize(0, 0); }),
+            "/state/secants/ holds steps without changes");
 }
 
 TEST(StateFile, OfAnotherModelIsRefusedByTheDatasetThatDoesNotFit) {

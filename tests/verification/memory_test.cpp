@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include "model/state_file.hpp"
 #include "run.hpp"
 
 namespace verification {
@@ -27,6 +28,7 @@ Memory memory_after(int steps, const TestScene& scene) {
   auto state = model::initial_state(model);
   const double before = allocated();
   if (before == 0.0) return {};
+  const std::size_t of_state = model::bytes_of(state);
   stepping::LoadStepper<2> stepper(scene, model, state);
   Memory memory;
   memory.foretold = static_cast<double>(model::total(stepper.memory(true)));
@@ -34,7 +36,7 @@ Memory memory_after(int steps, const TestScene& scene) {
     EXPECT_EQ(stepper.advance().outcome, stepping::StepOutcome::converged);
   }
   memory.held = allocated() - before;
-  memory.told = static_cast<double>(stepper.bytes());
+  memory.told = static_cast<double>(stepper.bytes() + model::bytes_of(state) - of_state);
   return memory;
 }
 
