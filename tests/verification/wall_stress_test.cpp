@@ -103,7 +103,8 @@ std::string bore(int cells, int steps) {
   const std::string back = "{ centre = [0, 0], radius = 1, from = 90, to = 0 }";
   std::string text =
       fmt::format("[geometry]\nspacing = {}\n", 1.0 / cells) +
-      "[grading]\nenabled = true\n[[refine]]\nregion_min = [0, 0]\nregion_max = [3, 3]\n"
+      "[grading]\nenabled = true\ngrowth = 0.125\n[[refine]]\nregion_min = [0, 0]\nregion_max = "
+      "[3, 3]\n"
       "[approximation]\nkinematics = \"small_strain\"\n[solver]\ntolerance = 1e-6\n" +
       elastic("rock", 7e9) +
       "[[region]]\nname = \"core\"\nmaterial = \"rock\"\noutline = [[0, 0], " + arc +
