@@ -55,7 +55,11 @@ Measures<Dim>::Measures(const scene::Scene& scene, const Model<Dim>& model)
   if (scene::has_stage_drives(scene)) name_drives(scene);
   name_rotations(scene);
   if (!scene.region.empty() && !scene::is_solid(scene)) outline_ = scene::outline_of(scene);
-  for (const scene::Measure& asked : scene::resolve_measures(scene)) {
+  const std::vector<scene::Measure> all = scene::resolve_measures(scene);
+  if (std::ranges::count(all, scene::MeasureKind::stress, &scene::Measure::kind) > 0) {
+    walls_ = wall_points(scene, model);
+  }
+  for (const scene::Measure& asked : all) {
     Measure& measure = measures_.emplace_back();
     measure.kind = asked.kind;
     if (!asked.at.empty()) locate(scene, asked, measure);
@@ -202,26 +206,48 @@ void Measures<Dim>::locate(const scene::Scene& scene, const scene::Measure& aske
         fpm::PointOperator<Dim>(model_.particles, model_.ghosts, point, model_.row_options);
     return;
   }
+  locate_stress(scene, asked, measure);
+}
+
+template <int Dim>
+void Measures<Dim>::locate_stress(const scene::Scene& scene, const scene::Measure& asked,
+                                  Measure& measure) const {
   if (outline_) measure.particle = particle_of_stress(scene, *outline_, asked.at, model_);
   const auto particles = by_material(model_);
   const std::vector<fpm::Index> own{static_cast<fpm::Index>(measure.particle)};
+  const auto material = model_.material[static_cast<std::size_t>(measure.particle)];
+  const bool alternates =
+      scene::is_nearly_incompressible(scene.material[static_cast<std::size_t>(material)]);
+  const auto near = [&](const fpm::Field<Dim>& place) {
+    Interpolated result;
+    result.point =
+        fpm::PointOperator<Dim>(particles, model_.ghosts, place, model_.row_options, own);
+    if (!alternates) return result;
+    fpm::RowOptions wide = model_.row_options;
+    wide.support_radius *= 2.0;  // as of recovered_mean_stress
+    try {
+      result.mean = fpm::PointOperator<Dim>(within_reach(particles, result.point, own.front()),
+                                            model_.ghosts, place, wide, own);
+    } catch (const fpm::PoorNeighbourhood&) {
+      // The mean is that of the point's own rows, then.
+    }
+    return result;
+  };
   try {
-    measure.point =
-        fpm::PointOperator<Dim>(particles, model_.ghosts, point, model_.row_options, own);
+    const fpm::Vector<Dim> place = Eigen::Map<const fpm::Vector<Dim>>(asked.at.data());
+    measure.stress = near(place.transpose());
+    const double reach = model_.spacing_at(measure.particle);
+    const auto foot = foot_on_wall(walls_, place, reach);
+    if (!foot) return;
+    Interpolated on_wall = near(foot->place.transpose());
+    auto fit = WallStress<Dim>::at(scene, model_, walls_,
+                                   within_reach(particles, on_wall.point, own.front()), *foot,
+                                   own.front());
+    if (!fit) return;
+    measure.wall = NextToWall{std::move(on_wall), std::move(*fit), 1.0 - foot->distance / reach};
   } catch (const fpm::PoorNeighbourhood&) {
     // Where they are too few for a gradient the stress is that of the particle.
     measure.kind = scene::MeasureKind::particle_stress;
-    return;
-  }
-  const auto material = model_.material[static_cast<std::size_t>(measure.particle)];
-  if (!scene::is_nearly_incompressible(scene.material[static_cast<std::size_t>(material)])) return;
-  fpm::RowOptions wide = model_.row_options;
-  wide.support_radius *= 2.0;  // as of recovered_mean_stress
-  try {
-    measure.mean = fpm::PointOperator<Dim>(within_reach(particles, measure.point, own.front()),
-                                           model_.ghosts, point, wide, own);
-  } catch (const fpm::PoorNeighbourhood&) {
-    // The mean is that of the point's own rows, then.
   }
 }
 
@@ -358,24 +384,29 @@ fpm::Vector<Dim> Measures<Dim>::force(const Measure& measure, const State<Dim>& 
 // Linear in the particles of the nearest one's material; an image behind a mirror has the stress of
 // its particle seen there.
 template <int Dim>
-constitutive::StressVector<Dim> Measures<Dim>::stress(const Measure& measure,
+constitutive::StressVector<Dim> Measures<Dim>::stress(const Interpolated& place,
                                                       const State<Dim>& state) const {
-  constexpr std::array<std::array<int, 2>, 3> shear_axes{{{0, 1}, {1, 2}, {2, 0}}};
   constitutive::StressVector<Dim> sum = constitutive::StressVector<Dim>::Zero();
-  measure.point.for_each_value(0, [&](fpm::Index a, double weight, const auto& sign) {
-    constitutive::StressVector<Dim> seen = state.stress.col(a);
-    for (int k = 3; k < constitutive::stress_size<Dim>; ++k) {
-      const auto [i, j] = shear_axes[static_cast<std::size_t>(k - 3)];
-      seen[k] *= sign[i] * sign[j];
-    }
-    sum += weight * seen;
+  place.point.for_each_value(0, [&](fpm::Index a, double weight, const auto& sign) {
+    sum += weight * behind_mirror<Dim>(state.stress.col(a), sign);
   });
-  if (measure.mean) {
+  if (place.mean) {
     const Eigen::VectorXd mean = state.stress.template topRows<3>().colwise().mean().transpose();
     sum.template head<3>().array() +=
-        measure.mean->scalar_value(0, mean) - sum.template head<3>().mean();
+        place.mean->scalar_value(0, mean) - sum.template head<3>().mean();
   }
   return sum;
+}
+
+// Away from a wall the particles' error falls to a half in half a spacing, and so does what mends
+// it.
+template <int Dim>
+constitutive::StressVector<Dim> Measures<Dim>::stress(const Measure& measure,
+                                                      const State<Dim>& state) const {
+  const constitutive::StressVector<Dim> here = stress(measure.stress, state);
+  if (!measure.wall) return here;
+  const constitutive::StressVector<Dim> foot = stress(measure.wall->foot, state);
+  return here + measure.wall->share * (measure.wall->fit.of(state, foot) - foot);
 }
 
 template <int Dim>

@@ -198,6 +198,8 @@ struct Model {
   // equilibrium with, the weight and its own traction on free sides [N/m or N].
   Eigen::Matrix<double, constitutive::stress_size<Dim>, Eigen::Dynamic> initial_stress;
   Eigen::VectorXd initial_load;
+  // Of ground that stages change, in place of initial_stress: that of each particle at first.
+  Eigen::Matrix<double, constitutive::stress_size<Dim>, Eigen::Dynamic> stress_at_rest;
   fpm::Vector<Dim> box_min;  // [m]
   fpm::Vector<Dim> box_max;  // [m]
   double spacing = 0.0;      // [m] the finest

@@ -133,6 +133,16 @@ double resolve_grading_length(const Scene& scene) {
   return shortest_extent(scene.geometry);
 }
 
+// Collapse is decided next to the fine places, whatever the spacing is elsewhere; what an elastic
+// body gives way by is a sum over all of it. Halving the spacing then halves the error and doubles
+// the particles.
+double resolve_growth(const Scene& scene) {
+  if (scene.grading.growth) return *scene.grading.growth;
+  constexpr double most = 0.125;
+  if (std::ranges::any_of(scene.material, yields)) return most;
+  return std::min(most, std::sqrt(scene.geometry.spacing / shortest_extent(scene.geometry)));
+}
+
 double resolve_coarsest(const Scene& scene) {
   constexpr double across = 8.0;
   return scene.grading.coarsest.value_or(
@@ -152,13 +162,13 @@ double wanted_spacing(const Scene& scene, const std::vector<FinePlace>& places,
       return scene.geometry.spacing;
     }
   }
-  const double length = resolve_grading_length(scene);
+  const double length = resolve_grading_length(scene), growth = resolve_growth(scene);
   double wanted = resolve_coarsest(scene);
   for (const Material& material : scene.material) {
     wanted = std::min(wanted, fitting_spacing(material, scene.geometry, slack, min, max));
   }
   const auto grown = [&](double r) {
-    return scene.grading.growth * length * std::pow(r / length, scene.grading.exponent);
+    return growth * length * std::pow(r / length, scene.grading.exponent);
   };
   if (std::isfinite(to_hollows)) {
     wanted = std::min(wanted, std::max(scene.geometry.spacing, grown(to_hollows)));

@@ -24,6 +24,9 @@ struct FinePlace {
 /// the shortest extent of the body.
 [[nodiscard]] double resolve_grading_length(const Scene& scene);
 
+/// A of that rule: the scene's, else 1/8, or less where nothing yields.
+[[nodiscard]] double resolve_growth(const Scene& scene);
+
 /// The widest spacing [m] allowed: the scene's, else an eighth of the shortest extent.
 [[nodiscard]] double resolve_coarsest(const Scene& scene);
 

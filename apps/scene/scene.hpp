@@ -106,7 +106,7 @@ struct Cutout {
 /// How the spacing grows away from where particles are finest.
 struct Grading {
   bool enabled = false;
-  double growth = 0.125;
+  std::optional<double> growth;  // absent: resolve_growth
   double exponent = 0.5;
   std::optional<double> length;    // [m] absent: resolve_grading_length
   std::optional<double> coarsest;  // [m] absent: resolve_coarsest

@@ -96,6 +96,7 @@ double reduction_at_end(const Scene& whole, std::size_t stages) {
 Scene after_changes(const Scene& whole, std::size_t stages) {
   Scene scene = whole;
   if (has_stage_drives(whole)) scene.grading.length = resolve_grading_length(whole);
+  if (whole.grading.enabled) scene.grading.growth = resolve_growth(whole);
   // Every stage measures the same, be a support there or not.
   scene.measure = resolve_measures(whole);
   // As the whole run has it: stages differ in what is there, not in how it is computed.

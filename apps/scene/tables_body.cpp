@@ -171,9 +171,12 @@ SceneTable grading() {
            {.doc = "true: finest at the ends of plates and loads, at re-entrant corners of "
                    "regions, at cutouts, holes and hollow arcs, and at the places of [[refine]]."})
       .key("growth", &Grading::growth,
-           {.range = {0.0, 1.0, true, false},
+           {.need = tables::Need::optional,
+            .range = {0.0, 1.0, true, false},
             .doc = "A: at a distance r from the nearest such place the spacing is at most "
-                   "A L (r / L)^exponent."})
+                   "A L (r / L)^exponent.",
+            .absent = "1/8; where nothing yields at most sqrt(spacing / shortest extent), as "
+                      "errors there are those of the coarse cells"})
       .key("exponent", &Grading::exponent,
            {.range = tables::between(0.0, 1.0),
             .doc =

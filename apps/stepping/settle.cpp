@@ -32,6 +32,7 @@ scene::Scene settling(const scene::Scene& scene) {
     ground.refine.push_back(refine);
   }
   ground.grading.length = scene::resolve_grading_length(scene);
+  ground.grading.growth = scene::resolve_growth(scene);
   // What grows later is not there yet.
   const auto grows = [&](const std::string& name) {
     return scene::grows(scene, scene::LoadKind::traction, name);

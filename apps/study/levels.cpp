@@ -187,7 +187,8 @@ std::vector<std::string> settings_of_spacing(const scene::Scene& scene, double s
   std::vector<std::string> settings{fmt::format("geometry.spacing={}", spacing)};
   if (!scene.grading.enabled) return settings;
   const double times = spacing / scene.geometry.spacing;
-  settings.push_back(fmt::format("grading.growth={}", std::min(1.0, times * scene.grading.growth)));
+  settings.push_back(
+      fmt::format("grading.growth={}", std::min(1.0, times * scene::resolve_growth(scene))));
   settings.push_back(fmt::format("grading.coarsest={}", times * scene::resolve_coarsest(scene)));
   for (std::size_t i = 0; i < scene.refine.size(); ++i) {
     if (!scene.refine[i].spacing) continue;

@@ -67,6 +67,21 @@ TEST(Grading, HasDefaultsFromTheBody) {
   EXPECT_EQ(resolve_grading_length(sample("reference_length = 0.5\n")), 0.5);
 }
 
+// The body's least extent is 1: closer where an elastic one's finest spacing is less than a 64th of
+// that, never where ground yields.
+TEST(Grading, IsCloserInElasticBodiesOfFineSpacing) {
+  Scene scene = sample("");
+  for (Material& material : scene.material) material.model = "von_mises";
+  scene.geometry.spacing = 1.0 / 256.0;
+  EXPECT_EQ(resolve_growth(scene), 0.125);
+  for (Material& material : scene.material) material.model = "elastic";
+  EXPECT_DOUBLE_EQ(resolve_growth(scene), 1.0 / 16.0);
+  scene.geometry.spacing = 0.1;
+  EXPECT_EQ(resolve_growth(scene), 0.125);
+  scene.grading.growth = 0.25;
+  EXPECT_EQ(resolve_growth(scene), 0.25);
+}
+
 TEST(Grading, FollowsRegions) {
   const Scene scene = sample(
       "[grading]\nenabled = true\n[[material]]\nname = \"rock\"\nmodel = \"elastic\"\n"

@@ -95,7 +95,7 @@ TEST(ASpacing, MakesAllGradedParticlesAsMuchFiner) {
   const scene::Scene fine = shipped("crest.toml", settings_of_spacing(crest, half));
   ASSERT_TRUE(fine.grading.enabled);
   EXPECT_DOUBLE_EQ(fine.geometry.spacing, half);
-  EXPECT_DOUBLE_EQ(fine.grading.growth, crest.grading.growth / 2.0);
+  EXPECT_DOUBLE_EQ(scene::resolve_growth(fine), scene::resolve_growth(crest) / 2.0);
   EXPECT_DOUBLE_EQ(scene::resolve_coarsest(fine), scene::resolve_coarsest(crest) / 2.0);
   const scene::Scene strip = shipped("prandtl_phi0.toml");
   EXPECT_THAT(settings_of_spacing(strip, 0.125), ElementsAre("geometry.spacing=0.125"));
