@@ -1,5 +1,7 @@
 #include "equilibrium/initial_balance.hpp"
 
+#include <cmath>
+
 #include "constitutive/tensor.hpp"
 
 namespace equilibrium {
@@ -106,9 +108,12 @@ InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
     }
   }
   // The supports bear weight and traction, to the last particle.
-  const double missing = -model.initial_load.segment(up * n, n).sum() - borne.col(up).sum();
-  if (borne.col(up).sum() != 0.0) {
-    const double more = missing / borne.col(up).sum();
+  const double whole = borne.col(up).sum();
+  const double missing = -model.initial_load.segment(up * n, n).sum() - whole;
+  // Sides that press against each other bear nothing in sum.
+  constexpr double round_off = 1e-9;
+  if (std::abs(whole) > round_off * borne.col(up).cwiseAbs().sum()) {
+    const double more = missing / whole;
     balance.reaction.col(up) += more * borne.col(up);
     if (model.layout.thin) {
       auto by_sides = balance.side_reaction;

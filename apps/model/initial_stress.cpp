@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fpm/boundary_loads.hpp"
+#include "model/initial_equilibrium.hpp"
 #include "model/side_points.hpp"
 #include "scene/derived.hpp"
 #include "scene/geostatic.hpp"
@@ -34,21 +36,55 @@ constitutive::StressVector<Dim> geostatic_stress(const scene::Scene& scene,
                                                  std::size_t material) {
   const double vertical = scene::geostatic_stress(scene, {place.data(), Dim});
   constitutive::StressVector<Dim> stress = constitutive::StressVector<Dim>::Zero();
-  stress.template head<3>().setConstant(scene::resolve_k0(scene, scene.material[material]) *
-                                        vertical);
+  stress[0] = scene::resolve_k0(scene, scene.material[material]) * vertical;
   stress[up] = vertical;
+  stress[2] = scene::resolve_k0_z(scene, scene.material[material]) * vertical;
   return stress;
 }
 
 template <int Dim>
+constitutive::StressVector<Dim> initial_stress_at(const scene::Scene& scene,
+                                                  const fpm::Vector<Dim>& place,
+                                                  std::size_t material) {
+  if (scene.initial_stress.kind == scene::InitialStressKind::geostatic) {
+    return geostatic_stress<Dim>(scene, place, material);
+  }
+  if (scene.initial_stress.kind != scene::InitialStressKind::uniform) {
+    return constitutive::StressVector<Dim>::Zero();
+  }
+  const auto stress = scene::uniform_stress(scene, scene.material[material]);
+  return Eigen::Map<const constitutive::StressVector<Dim>>(stress.data());
+}
+
+template <int Dim>
+Eigen::VectorXd constant_loads(const Model<Dim>& model) {
+  Eigen::VectorXd loads = model.constant_load;
+  const fpm::Field<Dim> at_rest = fpm::Field<Dim>::Zero(model.size(), Dim);
+  Eigen::Map<fpm::Field<Dim>> field(loads.data(), model.size(), Dim);
+  for (const FollowingPressure<Dim>& following : model.following_pressures) {
+    if (following.scaled) continue;
+    (void)fpm::add_following_pressure<Dim>(following.op, following.points, following.pressure,
+                                           at_rest, field);
+  }
+  return loads;
+}
+
+template <int Dim>
 void add_initial_stress(const scene::Scene& scene, Model<Dim>& model) {
-  if (scene.initial_stress.kind != scene::InitialStressKind::geostatic) return;
+  const bool uniform = scene.initial_stress.kind == scene::InitialStressKind::uniform;
+  if (!uniform && scene.initial_stress.kind != scene::InitialStressKind::geostatic) return;
   const Eigen::Index n = model.size();
   model.initial_stress.resize(constitutive::stress_size<Dim>, n);
   for (Eigen::Index a = 0; a < n; ++a) {
     model.initial_stress.col(a) =
-        geostatic_stress<Dim>(scene, model.particles.position.row(a).transpose(),
-                              model.material[static_cast<std::size_t>(a)]);
+        initial_stress_at<Dim>(scene, model.particles.position.row(a).transpose(),
+                               model.material[static_cast<std::size_t>(a)]);
+  }
+  if (uniform) {
+    // It is borne by what bears it (check_uniform_stress), to the last particle.
+    add_loaded_sides(scene, model);
+    model.initial_load = constant_loads(model);
+    return;
   }
   model.initial_load.setZero(model.unknowns());
   Eigen::Map<fpm::Field<Dim>> load(model.initial_load.data(), n, Dim);
@@ -79,6 +115,12 @@ template constitutive::StressVector<2> geostatic_stress<2>(const scene::Scene&,
                                                            const fpm::Vector<2>&, std::size_t);
 template constitutive::StressVector<3> geostatic_stress<3>(const scene::Scene&,
                                                            const fpm::Vector<3>&, std::size_t);
+template constitutive::StressVector<2> initial_stress_at<2>(const scene::Scene&,
+                                                            const fpm::Vector<2>&, std::size_t);
+template constitutive::StressVector<3> initial_stress_at<3>(const scene::Scene&,
+                                                            const fpm::Vector<3>&, std::size_t);
+template Eigen::VectorXd constant_loads<2>(const Model<2>&);
+template Eigen::VectorXd constant_loads<3>(const Model<3>&);
 template void add_initial_stress<2>(const scene::Scene&, Model<2>&);
 template void add_initial_stress<3>(const scene::Scene&, Model<3>&);
 

@@ -8,11 +8,13 @@
 #include <map>
 #include <string_view>
 
+#include "model/initial_stress.hpp"
 #include "model/penalty_targets.hpp"
 #include "model/selection.hpp"
 #include "scene/derived.hpp"
 #include "scene/element_body.hpp"
 #include "scene/ground.hpp"
+#include "scene/names.hpp"
 #include "scene/scene.hpp"
 #include "scene/stages.hpp"
 
@@ -274,6 +276,16 @@ void Measures<Dim>::find_side(const scene::Scene& scene, scene::Side side, Measu
     if (scene::is_rigid_body(drive) && drive.side == side && !drive.level) {
       add_contacts(&Interface<Dim>::of_drive, scene::name_of_drive(drive), measure);
     }
+  }
+  if (scene.region.empty() &&
+      std::ranges::count(scene.initial_stress.loaded_sides, scene::name_of(side)) > 0) {
+    scene::Traction whole;
+    whole.side = side;
+    const int axis = scene::axis_of(side);
+    const fpm::Tensor<Dim> stress =
+        constitutive::spatial_part<Dim>(initial_stress_at<Dim>(scene, fpm::Vector<Dim>::Zero(), 0));
+    const double area = (scene::is_upper(side) ? 1.0 : -1.0) * size_of(scene, whole);
+    measure.loads.push_back({stress.col(axis) * area, {}, {}});
   }
   std::size_t following = 0;
   for (const scene::Traction& traction : scene.traction) {

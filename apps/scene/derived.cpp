@@ -343,6 +343,21 @@ double resolve_k0(const Scene& scene, const Material& material) {
                                           (1.0 - material.poissons_ratio));
 }
 
+double resolve_k0_z(const Scene& scene, const Material& material) {
+  return scene.initial_stress.K0_z.value_or(resolve_k0(scene, material));
+}
+
+std::array<double, 6> uniform_stress(const Scene& scene, const Material& material) {
+  const InitialStress& s = scene.initial_stress;
+  const double x = s.sigma_x.value_or(0.0), y = s.sigma_y.value_or(0.0);
+  return {x,
+          y,
+          s.sigma_z.value_or(material.poissons_ratio * (x + y)),
+          s.sigma_xy.value_or(0.0),
+          s.sigma_yz.value_or(0.0),
+          s.sigma_zx.value_or(0.0)};
+}
+
 Interface interface_between(const Scene& scene, std::size_t one, std::size_t other) {
   const std::string& first = scene.material[one].name;
   const std::string& second = scene.material[other].name;

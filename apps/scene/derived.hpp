@@ -121,6 +121,11 @@ struct SolverSettings {
 
 /// Horizontal over vertical geostatic stress in a material.
 [[nodiscard]] double resolve_k0(const Scene& scene, const Material& material);
+/// The same along z.
+[[nodiscard]] double resolve_k0_z(const Scene& scene, const Material& material);
+
+/// Components of a uniform initial stress [Pa], rows xx yy zz xy yz zx, in a material.
+[[nodiscard]] std::array<double, 6> uniform_stress(const Scene& scene, const Material& material);
 
 /// What happens where two materials meet, by their numbers: the scene's table of them, or its
 /// approximation.interfaces.
