@@ -1,7 +1,5 @@
 #include "equilibrium/initial_balance.hpp"
 
-#include <cmath>
-
 #include "constitutive/tensor.hpp"
 
 namespace equilibrium {
@@ -67,6 +65,28 @@ void add_side_reactions(
   }
 }
 
+// The supports bear weight and traction, to the last particle: what is missing is shared out by how
+// much each bears, also where some press against others.
+template <int Dim>
+void bear_the_whole(const model::Model<Dim>& model, const Eigen::VectorXd& first,
+                    Eigen::Index stride, const fpm::Field<Dim>& borne,
+                    InitialBalance<Dim>& balance) {
+  const double shared = borne.col(up).cwiseAbs().sum();
+  if (shared == 0.0) return;
+  const Eigen::Index n = model.size();
+  const double missing = -model.initial_load.segment(up * n, n).sum() - borne.col(up).sum();
+  const Eigen::VectorXd more = missing / shared * borne.col(up).cwiseSign();
+  balance.reaction.col(up) += more.cwiseProduct(borne.col(up));
+  if (!model.layout.thin) return;
+  auto by_sides = balance.side_reaction;
+  by_sides.setZero();
+  add_side_reactions<Dim>(model, first.data(), stride, by_sides, false);
+  for (int side = 0; side < 2 * Dim; ++side) {
+    const int row = side * Dim + up;
+    balance.side_reaction.row(row) += more.transpose().cwiseProduct(by_sides.row(row));
+  }
+}
+
 template <int Dim>
 InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
                                            const fpm::MomentOperator<Dim>& op) {
@@ -107,23 +127,7 @@ InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
       }
     }
   }
-  // The supports bear weight and traction, to the last particle.
-  const double whole = borne.col(up).sum();
-  const double missing = -model.initial_load.segment(up * n, n).sum() - whole;
-  // Sides that press against each other bear nothing in sum.
-  constexpr double round_off = 1e-9;
-  if (std::abs(whole) > round_off * borne.col(up).cwiseAbs().sum()) {
-    const double more = missing / whole;
-    balance.reaction.col(up) += more * borne.col(up);
-    if (model.layout.thin) {
-      auto by_sides = balance.side_reaction;
-      by_sides.setZero();
-      add_side_reactions<Dim>(model, first.data(), op.stride(), by_sides, false);
-      for (int side = 0; side < 2 * Dim; ++side) {
-        balance.side_reaction.row(side * Dim + up) += more * by_sides.row(side * Dim + up);
-      }
-    }
-  }
+  bear_the_whole(model, first, op.stride(), borne, balance);
   return balance;
 }
 

@@ -19,6 +19,7 @@
 #include "model/surface.hpp"
 #include "scene/derived.hpp"
 #include "scene/drives.hpp"
+#include "scene/element_body.hpp"
 #include "scene/ground.hpp"
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
@@ -210,7 +211,8 @@ class Bearing {
       name = cutout(place)->name;
     } else if (side(place) != nullptr) {
       name = side(place)->name;
-    } else if (place.face >= 0 && scene_.region.empty()) {
+    } else if (place.face >= 0 &&
+               scene::is_face_by_itself(scene_, static_cast<scene::Side>(place.face))) {
       name = scene::name_of(static_cast<scene::Side>(place.face));
     }
     return !name.empty() && std::ranges::count(scene_.initial_stress.loaded_sides, name) > 0;
@@ -319,9 +321,10 @@ void add_loaded_sides(const scene::Scene& scene, Model<Dim>& model) {
     for (std::size_t i = 0; i < scene.cutout.size(); ++i) {
       if (scene.cutout[i].name == name) add(surface_points(model, SurfacePart::of_cutout(i)));
     }
-    for (int f = 0; f < 2 * Dim && scene.region.empty(); ++f) {
+    for (int f = 0; f < 2 * Dim; ++f) {
       const auto face = static_cast<scene::Side>(f);
-      if (scene::name_of(face) == name) add(side_points(scene, model, face, {}, {}));
+      if (scene::name_of(face) != name || !scene::is_face_by_itself(scene, face)) continue;
+      add(side_points(scene, model, face, {}, {}));
     }
   }
 }

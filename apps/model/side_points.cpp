@@ -7,6 +7,7 @@
 #include "model/bodies.hpp"
 #include "model/surface.hpp"
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
 
@@ -31,8 +32,9 @@ std::string name_of_surface(const scene::Scene& scene, int cut, int side, int fa
   if (cut >= 0) return fmt::format("the cutout \"{}\"", scene.cutout[index(cut)].name);
   if (side >= 0) return fmt::format("the side \"{}\"", scene.side[index(side)].name);
   if (side == exposed_side) return "ground that lies bare";
-  if (face >= 0 && scene.region.empty()) {
-    return fmt::format("the face \"{}\"", scene::name_of(static_cast<scene::Side>(face)));
+  const auto of_box = static_cast<scene::Side>(face);
+  if (face >= 0 && scene::is_face_by_itself(scene, of_box)) {
+    return fmt::format("the face \"{}\"", scene::name_of(of_box));
   }
   return "a part of the outline that no [[side]] names";
 }

@@ -8,6 +8,7 @@
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
 #include "scene/drives.hpp"
+#include "scene/element_body.hpp"
 #include "scene/names.hpp"
 
 namespace scene {
@@ -77,9 +78,9 @@ void check_components(const Scene& scene, tables::Diagnosis& diagnosis) {
 // Names of what a stress may load: sides of the outline, or faces of the box, and cutouts.
 std::vector<std::string_view> loadable(const Scene& scene) {
   std::vector<std::string_view> names;
-  if (scene.region.empty()) {
-    const std::size_t faces = 2 * static_cast<std::size_t>(scene.geometry.dimension);
-    for (std::size_t f = 0; f < faces; ++f) names.push_back(name_of(static_cast<Side>(f)));
+  for (int f = 0; f < 2 * scene.geometry.dimension; ++f) {
+    const auto face = static_cast<Side>(f);
+    if (is_face_by_itself(scene, face)) names.push_back(name_of(face));
   }
   for (const OutlineSide& side : scene.side) names.push_back(side.name);
   for (const Cutout& cutout : scene.cutout) names.push_back(cutout.name);
