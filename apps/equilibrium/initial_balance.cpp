@@ -45,7 +45,7 @@ void add_interface_forces(const model::Model<Dim>& model, Eigen::Index stride,
 }
 
 bool moves(const auto& model, std::size_t plane) {
-  return !model.plane_drive.empty() && !model.plane_drive[plane].isZero();
+  return !model.wall_bears && !model.plane_drive.empty() && !model.plane_drive[plane].isZero();
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
   Eigen::VectorXd force = forces_of_stress(model, op);
   InitialBalance<Dim> balance;
   balance.load.setZero(model.unknowns());
-  // What moves bears nothing at first.
+  // What moves bears nothing at first, unless it is a wall.
   fpm::Field<Dim> borne = fpm::Field<Dim>::Zero(n, Dim);
   fpm::Field<Dim> by_moving = borne;
   const auto& planes = model.ghosts.planes();

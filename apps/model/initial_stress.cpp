@@ -28,6 +28,22 @@ bool bears_across(const scene::Scene& scene, scene::Side side) {
          });
 }
 
+// Where the wall that the drive moves is.
+template <int Dim>
+bool is_at_wall(const scene::Scene& scene, scene::Side side, const fpm::Vector<Dim>& place) {
+  const scene::Drive& drive = scene.drive;
+  if (!scene::drives_wall(scene) || drive.side != side) return false;
+  const double slack = scene::same_place(scene.geometry);
+  std::size_t k = 0;
+  for (int i = 0; i < Dim && !drive.range_min.empty(); ++i) {
+    if (i == scene::axis_of(side)) continue;
+    if (place[i] < drive.range_min[k] - slack || place[i] > drive.range_max[k] + slack)
+      return false;
+    ++k;
+  }
+  return true;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -86,6 +102,7 @@ void add_initial_stress(const scene::Scene& scene, Model<Dim>& model) {
     model.initial_load = constant_loads(model);
     return;
   }
+  model.wall_bears = scene::drives_wall(scene);
   model.initial_load.setZero(model.unknowns());
   Eigen::Map<fpm::Field<Dim>> load(model.initial_load.data(), n, Dim);
   for (std::size_t i = 0; i < scene.gravity.acceleration.size(); ++i) {
@@ -100,6 +117,7 @@ void add_initial_stress(const scene::Scene& scene, Model<Dim>& model) {
     fpm::Field<Dim> force = fpm::Field<Dim>::Zero(face.points.size(), Dim);
     for (fpm::Index c = 0; c < face.points.size(); ++c) {
       const fpm::Vector<Dim> place = face.points.position.row(c).transpose();
+      if (is_at_wall<Dim>(scene, side, place)) continue;
       // Of the material within, where the face ends at an interface.
       fpm::Vector<Dim> within = place;
       within[axis] += (scene::is_upper(side) ? -0.5 : 0.5) * model.spacing;

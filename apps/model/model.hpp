@@ -198,6 +198,7 @@ struct Model {
   // equilibrium with, the weight and its own traction on free sides [N/m or N].
   Eigen::Matrix<double, constitutive::stress_size<Dim>, Eigen::Dynamic> initial_stress;
   Eigen::VectorXd initial_load;
+  bool wall_bears = false;   // whether what the drive moves bears that stress from the first
   fpm::Vector<Dim> box_min;  // [m]
   fpm::Vector<Dim> box_max;  // [m]
   double spacing = 0.0;      // [m] the finest

@@ -221,6 +221,12 @@ std::optional<ActingDrive> drive_by_images(const Scene& scene) {
   return std::nullopt;
 }
 
+bool drives_wall(const Scene& scene) {
+  const Drive& drive = scene.drive;
+  if (drive.kind != DriveKind::displacement || drive.later || drive.side == Side::top) return false;
+  return resolve_drive_method(scene) == DriveMethod::ghosts;
+}
+
 DriveMethod resolve_drive_method(const Scene& scene, const Drive& drive) {
   if (drive.method != DriveMethod::automatic) return drive.method;
   // As a support's.

@@ -79,6 +79,10 @@ struct Support;
 /// The drive that moves or holds its side by images: one at most, as none begins with them later.
 [[nodiscard]] std::optional<ActingDrive> drive_by_images(const Scene& scene);
 
+/// Whether the drive's plate is a wall, which from the first bears what ground at rest presses
+/// against it: what is moved by images, of a side other than the surface.
+[[nodiscard]] bool drives_wall(const Scene& scene);
+
 /// A name as that of a column of the curve: neither commas nor spaces.
 [[nodiscard]] std::string column_name(const std::string& name);
 

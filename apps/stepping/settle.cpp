@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "model/build.hpp"
@@ -15,6 +16,22 @@
 
 namespace stepping {
 namespace {
+
+bool is_held(const scene::Scene& scene, scene::Side side) {
+  return std::ranges::any_of(
+      scene.support, [side](const scene::Support& support) { return support.side == side; });
+}
+
+// A wall holds the ground that settles, if it goes all along its side.
+void hold_wall(const scene::Scene& scene, scene::Scene& ground) {
+  const scene::Drive& drive = scene.drive;
+  if (!drive.range_min.empty() || is_held(scene, drive.side)) return;
+  scene::Support wall;
+  wall.name = scene::name_of_drive(drive);
+  wall.side = drive.side;
+  wall.directions = {static_cast<scene::Axis>(scene::axis_of(drive.side))};
+  ground.support.push_back(wall);
+}
 
 // The scene before its drive begins: weight, or else its dead loads, grow on the same particles.
 scene::Scene settling(const scene::Scene& scene) {
@@ -42,6 +59,7 @@ scene::Scene settling(const scene::Scene& scene) {
   for (scene::Cutout& cutout : ground.cutout) {
     if (grows(cutout.name)) cutout.pressure = cutout.shear = 0.0;
   }
+  if (scene::drives_wall(scene)) hold_wall(scene, ground);
   ground.drive = {};
   ground.other_drives.clear();
   ground.drive.kind = scene::DriveKind::load;
@@ -133,6 +151,7 @@ model::Model<Dim> model_at_rest(const scene::Scene& scene) {
   if (scene.initial_stress.K0 || scene.initial_stress.K0_z)
     rest = with_lateral_stress(scene, ground, rest);
   take_stress(ground, rest, model);
+  model.wall_bears = scene::drives_wall(scene) && is_held(ground_scene, scene.drive.side);
   return model;
 }
 
