@@ -284,6 +284,7 @@ struct Stage {
   std::vector<std::string> hold;                       // supports
   std::vector<PlanePoint> water_table;                 // [m]
   std::optional<tables::VaryingNumber> pore_pressure;  // [Pa]
+  std::optional<double> kh, kv;                        // of an earthquake
   std::vector<std::string> materials;                  // whose values change, to one of each list:
   Point cohesion;                                      // [Pa]
   Point friction_angle;                                // [deg]
