@@ -12,7 +12,6 @@
 
 #include "constitutive/material.hpp"
 #include "constitutive/tensor.hpp"
-#include "fpm/boundary_loads.hpp"
 #include "model/initial_stress.hpp"
 #include "model/refusal.hpp"
 #include "model/side_points.hpp"
@@ -307,29 +306,6 @@ void check_strength(const scene::Scene& scene, const Model<Dim>& model) {
 }  // namespace
 
 template <int Dim>
-void add_loaded_sides(const scene::Scene& scene, Model<Dim>& model) {
-  const Tensor<Dim> stress = tensor_of<Dim>(scene);
-  Eigen::Map<fpm::Field<Dim>> load(model.constant_load.data(), model.size(), Dim);
-  const auto add = [&](const SurfacePoints<Dim>& surface) {
-    const fpm::Field<Dim> traction = surface.points.normal * stress;  // which is symmetric
-    fpm::add_traction<Dim>(surface.op, surface.points, traction, load);
-  };
-  for (const std::string& name : scene.initial_stress.loaded_sides) {
-    for (std::size_t i = 0; i < scene.side.size(); ++i) {
-      if (scene.side[i].name == name) add(surface_points(model, SurfacePart::of_side(i)));
-    }
-    for (std::size_t i = 0; i < scene.cutout.size(); ++i) {
-      if (scene.cutout[i].name == name) add(surface_points(model, SurfacePart::of_cutout(i)));
-    }
-    for (int f = 0; f < 2 * Dim; ++f) {
-      const auto face = static_cast<scene::Side>(f);
-      if (scene::name_of(face) != name || !scene::is_face_by_itself(scene, face)) continue;
-      add(side_points(scene, model, face, {}, {}));
-    }
-  }
-}
-
-template <int Dim>
 void check_uniform_stress(const scene::Scene& scene, const Model<Dim>& model) {
   if (scene.initial_stress.kind != scene::InitialStressKind::uniform) return;
   const Tensor<Dim> stress = tensor_of<Dim>(scene);
@@ -338,8 +314,6 @@ void check_uniform_stress(const scene::Scene& scene, const Model<Dim>& model) {
   check_strength(scene, model);
 }
 
-template void add_loaded_sides<2>(const scene::Scene&, Model<2>&);
-template void add_loaded_sides<3>(const scene::Scene&, Model<3>&);
 template void check_uniform_stress<2>(const scene::Scene&, const Model<2>&);
 template void check_uniform_stress<3>(const scene::Scene&, const Model<3>&);
 

@@ -8,11 +8,6 @@ struct Scene;
 
 namespace model {
 
-/// Loads the sides beyond which the ground goes on (`initial_stress.loaded_sides`) with what the
-/// uniform stress presses and shears them with: sigma n, in the model's constant loads.
-template <int Dim>
-void add_loaded_sides(const scene::Scene& scene, Model<Dim>& model);
-
 /// Whether ground under a uniform initial stress is at rest: at every side supports, mirrors,
 /// contacts and constant loads bear sigma n, faces between materials bear it, and no material is
 /// beyond its strength. Silent for scenes of another initial stress.

@@ -3,10 +3,12 @@
 #include <algorithm>
 
 #include "fpm/boundary_loads.hpp"
-#include "model/initial_equilibrium.hpp"
 #include "model/side_points.hpp"
+#include "model/surface.hpp"
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
 #include "scene/geostatic.hpp"
+#include "scene/names.hpp"
 #include "scene/scene.hpp"
 
 namespace model {
@@ -71,6 +73,37 @@ constitutive::StressVector<Dim> initial_stress_at(const scene::Scene& scene,
   const auto stress = scene::uniform_stress(scene, scene.material[material]);
   return Eigen::Map<const constitutive::StressVector<Dim>>(stress.data());
 }
+
+namespace {
+
+// Loads the sides beyond which the ground goes on with what the uniform stress presses and shears
+// them with: sigma n, in the model's constant loads.
+template <int Dim>
+void add_loaded_sides(const scene::Scene& scene, Model<Dim>& model) {
+  // In the plane, and in space all of it, it is the same in all materials.
+  const fpm::Tensor<Dim> stress =
+      constitutive::spatial_part<Dim>(initial_stress_at<Dim>(scene, fpm::Vector<Dim>::Zero(), 0));
+  Eigen::Map<fpm::Field<Dim>> load(model.constant_load.data(), model.size(), Dim);
+  const auto add = [&](const SurfacePoints<Dim>& surface) {
+    const fpm::Field<Dim> traction = surface.points.normal * stress;  // which is symmetric
+    fpm::add_traction<Dim>(surface.op, surface.points, traction, load);
+  };
+  for (const std::string& name : scene.initial_stress.loaded_sides) {
+    for (std::size_t i = 0; i < scene.side.size(); ++i) {
+      if (scene.side[i].name == name) add(surface_points(model, SurfacePart::of_side(i)));
+    }
+    for (std::size_t i = 0; i < scene.cutout.size(); ++i) {
+      if (scene.cutout[i].name == name) add(surface_points(model, SurfacePart::of_cutout(i)));
+    }
+    for (int f = 0; f < 2 * Dim; ++f) {
+      const auto face = static_cast<scene::Side>(f);
+      if (scene::name_of(face) != name || !scene::is_face_by_itself(scene, face)) continue;
+      add(side_points(scene, model, face, {}, {}));
+    }
+  }
+}
+
+}  // namespace
 
 template <int Dim>
 Eigen::VectorXd constant_loads(const Model<Dim>& model) {
