@@ -45,7 +45,7 @@ void add_interface_forces(const model::Model<Dim>& model, Eigen::Index stride,
 }
 
 bool moves(const auto& model, std::size_t plane) {
-  return !model.plane_drive.empty() && !model.plane_drive[plane].isZero();
+  return !model.wall_bears && !model.plane_drive.empty() && !model.plane_drive[plane].isZero();
 }
 
 }  // namespace
@@ -65,6 +65,28 @@ void add_side_reactions(
   }
 }
 
+// The supports bear weight and traction, to the last particle: what is missing is shared out by how
+// much each bears, also where some press against others.
+template <int Dim>
+void bear_the_whole(const model::Model<Dim>& model, const Eigen::VectorXd& first,
+                    Eigen::Index stride, const fpm::Field<Dim>& borne,
+                    InitialBalance<Dim>& balance) {
+  const double shared = borne.col(up).cwiseAbs().sum();
+  if (shared == 0.0) return;
+  const Eigen::Index n = model.size();
+  const double missing = -model.initial_load.segment(up * n, n).sum() - borne.col(up).sum();
+  const Eigen::VectorXd more = missing / shared * borne.col(up).cwiseSign();
+  balance.reaction.col(up) += more.cwiseProduct(borne.col(up));
+  if (!model.layout.thin) return;
+  auto by_sides = balance.side_reaction;
+  by_sides.setZero();
+  add_side_reactions<Dim>(model, first.data(), stride, by_sides, false);
+  for (int side = 0; side < 2 * Dim; ++side) {
+    const int row = side * Dim + up;
+    balance.side_reaction.row(row) += more.transpose().cwiseProduct(by_sides.row(row));
+  }
+}
+
 template <int Dim>
 InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
                                            const fpm::MomentOperator<Dim>& op) {
@@ -72,7 +94,7 @@ InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
   Eigen::VectorXd force = forces_of_stress(model, op);
   InitialBalance<Dim> balance;
   balance.load.setZero(model.unknowns());
-  // What moves bears nothing at first.
+  // What moves bears nothing at first, unless it is a wall.
   fpm::Field<Dim> borne = fpm::Field<Dim>::Zero(n, Dim);
   fpm::Field<Dim> by_moving = borne;
   const auto& planes = model.ghosts.planes();
@@ -105,20 +127,7 @@ InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
       }
     }
   }
-  // The supports bear weight and traction, to the last particle.
-  const double missing = -model.initial_load.segment(up * n, n).sum() - borne.col(up).sum();
-  if (borne.col(up).sum() != 0.0) {
-    const double more = missing / borne.col(up).sum();
-    balance.reaction.col(up) += more * borne.col(up);
-    if (model.layout.thin) {
-      auto by_sides = balance.side_reaction;
-      by_sides.setZero();
-      add_side_reactions<Dim>(model, first.data(), op.stride(), by_sides, false);
-      for (int side = 0; side < 2 * Dim; ++side) {
-        balance.side_reaction.row(side * Dim + up) += more * by_sides.row(side * Dim + up);
-      }
-    }
-  }
+  bear_the_whole(model, first, op.stride(), borne, balance);
   return balance;
 }
 

@@ -144,7 +144,7 @@ void assign_laws(const scene::Scene& scene, Model<Dim>& model) {
       parameters.preconsolidation_pressure =
           *scene.material[m].overconsolidation_ratio *
           constitutive::yield_pressure<Dim>(parameters.critical_stress_ratio,
-                                            geostatic_stress<Dim>(scene, place, m));
+                                            initial_stress_at<Dim>(scene, place, m));
     }
     const auto [at, is_new] = known.try_emplace(
         {m,

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 
+#include "fpm/boundary_loads.hpp"
 #include "model/side_points.hpp"
+#include "model/surface.hpp"
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
 #include "scene/geostatic.hpp"
+#include "scene/names.hpp"
 #include "scene/scene.hpp"
 
 namespace model {
@@ -26,6 +30,22 @@ bool bears_across(const scene::Scene& scene, scene::Side side) {
          });
 }
 
+// Where the wall that the drive moves is.
+template <int Dim>
+bool is_at_wall(const scene::Scene& scene, scene::Side side, const fpm::Vector<Dim>& place) {
+  const scene::Drive& drive = scene.drive;
+  if (!scene::drives_wall(scene) || drive.side != side) return false;
+  const double slack = scene::same_place(scene.geometry);
+  std::size_t k = 0;
+  for (int i = 0; i < Dim && !drive.range_min.empty(); ++i) {
+    if (i == scene::axis_of(side)) continue;
+    if (place[i] < drive.range_min[k] - slack || place[i] > drive.range_max[k] + slack)
+      return false;
+    ++k;
+  }
+  return true;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -34,22 +54,88 @@ constitutive::StressVector<Dim> geostatic_stress(const scene::Scene& scene,
                                                  std::size_t material) {
   const double vertical = scene::geostatic_stress(scene, {place.data(), Dim});
   constitutive::StressVector<Dim> stress = constitutive::StressVector<Dim>::Zero();
-  stress.template head<3>().setConstant(scene::resolve_k0(scene, scene.material[material]) *
-                                        vertical);
+  stress[0] = scene::resolve_k0(scene, scene.material[material]) * vertical;
   stress[up] = vertical;
+  stress[2] = scene::resolve_k0_z(scene, scene.material[material]) * vertical;
   return stress;
 }
 
 template <int Dim>
+constitutive::StressVector<Dim> initial_stress_at(const scene::Scene& scene,
+                                                  const fpm::Vector<Dim>& place,
+                                                  std::size_t material) {
+  if (scene.initial_stress.kind == scene::InitialStressKind::geostatic) {
+    return geostatic_stress<Dim>(scene, place, material);
+  }
+  if (scene.initial_stress.kind != scene::InitialStressKind::uniform) {
+    return constitutive::StressVector<Dim>::Zero();
+  }
+  const auto stress = scene::uniform_stress(scene, scene.material[material]);
+  return Eigen::Map<const constitutive::StressVector<Dim>>(stress.data());
+}
+
+namespace {
+
+// Loads the sides beyond which the ground goes on with what the uniform stress presses and shears
+// them with: sigma n, in the model's constant loads.
+template <int Dim>
+void add_loaded_sides(const scene::Scene& scene, Model<Dim>& model) {
+  // In the plane, and in space all of it, it is the same in all materials.
+  const fpm::Tensor<Dim> stress =
+      constitutive::spatial_part<Dim>(initial_stress_at<Dim>(scene, fpm::Vector<Dim>::Zero(), 0));
+  Eigen::Map<fpm::Field<Dim>> load(model.constant_load.data(), model.size(), Dim);
+  const auto add = [&](const SurfacePoints<Dim>& surface) {
+    const fpm::Field<Dim> traction = surface.points.normal * stress;  // which is symmetric
+    fpm::add_traction<Dim>(surface.op, surface.points, traction, load);
+  };
+  for (const std::string& name : scene.initial_stress.loaded_sides) {
+    for (std::size_t i = 0; i < scene.side.size(); ++i) {
+      if (scene.side[i].name == name) add(surface_points(model, SurfacePart::of_side(i)));
+    }
+    for (std::size_t i = 0; i < scene.cutout.size(); ++i) {
+      if (scene.cutout[i].name == name) add(surface_points(model, SurfacePart::of_cutout(i)));
+    }
+    for (int f = 0; f < 2 * Dim; ++f) {
+      const auto face = static_cast<scene::Side>(f);
+      if (scene::name_of(face) != name || !scene::is_face_by_itself(scene, face)) continue;
+      add(side_points(scene, model, face, {}, {}));
+    }
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+Eigen::VectorXd constant_loads(const Model<Dim>& model) {
+  Eigen::VectorXd loads = model.constant_load;
+  const fpm::Field<Dim> at_rest = fpm::Field<Dim>::Zero(model.size(), Dim);
+  Eigen::Map<fpm::Field<Dim>> field(loads.data(), model.size(), Dim);
+  for (const FollowingPressure<Dim>& following : model.following_pressures) {
+    if (following.scaled) continue;
+    (void)fpm::add_following_pressure<Dim>(following.op, following.points, following.pressure,
+                                           at_rest, field);
+  }
+  return loads;
+}
+
+template <int Dim>
 void add_initial_stress(const scene::Scene& scene, Model<Dim>& model) {
-  if (scene.initial_stress.kind != scene::InitialStressKind::geostatic) return;
+  const bool uniform = scene.initial_stress.kind == scene::InitialStressKind::uniform;
+  if (!uniform && scene.initial_stress.kind != scene::InitialStressKind::geostatic) return;
   const Eigen::Index n = model.size();
   model.initial_stress.resize(constitutive::stress_size<Dim>, n);
   for (Eigen::Index a = 0; a < n; ++a) {
     model.initial_stress.col(a) =
-        geostatic_stress<Dim>(scene, model.particles.position.row(a).transpose(),
-                              model.material[static_cast<std::size_t>(a)]);
+        initial_stress_at<Dim>(scene, model.particles.position.row(a).transpose(),
+                               model.material[static_cast<std::size_t>(a)]);
   }
+  if (uniform) {
+    // It is borne by what bears it (check_uniform_stress), to the last particle.
+    add_loaded_sides(scene, model);
+    model.initial_load = constant_loads(model);
+    return;
+  }
+  model.wall_bears = scene::drives_wall(scene);
   model.initial_load.setZero(model.unknowns());
   Eigen::Map<fpm::Field<Dim>> load(model.initial_load.data(), n, Dim);
   for (std::size_t i = 0; i < scene.gravity.acceleration.size(); ++i) {
@@ -64,6 +150,7 @@ void add_initial_stress(const scene::Scene& scene, Model<Dim>& model) {
     fpm::Field<Dim> force = fpm::Field<Dim>::Zero(face.points.size(), Dim);
     for (fpm::Index c = 0; c < face.points.size(); ++c) {
       const fpm::Vector<Dim> place = face.points.position.row(c).transpose();
+      if (is_at_wall<Dim>(scene, side, place)) continue;
       // Of the material within, where the face ends at an interface.
       fpm::Vector<Dim> within = place;
       within[axis] += (scene::is_upper(side) ? -0.5 : 0.5) * model.spacing;
@@ -79,6 +166,12 @@ template constitutive::StressVector<2> geostatic_stress<2>(const scene::Scene&,
                                                            const fpm::Vector<2>&, std::size_t);
 template constitutive::StressVector<3> geostatic_stress<3>(const scene::Scene&,
                                                            const fpm::Vector<3>&, std::size_t);
+template constitutive::StressVector<2> initial_stress_at<2>(const scene::Scene&,
+                                                            const fpm::Vector<2>&, std::size_t);
+template constitutive::StressVector<3> initial_stress_at<3>(const scene::Scene&,
+                                                            const fpm::Vector<3>&, std::size_t);
+template Eigen::VectorXd constant_loads<2>(const Model<2>&);
+template Eigen::VectorXd constant_loads<3>(const Model<3>&);
 template void add_initial_stress<2>(const scene::Scene&, Model<2>&);
 template void add_initial_stress<3>(const scene::Scene&, Model<3>&);
 

@@ -15,8 +15,19 @@ constitutive::StressVector<Dim> geostatic_stress(const scene::Scene& scene,
                                                  const fpm::Vector<Dim>& place,
                                                  std::size_t material);
 
-/// The stress before the first step, in the model: geostatic, or none.
-/// @param model  with particles, materials and constraints
+/// [Pa] Geostatic or uniform stress at a place in ground of one of the scene's materials; zero if
+/// the scene's initial stress is of another kind.
+template <int Dim>
+constitutive::StressVector<Dim> initial_stress_at(const scene::Scene& scene,
+                                                  const fpm::Vector<Dim>& place,
+                                                  std::size_t material);
+
+/// [N/m or N] All loads that do not grow, those that follow the boundary as it is at first.
+template <int Dim>
+Eigen::VectorXd constant_loads(const Model<Dim>& model);
+
+/// The stress before the first step, in the model: geostatic, uniform, or none.
+/// @param model  with particles, materials, constraints and loads
 template <int Dim>
 void add_initial_stress(const scene::Scene& scene, Model<Dim>& model);
 

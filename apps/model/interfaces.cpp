@@ -100,7 +100,7 @@ fpm::Vector<Dim> initial_traction(const scene::Scene& scene, const Model<Dim>& m
   const fpm::Vector<Dim> place = faces.points.position.row(row).transpose();
   const auto of = [&](fpm::Index a) {
     return constitutive::spatial_part<Dim>(
-        geostatic_stress<Dim>(scene, place, model.material[static_cast<std::size_t>(a)]));
+        initial_stress_at<Dim>(scene, place, model.material[static_cast<std::size_t>(a)]));
   };
   fpm::Tensor<Dim> stress = of(faces.first[c]);
   if (!faces.second.empty()) stress = 0.5 * (stress + of(faces.second[c]));

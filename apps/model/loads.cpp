@@ -214,9 +214,8 @@ fpm::Field<Dim> cut_area_vectors(const scene::Scene& scene, const Model<Dim>& mo
   for (std::size_t i = 0; i < scene.side.size(); ++i) add(bounding_part(scene, i, faces), 1.0);
   add(SurfacePart::of_exposed(), 1.0);
   for (const fpm::Face& face : faces) {
-    // The ends of prisms are of no side.
-    const bool of_no_side = scene.region.empty() || (scene::is_extruded(scene) && face.axis == 2);
-    if (of_no_side) add(SurfacePart::of_face(face), 1.0);
+    const auto side = static_cast<scene::Side>(2 * face.axis + (face.upper ? 1 : 0));
+    if (scene::is_face_by_itself(scene, side)) add(SurfacePart::of_face(face), 1.0);
   }
   for (const auto& plate : plates) {
     const double middle = 0.5 * (model.box_min[plate.axis] + model.box_max[plate.axis]);

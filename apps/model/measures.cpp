@@ -8,11 +8,14 @@
 #include <map>
 #include <string_view>
 
+#include "model/initial_stress.hpp"
 #include "model/penalty_targets.hpp"
 #include "model/selection.hpp"
+#include "model/side_points.hpp"
 #include "scene/derived.hpp"
 #include "scene/element_body.hpp"
 #include "scene/ground.hpp"
+#include "scene/names.hpp"
 #include "scene/scene.hpp"
 #include "scene/stages.hpp"
 
@@ -24,22 +27,6 @@ constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
 constexpr std::array<std::string_view, 6> stresses{"xx", "yy", "zz", "xy", "yz", "zx"};
 
 constexpr const char* stage_column = "stage";
-
-// Length, or area in 3D, of the part of a side that a load is on.
-double size_of(const scene::Scene& scene, const scene::Traction& traction) {
-  double size = 1.0;
-  std::size_t k = 0;
-  for (int axis = 0; axis < scene.geometry.dimension; ++axis) {
-    if (axis == scene::axis_of(traction.side)) continue;
-    const auto i = static_cast<std::size_t>(axis);
-    const bool whole = traction.range_min.empty();
-    const double from = whole ? scene.geometry.min[i] : traction.range_min[k];
-    const double to = whole ? scene.geometry.max[i] : traction.range_max[k];
-    size *= to - from;
-    ++k;
-  }
-  return size;
-}
 
 }  // namespace
 
@@ -301,13 +288,24 @@ void Measures<Dim>::find_side(const scene::Scene& scene, scene::Side side, Measu
       add_contacts(&Interface<Dim>::of_drive, scene::name_of_drive(drive), measure);
     }
   }
+  const auto area_of = [&](const scene::Point& from, const scene::Point& to) {
+    return side_points(scene, model_, side, from, to).points.weight.sum();
+  };
+  if (scene::is_face_by_itself(scene, side) &&
+      std::ranges::count(scene.initial_stress.loaded_sides, scene::name_of(side)) > 0) {
+    const int axis = scene::axis_of(side);
+    const fpm::Tensor<Dim> stress =
+        constitutive::spatial_part<Dim>(initial_stress_at<Dim>(scene, fpm::Vector<Dim>::Zero(), 0));
+    const double area = (scene::is_upper(side) ? 1.0 : -1.0) * area_of({}, {});
+    measure.loads.push_back({stress.col(axis) * area, {}, {}});
+  }
   std::size_t following = 0;
   for (const scene::Traction& traction : scene.traction) {
     if (traction.side == side) {
-      Load load{
-          Eigen::Map<const fpm::Vector<Dim>>(traction.value.data()) * size_of(scene, traction),
-          scene::share_of(scene, scene::LoadKind::traction, traction.name),
-          {}};
+      Load load{Eigen::Map<const fpm::Vector<Dim>>(traction.value.data()) *
+                    area_of(traction.range_min, traction.range_max),
+                scene::share_of(scene, scene::LoadKind::traction, traction.name),
+                {}};
       if (traction.follower) load.following = following;
       measure.loads.push_back(load);
     }

@@ -200,6 +200,7 @@ struct Model {
   Eigen::VectorXd initial_load;
   // Of ground that stages change, in place of initial_stress: that of each particle at first.
   Eigen::Matrix<double, constitutive::stress_size<Dim>, Eigen::Dynamic> stress_at_rest;
+  bool wall_bears = false;   // whether what the drive moves bears that stress from the first
   fpm::Vector<Dim> box_min;  // [m]
   fpm::Vector<Dim> box_max;  // [m]
   double spacing = 0.0;      // [m] the finest

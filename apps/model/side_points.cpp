@@ -1,10 +1,14 @@
 #include "model/side_points.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 #include "model/bodies.hpp"
 #include "model/surface.hpp"
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
+#include "scene/names.hpp"
 #include "scene/scene.hpp"
 
 namespace model {
@@ -22,6 +26,18 @@ fpm::Vector<Dim> range_corner(const scene::Point& range, scene::Side side, doubl
 }
 
 }  // namespace
+
+std::string name_of_surface(const scene::Scene& scene, int cut, int side, int face) {
+  const auto index = [](int i) { return static_cast<std::size_t>(i); };
+  if (cut >= 0) return fmt::format("the cutout \"{}\"", scene.cutout[index(cut)].name);
+  if (side >= 0) return fmt::format("the side \"{}\"", scene.side[index(side)].name);
+  if (side == exposed_side) return "ground that lies bare";
+  const auto of_box = static_cast<scene::Side>(face);
+  if (face >= 0 && scene::is_face_by_itself(scene, of_box)) {
+    return fmt::format("the face \"{}\"", scene::name_of(of_box));
+  }
+  return "a part of the outline that no [[side]] names";
+}
 
 bool is_plain_vertex_lattice(const scene::Scene& scene) {
   return scene.geometry.layout == scene::Layout::vertex && scene.geometry.jitter == 0.0;

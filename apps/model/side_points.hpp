@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "fpm/particles.hpp"
 #include "fpm/points.hpp"
 #include "model/model.hpp"
@@ -19,6 +21,10 @@ template <int Dim>
 SurfacePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& model, scene::Side side,
                                const std::vector<double>& range_min,
                                const std::vector<double>& range_max);
+
+/// What a piece of the surface is called, `the side "face"`; -1 stands for none.
+/// @param cut, side, face  as a SurfacePiece has them
+std::string name_of_surface(const scene::Scene& scene, int cut, int side, int face);
 
 /// Whether the particles are the vertices of a lattice without jitter.
 bool is_plain_vertex_lattice(const scene::Scene& scene);

@@ -2,12 +2,11 @@
 
 #include <functional>
 #include <set>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "model/model.hpp"
+#include "model/refusal.hpp"
 
 namespace scene {
 struct Scene;
@@ -19,13 +18,8 @@ namespace model {
 using MaterialPair = std::pair<fpm::Index, fpm::Index>;
 
 /// What the scene asks of two materials leaves a tip without rows.
-struct InterfaceRefused : std::runtime_error {
-  InterfaceRefused(std::string key_asked, std::string what_found, std::string what_allowed)
-      : std::runtime_error(key_asked + ": " + what_found + "; " + what_allowed),
-        key(std::move(key_asked)),
-        found(std::move(what_found)),
-        allowed(std::move(what_allowed)) {}
-  std::string key, found, allowed;
+struct InterfaceRefused : Refusal {
+  using Refusal::Refusal;
 };
 
 /// Bodies of particles if faces between some materials are none; empty if there is one.

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "model/model.hpp"
+#include "model/standing_water.hpp"
 #include "program/progress.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
@@ -59,6 +60,24 @@ std::vector<std::string> joined_notes(const scene::Scene& scene, const model::Mo
 
 template std::vector<std::string> joined_notes<2>(const scene::Scene&, const model::Model<2>&);
 template std::vector<std::string> joined_notes<3>(const scene::Scene&, const model::Model<3>&);
+
+template <int Dim>
+std::vector<std::string> water_notes(const scene::Scene& scene, const model::Model<Dim>& model) {
+  std::vector<std::string> notes;
+  if constexpr (Dim == 2) {
+    for (const model::StandingWater& water : model::standing_water(scene, model)) {
+      notes.push_back(fmt::format(
+          "water stands on {}: with up to {:.6g} Pa, at ({:.4g}, {:.4g}) m, {:.3g} m deep; it "
+          "presses with ({:.4g}, {:.4g}) N/m",
+          water.on, water.pressure, water.at.x(), water.at.y(),
+          water.pressure / scene.water.unit_weight, water.force.x(), water.force.y()));
+    }
+  }
+  return notes;
+}
+
+template std::vector<std::string> water_notes<2>(const scene::Scene&, const model::Model<2>&);
+template std::vector<std::string> water_notes<3>(const scene::Scene&, const model::Model<3>&);
 
 std::string control_note(const scene::Scene& scene, const record::CurveRow& last) {
   if (last.max_plastic_strain <= 0.0 || !scene::is_controlled_for_collapse(scene)) return "";

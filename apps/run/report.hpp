@@ -29,6 +29,11 @@ std::string check_report(const scene::Scene& scene, std::size_t particles, std::
 template <int Dim>
 std::vector<std::string> joined_notes(const scene::Scene& scene, const model::Model<Dim>& model);
 
+/// One line for each side on which water stands that the scene's pore pressures have there: how
+/// high, and what it presses with. Of the stage at hand.
+template <int Dim>
+std::vector<std::string> water_notes(const scene::Scene& scene, const model::Model<Dim>& model);
+
 /// That loads which grow were borne to the end by ground that yields, under a control that is weak
 /// for the sake of a collapse; "" for any other run. Of the whole scene.
 std::string control_note(const scene::Scene& scene, const record::CurveRow& last);

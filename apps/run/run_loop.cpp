@@ -16,8 +16,8 @@
 #include "fpm/rows.hpp"
 #include "model/build.hpp"
 #include "model/measures.hpp"
+#include "model/refusal.hpp"
 #include "model/state_file.hpp"
-#include "model/thin_tips.hpp"
 #include "program/stop_signals.hpp"
 #include "program/version.hpp"
 #include "record/run_lock.hpp"
@@ -150,6 +150,9 @@ class Run {
     const model::Model<Dim>& model = stages_.model();
     out_ << check_report(scene_, static_cast<std::size_t>(model.size()),
                          static_cast<std::size_t>(model.ghosts.size()), parts);
+    for (const std::string& note : water_notes(stages_.scene(), model)) {
+      out_ << fmt::format("  {:<12} {}\n", "water", note);
+    }
     draw();
     for (const std::string& note : joined_notes(scene_, model)) err_ << "warning: " << note << '\n';
     for (const std::string& warning : start.warnings) err_ << "warning: " << warning << '\n';
@@ -216,10 +219,20 @@ class Run {
                       folder.dead_owner()));
     }
     warn_of_joined(recorder);
+    say_water(recorder);
     for (const std::string& warning : start.warnings) recorder.log().warning(warning);
     if (!start.checkpoint.empty()) recorder.say(resumed_line(start));
     for (const scene::SceneChange& change : start.changes)
       recorder.say("changed: " + change.text());
+  }
+
+  // Where water stands, when that is news.
+  void say_water(Recorder<Dim>& recorder) {
+    std::vector<std::string> notes = water_notes(stages_.scene(), stages_.model());
+    if (notes == said_of_water_) return;
+    for (const std::string& note : notes) recorder.say(note);
+    if (notes.empty()) recorder.say("no water stands on any side now");
+    said_of_water_ = std::move(notes);
   }
 
   void warn_of_joined(Recorder<Dim>& recorder) const {
@@ -249,6 +262,7 @@ class Run {
                              scene::stage_title(scene_, stages_.scene().course.stage),
                              stages_.model().size()));
     warn_of_joined(recorder);
+    say_water(recorder);
   }
 
   program::ExitCode advance(model::State<Dim>& state, Recorder<Dim>& recorder,
@@ -331,6 +345,7 @@ class Run {
   StopReasons stop_;
   stepping::StagedModel<Dim> stages_;
   std::unique_ptr<model::Measures<Dim>> measures_;
+  std::vector<std::string> said_of_water_;
   std::unique_ptr<stepping::LoadStepper<Dim>> stepper_;  // of the stage at hand
 };
 
@@ -355,7 +370,7 @@ program::ExitCode run_programme(const RunRequest& request, std::ostream& out, st
       return Run<2>(begun, in_force.stage, out, err, system)();
     }
     return Run<3>(begun, in_force.stage, out, err, system)();
-  } catch (const model::InterfaceRefused& refused) {
+  } catch (const model::Refusal& refused) {
     err << "error: "
         << scene::complaint_about(refused.key, refused.found, refused.allowed, request.scene_file,
                                   request.settings)

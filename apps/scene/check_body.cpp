@@ -146,7 +146,16 @@ void check_overconsolidation(const Scene& scene, const Material& material, const
     diagnosis.error(key, "is missing", fmt::format("the model {} needs it", material.model));
   }
   const std::string kind = "initial_stress.kind";
-  if (scene.initial_stress.kind == InitialStressKind::geostatic || !diagnosis.good({kind})) return;
+  if (!diagnosis.good({kind})) return;
+  const InitialStressKind initial = scene.initial_stress.kind;
+  if (initial == InitialStressKind::geostatic) return;
+  if (initial == InitialStressKind::uniform) {
+    const auto stress = uniform_stress(scene, material);
+    if (stress[0] + stress[1] + stress[2] < 0.0) return;
+    diagnosis.error(kind, fmt::format("found no pressure with the model {}", material.model),
+                    "without a mean stress that presses it has no stiffness");
+    return;
+  }
   diagnosis.error(
       kind,
       fmt::format("found {} with the model {}", name_of(scene.initial_stress.kind), material.model),

@@ -64,8 +64,9 @@ void check_surcharge(const Scene& scene, tables::Diagnosis& diagnosis) {
 
 /// Says where the initial stress is more than the ground can bear (Mohr-Coulomb in the plane).
 void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
-  if (!diagnosis.good({"material", "initial_stress.K0"})) return;
+  if (!diagnosis.good({"material", "initial_stress.K0", "initial_stress.K0_z"})) return;
   const Geometry& geometry = scene.geometry;
+  const InitialStress& initial = scene.initial_stress;
   for (std::size_t i = 0; i < scene.material.size(); ++i) {
     const Material& material = scene.material[i];
     const std::string table = fmt::format("material.{}", i);
@@ -95,7 +96,6 @@ void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
               material.name, -vertical, deepest[1]),
           "its geostatic stress is a tension, which its cohesion bears or not");
     }
-    const double horizontal = resolve_k0(scene, material) * vertical;
     const auto parameters = parameters_at(material, deepest);
     const double phi = parameters.friction_angle * std::numbers::pi / 180.0;
     const double Kp = std::pow(std::tan(std::numbers::pi / 4.0 + phi / 2.0), 2);
@@ -103,15 +103,20 @@ void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
     const double least = vertical / Kp - 2.0 * cohesion / std::sqrt(Kp);
     const double most = vertical * Kp + 2.0 * cohesion * std::sqrt(Kp);
     constexpr double round_off = 1e-6;
-    if (vertical <= 0.0 ||
-        (horizontal >= least - round_off * vertical && horizontal <= most + round_off * vertical)) {
-      continue;
-    }
-    diagnosis.warning("initial_stress.K0",
-                      fmt::format("{:.4g} is more than the material \"{}\" bears at y = {:.6g}",
-                                  horizontal / vertical, material.name, deepest[1]),
-                      fmt::format("it yields in the first step; it bears {:.4g} .. {:.4g} there",
-                                  std::max(0.0, least / vertical), most / vertical));
+    const auto look = [&](const char* key, double ratio) {
+      const double horizontal = ratio * vertical;
+      if (horizontal >= least - round_off * vertical && horizontal <= most + round_off * vertical) {
+        return;
+      }
+      diagnosis.warning(key,
+                        fmt::format("{:.4g} is more than the material \"{}\" bears at y = {:.6g}",
+                                    ratio, material.name, deepest[1]),
+                        fmt::format("it yields in the first step; it bears {:.4g} .. {:.4g} there",
+                                    std::max(0.0, least / vertical), most / vertical));
+    };
+    if (vertical <= 0.0) continue;
+    look("initial_stress.K0", resolve_k0(scene, material));
+    if (initial.K0_z) look("initial_stress.K0_z", *initial.K0_z);
   }
 }
 
@@ -120,7 +125,9 @@ void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
 void check_initial_stress(const Scene& scene, tables::Diagnosis& diagnosis) {
   const InitialStress& initial = scene.initial_stress;
   const std::string kind = "initial_stress.kind";
-  if (initial.kind == InitialStressKind::none || !diagnosis.good({kind})) return;
+  if (!diagnosis.good({kind})) return;
+  check_uniform_stress(scene, diagnosis);
+  if (initial.kind == InitialStressKind::none || initial.kind == InitialStressKind::uniform) return;
   if (!diagnosis.good({"gravity.acceleration", "geometry.dimension"})) return;
   const bool has_weight = has_gravity(scene);
   if (!has_weight && initial.kind == InitialStressKind::geostatic) {
@@ -145,9 +152,10 @@ void check_initial_stress(const Scene& scene, tables::Diagnosis& diagnosis) {
     };
     refuse(initial.surface.has_value(), "initial_stress.surface");
     refuse(initial.surcharge != 0.0, "initial_stress.surcharge");
-    if (initial.K0 && has_weight && !down) {
+    if ((initial.K0 || initial.K0_z) && has_weight && !down) {
       diagnosis.error("gravity.acceleration", "found a direction other than -y",
-                      "initial_stress.K0 is horizontal over vertical stress");
+                      fmt::format("initial_stress.{} is horizontal over vertical stress",
+                                  initial.K0 ? "K0" : "K0_z"));
     }
     return;
   }

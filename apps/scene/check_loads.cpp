@@ -287,6 +287,7 @@ void check_scene(const Scene& scene, tables::Diagnosis& diagnosis) {
   check_drive(scene, diagnosis);
   check_drives(scene, diagnosis);
   check_stages(scene, diagnosis);
+  check_quake(scene, diagnosis);
   check_places(scene, diagnosis);
   check_measures(scene, diagnosis);
   check_cutouts(scene, diagnosis);

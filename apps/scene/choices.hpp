@@ -28,7 +28,7 @@ enum class OutlineKind { free, loaded, fixed, roller, footing, symmetry };
 enum class Base { rough, smooth };
 /// What fpm-limit lets grow until collapse.
 enum class Sought { footing, traction, gravity, strength, earthquake };
-enum class InitialStressKind { none, geostatic, gravity };
+enum class InitialStressKind { none, geostatic, gravity, uniform };
 enum class DriveKind { none, displacement, load, strength };
 enum class Lateral { fixed, free };
 enum class LoadKind { traction, gravity, plate };

@@ -44,8 +44,8 @@ std::size_t stage_count(const Scene& scene) {
 
 bool changes_ground(const Stage& stage) {
   return !stage.remove.empty() || !stage.place.empty() || !stage.release.empty() ||
-         !stage.hold.empty() || !stage.water_table.empty() || stage.pore_pressure ||
-         !stage.materials.empty() || !stage.regions.empty() || stage.drive.has_value();
+         !stage.hold.empty() || !stage.water_table.empty() || stage.pore_pressure || stage.kh ||
+         stage.kv || !stage.materials.empty() || !stage.regions.empty() || stage.drive.has_value();
 }
 
 bool changes_ground(const Scene& scene) {

@@ -221,6 +221,12 @@ std::optional<ActingDrive> drive_by_images(const Scene& scene) {
   return std::nullopt;
 }
 
+bool drives_wall(const Scene& scene) {
+  const Drive& drive = scene.drive;
+  if (drive.kind != DriveKind::displacement || drive.later || drive.side == Side::top) return false;
+  return resolve_drive_method(scene) == DriveMethod::ghosts;
+}
+
 DriveMethod resolve_drive_method(const Scene& scene, const Drive& drive) {
   if (drive.method != DriveMethod::automatic) return drive.method;
   // As a support's.
@@ -341,6 +347,21 @@ std::size_t material_at(const Scene& scene, std::span<const double> place) {
 double resolve_k0(const Scene& scene, const Material& material) {
   return scene.initial_stress.K0.value_or(material.poissons_ratio /
                                           (1.0 - material.poissons_ratio));
+}
+
+double resolve_k0_z(const Scene& scene, const Material& material) {
+  return scene.initial_stress.K0_z.value_or(resolve_k0(scene, material));
+}
+
+std::array<double, 6> uniform_stress(const Scene& scene, const Material& material) {
+  const InitialStress& s = scene.initial_stress;
+  const double x = s.sigma_x.value_or(0.0), y = s.sigma_y.value_or(0.0);
+  return {x,
+          y,
+          s.sigma_z.value_or(material.poissons_ratio * (x + y)),
+          s.sigma_xy.value_or(0.0),
+          s.sigma_yz.value_or(0.0),
+          s.sigma_zx.value_or(0.0)};
 }
 
 Interface interface_between(const Scene& scene, std::size_t one, std::size_t other) {

@@ -79,6 +79,10 @@ struct Support;
 /// The drive that moves or holds its side by images: one at most, as none begins with them later.
 [[nodiscard]] std::optional<ActingDrive> drive_by_images(const Scene& scene);
 
+/// Whether the drive's plate is a wall, which from the first bears what ground at rest presses
+/// against it: what is moved by images, of a side other than the surface.
+[[nodiscard]] bool drives_wall(const Scene& scene);
+
 /// A name as that of a column of the curve: neither commas nor spaces.
 [[nodiscard]] std::string column_name(const std::string& name);
 
@@ -121,6 +125,11 @@ struct SolverSettings {
 
 /// Horizontal over vertical geostatic stress in a material.
 [[nodiscard]] double resolve_k0(const Scene& scene, const Material& material);
+/// The same along z.
+[[nodiscard]] double resolve_k0_z(const Scene& scene, const Material& material);
+
+/// Components of a uniform initial stress [Pa], rows xx yy zz xy yz zx, in a material.
+[[nodiscard]] std::array<double, 6> uniform_stress(const Scene& scene, const Material& material);
 
 /// What happens where two materials meet, by their numbers: the scene's table of them, or its
 /// approximation.interfaces.

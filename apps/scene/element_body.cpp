@@ -186,6 +186,10 @@ bool is_extruded(const Scene& scene) {
   return !scene.region.empty() && scene.geometry.dimension == 3 && !has_elements(scene);
 }
 
+bool is_face_by_itself(const Scene& scene, Side side) {
+  return scene.region.empty() || (is_extruded(scene) && axis_of(side) == 2);
+}
+
 std::optional<ElementBody> read_elements(const Scene& scene, tables::Diagnosis& diagnosis) {
   ElementBody body;
   try {

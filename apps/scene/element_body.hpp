@@ -28,6 +28,10 @@ struct ElementBody {
 /// Whether they are polygons in space: prisms along z.
 [[nodiscard]] bool is_extruded(const Scene& scene);
 
+/// Whether loads name a face of the box rather than a [[side]]: those of a box, and the ends of
+/// prisms.
+[[nodiscard]] bool is_face_by_itself(const Scene& scene, Side side);
+
 /// Reads the body of a scene whose particles are elements. What is no body is an error of the
 /// diagnosis: regions that elements do not fill or share, surface without a side, sides that are no
 /// surface.

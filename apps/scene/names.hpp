@@ -30,7 +30,8 @@ inline constexpr std::array<std::string_view, 6> outline{"free",   "loaded",  "f
 inline constexpr std::array<std::string_view, 2> base{"rough", "smooth"};
 inline constexpr std::array<std::string_view, 5> sought{"footing", "traction", "gravity",
                                                         "strength", "earthquake"};
-inline constexpr std::array<std::string_view, 3> initial_stress{"none", "geostatic", "gravity"};
+inline constexpr std::array<std::string_view, 4> initial_stress{"none", "geostatic", "gravity",
+                                                                "uniform"};
 inline constexpr std::array<std::string_view, 4> drive{"none", "displacement", "load", "strength"};
 inline constexpr std::array<std::string_view, 5> drive_method{"auto", "direct", "ghosts", "contact",
                                                               "tied"};

@@ -235,7 +235,11 @@ struct InitialStress {
   InitialStressKind kind = InitialStressKind::none;
   std::optional<double> surface;  // [m] level y of zero (or surcharge) stress; absent: top face
   std::optional<double> K0;       // absent: nu / (1 - nu)
+  std::optional<double> K0_z;     // absent: K0
   double surcharge = 0.0;         // [Pa]
+  // [Pa] The same everywhere; sigma_z absent in the plane: of plane strain.
+  std::optional<double> sigma_x, sigma_y, sigma_z, sigma_xy, sigma_yz, sigma_zx;
+  std::vector<std::string> loaded_sides;  // which that stress itself loads
   bool operator==(const InitialStress&) const = default;
 };
 
@@ -280,6 +284,7 @@ struct Stage {
   std::vector<std::string> hold;                       // supports
   std::vector<PlanePoint> water_table;                 // [m]
   std::optional<tables::VaryingNumber> pore_pressure;  // [Pa]
+  std::optional<double> kh, kv;                        // of an earthquake
   std::vector<std::string> materials;                  // whose values change, to one of each list:
   Point cohesion;                                      // [Pa]
   Point friction_angle;                                // [deg]

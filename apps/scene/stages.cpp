@@ -39,6 +39,17 @@ void take_values(const Stage& stage, Scene& scene) {
   }
 }
 
+// The weight is that of the ground at rest, aslant by kh and lifted by kv.
+void take_quake(const Stage& stage, Scene& scene) {
+  if (!stage.kh && !stage.kv) return;
+  Point& weight = scene.gravity.acceleration;
+  const double at_rest = -weight[1] / (1.0 - scene.load.kv);
+  scene.load.kh = stage.kh.value_or(scene.load.kh);
+  scene.load.kv = stage.kv.value_or(scene.load.kv);
+  weight[0] = at_rest * scene.load.kh;
+  weight[1] = at_rest * (scene.load.kv - 1.0);
+}
+
 // What the first so many stages have changed.
 void take_changes(const Scene& whole, std::size_t stages, Scene& scene) {
   for (Region& region : scene.region) {
@@ -57,6 +68,7 @@ void take_changes(const Scene& whole, std::size_t stages, Scene& scene) {
   for (std::size_t s = 0; s < stages; ++s) {
     if (!whole.stage[s].water_table.empty()) scene.water.table = whole.stage[s].water_table;
     if (whole.stage[s].pore_pressure) scene.water.pore_pressure = whole.stage[s].pore_pressure;
+    take_quake(whole.stage[s], scene);
     take_materials(whole.stage[s], scene);
     take_values(whole.stage[s], scene);
   }

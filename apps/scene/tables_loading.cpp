@@ -108,6 +108,10 @@ SceneTable gravity() {
       .build();
 }
 
+tables::FieldNotes of_uniform(std::string_view doc, std::string_view absent) {
+  return {.need = tables::Need::optional, .unit = "Pa", .doc = doc, .absent = absent};
+}
+
 SceneTable initial_stress() {
   return tables::TableBuilder<Scene, InitialStress>("initial_stress", &Scene::initial_stress,
                                                     "The stress before the first step.")
@@ -118,7 +122,11 @@ SceneTable initial_stress() {
                 "gravity: what is left when weight and dead loads, or without weight these alone, "
                 "have "
                 "been switched on, of a body of any shape; so with pressures where the ground goes "
-                "on it is the stress in the depth."})
+                "on it is the stress in the depth. "
+                "uniform: one stress everywhere, sigma_x and so on, of ground without weight; what "
+                "it presses on every side must be borne by a support, a mirror or a load. "
+                "fpm-limit has no use for it, but for its loaded_sides: collapse does not depend "
+                "on it."})
       .key("surface", &InitialStress::surface,
            {.need = tables::Need::optional,
             .unit = "m",
@@ -131,10 +139,35 @@ SceneTable initial_stress() {
                    "ground bears it, which is then brought to equilibrium.",
             .absent = "geostatic: nu / (1 - nu), laterally confined elasticity; gravity: what "
                       "is left"})
+      .key("K0_z", &InitialStress::K0_z,
+           {.need = tables::Need::optional,
+            .range = tables::at_least(0.0),
+            .doc = "The same along z: out of the plane, or of the second horizontal axis.",
+            .absent = "K0"})
       .key("surcharge", &InitialStress::surcharge,
            {.unit = "Pa",
             .range = tables::at_least(0.0),
             .doc = "Pressure on the surface that the initial stress already carries."})
+      .key("sigma_x", &InitialStress::sigma_x,
+           of_uniform("uniform: normal stress along x, < 0 if it presses.", "only without uniform"))
+      .key("sigma_y", &InitialStress::sigma_y,
+           of_uniform("uniform: normal stress along y, likewise.", "only without uniform"))
+      .key("sigma_z", &InitialStress::sigma_z,
+           of_uniform("uniform: normal stress along z, likewise.",
+                      "nu (sigma_x + sigma_y) of each material, as of plane strain; in 3D only "
+                      "without uniform"))
+      .key("sigma_xy", &InitialStress::sigma_xy,
+           of_uniform("uniform: shear stress, > 0 if the top is pulled along +x.", "none"))
+      .key("sigma_yz", &InitialStress::sigma_yz,
+           of_uniform("uniform: shear stress, in 3D.", "none"))
+      .key("sigma_zx", &InitialStress::sigma_zx,
+           of_uniform("uniform: shear stress, in 3D.", "none"))
+      .key("loaded_sides", &InitialStress::loaded_sides,
+           {.need = tables::Need::optional,
+            .doc = "uniform: names of [[side]]s, of cutouts or of faces of the box beyond which "
+                   "the ground goes on: they are loaded by what this stress presses and shears "
+                   "them with, throughout, as by a dead load.",
+            .absent = "none"})
       .build();
 }
 

@@ -42,6 +42,16 @@ tables::TableBuilder<Scene, Stage>& with_changes(tables::TableBuilder<Scene, Sta
             .unit = "Pa",
             .doc = "The pore pressure from then on, in place of water.pore_pressure.",
             .absent = "as it was"})
+      .key("kh", &Stage::kh,
+           {.need = tables::Need::optional,
+            .doc = "Of an earthquake from then on, in place of load.kh: horizontal weight over "
+                   "weight, which comes in the stage's steps; 0 ends it.",
+            .absent = "as it was"})
+      .key("kv", &Stage::kv,
+           {.need = tables::Need::optional,
+            .range = {.lower = -1.0, .upper = 1.0, .upper_open = true},
+            .doc = "Likewise, in place of load.kv: the share of the weight that it lifts.",
+            .absent = "as it was"})
       .key("materials", &Stage::materials,
            {.need = tables::Need::optional,
             .doc = "Names of materials whose strength changes, to one value of each list below. "

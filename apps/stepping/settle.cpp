@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
-#include "fpm/boundary_loads.hpp"
 #include "model/build.hpp"
+#include "model/initial_equilibrium.hpp"
+#include "model/initial_stress.hpp"
 #include "scene/derived.hpp"
 #include "scene/drives.hpp"
 #include "scene/grading.hpp"
@@ -14,6 +16,22 @@
 
 namespace stepping {
 namespace {
+
+bool is_held(const scene::Scene& scene, scene::Side side) {
+  return std::ranges::any_of(
+      scene.support, [side](const scene::Support& support) { return support.side == side; });
+}
+
+// A wall holds the ground that settles, if it goes all along its side.
+void hold_wall(const scene::Scene& scene, scene::Scene& ground) {
+  const scene::Drive& drive = scene.drive;
+  if (!drive.range_min.empty() || is_held(scene, drive.side)) return;
+  scene::Support wall;
+  wall.name = scene::name_of_drive(drive);
+  wall.side = drive.side;
+  wall.directions = {static_cast<scene::Axis>(scene::axis_of(drive.side))};
+  ground.support.push_back(wall);
+}
 
 // The scene before its drive begins: weight, or else its dead loads, grow on the same particles.
 scene::Scene settling(const scene::Scene& scene) {
@@ -42,6 +60,7 @@ scene::Scene settling(const scene::Scene& scene) {
   for (scene::Cutout& cutout : ground.cutout) {
     if (grows(cutout.name)) cutout.pressure = cutout.shear = 0.0;
   }
+  if (scene::drives_wall(scene)) hold_wall(scene, ground);
   ground.drive = {};
   ground.other_drives.clear();
   ground.drive.kind = scene::DriveKind::load;
@@ -65,15 +84,7 @@ template <int Dim>
 void take_stress(const model::Model<Dim>& ground, const model::State<Dim>& rest,
                  model::Model<Dim>& model) {
   model.initial_stress = rest.stress;
-  model.initial_load = model.constant_load;
-  // What follows the boundary has pressed on the ground, too.
-  const fpm::Field<Dim> at_rest = fpm::Field<Dim>::Zero(model.size(), Dim);
-  Eigen::Map<fpm::Field<Dim>> load(model.initial_load.data(), model.size(), Dim);
-  for (const model::FollowingPressure<Dim>& following : model.following_pressures) {
-    if (following.scaled) continue;
-    (void)fpm::add_following_pressure<Dim>(following.op, following.points, following.pressure,
-                                           at_rest, load);
-  }
+  model.initial_load = model::constant_loads(model);
   // The drive's plate bears nothing yet; all other faces are those of the ground, in its order.
   Eigen::Index point = 0;
   std::size_t k = 0;
@@ -104,10 +115,10 @@ model::State<Dim> with_lateral_stress(const scene::Scene& scene, model::Model<Di
   take_stress(ground, rest, ground);
   for (Eigen::Index a = 0; a < ground.size(); ++a) {
     auto stress = ground.initial_stress.col(a);
-    const double across = *scene.initial_stress.K0 * stress[up];
-    for (int i = 0; i < 3; ++i) {
-      if (i != up) stress[i] = across;
-    }
+    const auto& initial = scene.initial_stress;
+    if (initial.K0) stress[0] = *initial.K0 * stress[up];
+    const auto along_z = initial.K0_z ? initial.K0_z : initial.K0;
+    stress[2] = *along_z * stress[up];
   }
   ground.layout.staged = true;
   model::State<Dim> state = model::initial_state(ground);
@@ -129,6 +140,7 @@ model::State<Dim> with_lateral_stress(const scene::Scene& scene, model::Model<Di
 template <int Dim>
 model::Model<Dim> model_at_rest(const scene::Scene& scene) {
   model::Model<Dim> model = model::build_model<Dim>(scene);
+  model::check_uniform_stress(scene, model);
   if (scene.initial_stress.kind != scene::InitialStressKind::gravity) return model;
   const scene::Scene ground_scene = settling(scene);
   model::Model<Dim> ground = model::build_model<Dim>(ground_scene);
@@ -137,8 +149,10 @@ model::Model<Dim> model_at_rest(const scene::Scene& scene) {
   finish(stepper, rest,
          "initial_stress.kind = \"gravity\": the ground does not stand under its weight and "
          "dead loads: no equilibrium");
-  if (scene.initial_stress.K0) rest = with_lateral_stress(scene, ground, rest);
+  if (scene.initial_stress.K0 || scene.initial_stress.K0_z)
+    rest = with_lateral_stress(scene, ground, rest);
   take_stress(ground, rest, model);
+  model.wall_bears = scene::drives_wall(scene) && is_held(ground_scene, scene.drive.side);
   return model;
 }
 

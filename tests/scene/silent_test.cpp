@@ -217,6 +217,13 @@ TEST(InitialStress, SaysWhereTheGroundCannotBearIt) {
   EXPECT_THAT(warned("2.041"), ElementsAre(HasSubstr("initial_stress.K0: 2.041 is more than")));
 }
 
+TEST(InitialStress, SaysLikewiseOfTheStressOutOfThePlane) {
+  const std::vector<std::string> beyond{"material.0.cohesion=0", "initial_stress.K0=0.5",
+                                        "initial_stress.K0_z=2.041"};
+  EXPECT_THAT(texts(with(beyond).warnings),
+              ElementsAre(HasSubstr("initial_stress.K0_z: 2.041 is more than")));
+}
+
 // Elastic parts are welcome to the control of the ground around them; a body of them alone is not.
 TEST(Hourglass, MixedNeedsSomethingThatYields) {
   const std::string block =

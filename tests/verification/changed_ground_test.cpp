@@ -187,6 +187,36 @@ pore_pressure = { at = [0.0, 0.5], value = 0.0, gradient = [0.0, -9810.0] }
   expect_same_displacements(staged, low);
 }
 
+// An earthquake comes and goes: with it the ground is as it is under a weight aslant from the
+// first, under water too, whose lift stays as it was; after it as before.
+TEST(Earthquake, ComesAndGoesInStages) {
+  const std::string stages = R"(
+[[stage]]
+name = "weigh"
+to = 1.0
+[[stage]]
+name = "quake"
+kh = 0.2
+kv = -0.1
+[[stage]]
+name = "over"
+kh = 0.0
+kv = 0.0
+)";
+  StagedRun staged(scene_of(block_of_stages + stages));
+  ASSERT_TRUE(staged.complete_stage());
+  const fpm::Field<2> still = staged.state.displacement;
+  staged.stages.go_on(staged.state);
+  ASSERT_TRUE(staged.complete_stage());
+  StagedRun shaken(scene_of(block_of_stages + "[load]\nkh = 0.2\nkv = -0.1\n"));
+  ASSERT_TRUE(shaken.complete_stage());
+  expect_same_displacements(staged, shaken);
+  staged.stages.go_on(staged.state);
+  ASSERT_TRUE(staged.complete_stage());
+  EXPECT_LT((staged.state.displacement - still).cwiseAbs().maxCoeff(),
+            of_linear_stages * still.cwiseAbs().maxCoeff());
+}
+
 // A column between smooth walls.
 std::string column_of(const std::vector<std::pair<double, double>>& regions) {
   std::string text = R"(

@@ -10,8 +10,10 @@
 namespace verification {
 
 /// A run of all its stages, and the records of each.
-struct StagedRun {
-  explicit StagedRun(const TestScene& s) : scene(s), stages(scene), state(stages.initial_state()) {}
+template <int Dim>
+struct StagedRunIn {
+  explicit StagedRunIn(const TestScene& s)
+      : scene(s), stages(scene), state(stages.initial_state()) {}
 
   /// Runs the stage at hand; false if a step does not converge.
   bool complete_stage() {
@@ -34,9 +36,10 @@ struct StagedRun {
   }
 
   TestScene scene;
-  stepping::StagedModel<2> stages;
-  model::State<2> state;
+  stepping::StagedModel<Dim> stages;
+  model::State<Dim> state;
   std::vector<std::vector<stepping::StepRecord>> records;
 };
+using StagedRun = StagedRunIn<2>;
 
 }  // namespace verification

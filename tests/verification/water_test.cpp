@@ -140,6 +140,16 @@ TEST(FootingOverWaterThatRises, BearsWhatItDoesOnGroundAsLightAsThat) {
   }
 }
 
+// Where it carries the ground the cohesion alone bears, N_c(20) c (Prandtl, Reissner); measured at
+// 8 and 14 particles to the half width -0.44 and -0.20 %.
+TEST(FootingOverWaterThatRises, BearsWhatCohesionDoesWhereTheGroundIsCarried) {
+  constexpr double exact = 14.834712 * 10e3, tolerance = 0.01;
+  verification::Run<2> run(shipped_scene("rising_water.toml"));
+  const auto records = run.complete();
+  report("pressure_over_exact", records.back().mean_pressure / exact);
+  EXPECT_NEAR(records.back().mean_pressure, exact, tolerance * exact);
+}
+
 // Footings at the crest of share/scenes/crest_water.toml, and of an upright cut with the water
 // behind it (which stands by a cohesion of 12 kPa), against the brackets that fpm-limit certifies
 // of the same scenes with a gap of 2 %.

@@ -54,6 +54,8 @@ class Reader {
               "the footing does not reach from the mirror to a place on the top");
     }
     require(scene_.cutout.empty(), "cutout", "the body has cutouts");
+    require(scene_.initial_stress.loaded_sides.empty(), "initial_stress.loaded_sides",
+            "the initial stress loads sides, in ground without weight");
     require(!scene::has_water(scene_), "water",
             "the ground is under water; in ground of [[region]]s it may be");
     take_supports();

@@ -40,6 +40,9 @@ class Reader {
            "fpm-limit knows regions alone: let their outlines go around what is cut out");
     refuse(!scene_.traction.empty(), "traction", "the ground has a traction on a face of its box",
            "give the [[side]] there kind = \"loaded\"");
+    refuse(!scene_.initial_stress.loaded_sides.empty(), "initial_stress.loaded_sides",
+           "the initial stress loads sides",
+           "fpm-limit knows the loads of [[side]]s: give them as pressure and shear");
     refuse(!scene_.stage.empty(), "stage", "the ground changes in stages",
            "fpm-limit bounds one ground: give it what is there at the stage in question");
     refuse(!scene_.drive.weakened.empty(), "drive.weakened", "only some materials are weakened",
