@@ -27,7 +27,8 @@ constexpr std::string_view usage =
     "Prints the largest difference per field of two checkpoints, frames (*.hdf), curves (*.csv) "
     "or\n"
     "output folders (their newest usable checkpoints, with the curve so far). Without a tolerance\n"
-    "fields must be identical bit by bit; wall times are never compared.\n";
+    "fields must be identical bit by bit; wall times are never compared, and with a tolerance the\n"
+    "secant pairs of the solver are not, unless --only names them.\n";
 
 constexpr std::string_view notes =
     "PATTERN is a field's name or its last part, with * and ? as in a shell. A difference passes "

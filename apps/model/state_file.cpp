@@ -136,13 +136,15 @@ class FieldReader {
   /// A column per row of the file, as many as there are; none if it has no such field.
   void read_pairs(const std::string& path, Eigen::Index unknowns, Eigen::MatrixXf& field) const {
     if (!file_.has(path)) return;
+    constexpr std::size_t most = 100;  // no program has handed on as many
+    const auto shape = file_.info(path).shape;
+    if (shape.size() != 2 || shape[1] != static_cast<std::size_t>(unknowns) || shape[0] > most) {
+      throw files::FileError(
+          file_.file(),
+          fmt::format("{} is not of at most {} pairs of {} unknowns each", path, most, unknowns));
+    }
     const std::vector<float> values = file_.read_all<float>(path);
     require_finite<float>(path, values);
-    const auto shape = file_.info(path).shape;
-    if (shape.size() != 2 || shape[1] != static_cast<std::size_t>(unknowns)) {
-      throw files::FileError(file_.file(),
-                             fmt::format("{} is not of {} unknowns each", path, unknowns));
-    }
     field = Eigen::Map<const Eigen::MatrixXf>(values.data(), unknowns,
                                               static_cast<Eigen::Index>(shape[0]));
   }

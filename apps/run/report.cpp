@@ -38,7 +38,7 @@ std::string check_report(const scene::Scene& scene, std::size_t particles, std::
     if (part.bytes == 0) continue;
     line("", fmt::format("{:5.0f} {}", per_particle(part.bytes), part.name));
   }
-  line("", "left out: set-up, a file being written, Krylov vectors beyond forty");
+  line("", "left out: set-up, a file being written, Krylov vectors beyond twenty");
   line("checkpoint", fmt::format("at least {:.1f} MiB each", mebibytes(parts.front().bytes)));
   line("steps", fmt::format("{} planned", scene::planned_steps(scene)));
   return out;

@@ -139,8 +139,8 @@ LoadStepper<Dim>::~LoadStepper() = default;
 
 template <int Dim>
 std::vector<model::MemoryPart> LoadStepper<Dim>::memory(bool to_come) const {
-  // As many as the Newton steps of a hard step need: 37 on the footing.
-  constexpr int krylov_vectors = 40;
+  // As many as a Newton step of a hard step needs: 15 in the mean on the footing, up to 40.
+  constexpr int krylov_vectors = 20;
   std::vector<model::MemoryPart> parts = equilibrium_->memory(to_come);
   parts.push_back({"preconditioner", preconditioner_->bytes()});
   parts.push_back(
@@ -148,7 +148,8 @@ std::vector<model::MemoryPart> LoadStepper<Dim>::memory(bool to_come) const {
        to_come ? solver_.bytes_to_come(model_.unknowns(), use_preconditioner_, krylov_vectors)
                : solver_.bytes()});
   if (to_come && hands_on_pairs()) {
-    const auto numbers = 2 * kept_pairs * model_.unknowns() - 2 * state_.secant_step.size();
+    const auto numbers = std::max<Eigen::Index>(
+        2 * kept_pairs * model_.unknowns() - 2 * state_.secant_step.size(), 0);
     parts.push_back(
         {"secant pairs of the state", static_cast<std::size_t>(numbers) * sizeof(float)});
   }
@@ -249,16 +250,18 @@ bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult&
 }
 
 // What a solve learns of the tangent serves the next step where it is the load that grows. Elastic
-// steps are few, and where strength is divided, or rows are rebuilt, the tangent changes too.
+// steps are few, and where strength is divided, or rows are rebuilt, the tangent changes too. The
+// paper's algorithm knows nothing of it.
 template <int Dim>
 bool LoadStepper<Dim>::hands_on_pairs() const {
   const scene::Course& course = scene_.course;
   return state_.layout.plastic &&
          scene::resolve_solver(scene_).method != scene::SolverMethod::newton_krylov &&
+         scene_.solver.preset != scene::SolverPreset::appendix_a &&
          course.reduction_begin == course.reduction_end;
 }
 
-// A solve that Newton steps had to help out leaves pairs that mislead the next
+// A step in which Newton steps had to help out leaves pairs that mislead the next
 // (share/doc/decisions/solver.md).
 template <int Dim>
 void LoadStepper<Dim>::keep_pairs(const StepRecord& record) {

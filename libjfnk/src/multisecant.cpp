@@ -39,11 +39,6 @@ bool has_broyden(const Solve& solve) {
   return solve.options.multisecant.broyden && !solve.evaluator.preconditioner().is_identity();
 }
 
-/// Whether P q is kept besides each column of the least squares: P is then applied to F alone.
-bool keeps_images(const Solve& solve) {
-  return has_broyden(solve) && !in_preconditioned_norm(solve);
-}
-
 /// Whether P F at work.base is of use.
 bool keeps_preconditioned(const Solve& solve) {
   return keeps_images(solve) || in_preconditioned_norm(solve);
@@ -261,6 +256,9 @@ bool given_mislead(const Solve& solve, bool patience_lost) {
 /// Goes on from the best point, knowing nothing.
 void forget_given(Solve& solve) {
   solve.work.secants.clear(keeps_images(solve));
+  solve.work.broyden.clear();
+  solve.course.multisecant.lead = 0.0;
+  solve.course.multisecant.broyden_error = 0.0;
   solve.return_to_best();
   forget_base(solve);
   solve.course.multisecant.last_fall = solve.evaluations();
@@ -282,6 +280,10 @@ bool in_preconditioned_norm(const Solve& solve) {
   return (solve.options.multisecant.preconditioned_norm &&
           !solve.evaluator.preconditioner().is_identity()) ||
          solve.evaluator.preconditioned_by_learning();
+}
+
+bool keeps_images(const Solve& solve) {
+  return has_broyden(solve) && !in_preconditioned_norm(solve);
 }
 
 void begin_multisecant(Solve& solve) {

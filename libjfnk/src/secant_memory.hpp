@@ -64,7 +64,7 @@ class SecantMemory {
   /// oldest first. Images are to be renewed afterwards.
   void begin_with(const Eigen::MatrixXf& du, const Eigen::MatrixXf& dr, double max_condition,
                   const InnerProductRef& product);
-  /// How many of these are still there.
+  /// How many of these are still there: of a damaged snapshot any number.
   [[nodiscard]] int given() const { return given_; }
   /// The latest pairs, oldest first, as they are kept.
   /// @param[out] du, dr  resized
@@ -92,7 +92,6 @@ class SecantMemory {
     // Damaged, as the reader will find out.
     if (size_ < 0 || size_ > capacity_) size_ = 0;
     if (first_ < 0 || first_ >= capacity_) first_ = 0;
-    if (given_ < 0 || given_ > size_) given_ = 0;
     for (int i = 0; i < size_; ++i) {
       walk_column(walk, du_, slot(i));
       walk_column(walk, y_, slot(i));

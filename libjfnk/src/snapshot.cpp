@@ -218,13 +218,15 @@ void Solver::load(const Snapshot& snapshot) {
   m.report.history.resize(static_cast<std::size_t>(lines));
   detail::walk_state(read, m.work, m.course, m.report);
   if (read.integer != snapshot.integers.size() || read.real != snapshot.reals.size() ||
-      !detail::plausible_counts(m.report.counts) || !detail::plausible_course(m.course)) {
+      !detail::plausible_counts(m.report.counts) || !detail::plausible_course(m.course) ||
+      m.work.secants.given() < 0 || m.work.secants.given() > m.work.secants.size()) {
     detail::Reader::fail();
   }
   detail::LearntJacobian& jacobian = m.work.evaluator.learnt;
   const bool in_use = learnt && !m.work.evaluator_state.without_preconditioner;
   if (in_use && !jacobian.factorise(jacobian.shift())) detail::Reader::fail();
   m.report.status = Status::in_progress;
+  m.hands_out = detail::pairs_are_of_residual(m.options);
   m.needs_setup = true;
   memory_ = std::move(loaded);
 }

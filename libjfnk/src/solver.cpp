@@ -241,20 +241,21 @@ void require_fit(const Options& options, const ResidualRef& residual, const Vect
   }
 }
 
-void require_pairs_fit(const SecantPairs& pairs, Eigen::Index n) {
-  if (pairs.step.cols() == 0 || pairs.step.rows() == n) return;
-  throw std::invalid_argument("jfnk::Solver: u has size " + std::to_string(n) +
-                              ", the pairs it was given have size " +
-                              std::to_string(pairs.step.rows()));
-}
-
 /// Puts pairs of a former solve into the memory.
 void take_given(Solve& solve, const SecantPairs& given) {
-  const bool of_use = given.step.cols() > 0 && solve.options.method != Method::newton_krylov &&
-                      !in_preconditioned_norm(solve);
-  if (!of_use) return;
+  if (given.step.cols() == 0 || in_preconditioned_norm(solve)) return;
+  solve.work.secants.clear(keeps_images(solve));
   solve.work.secants.begin_with(given.step, given.change, solve.options.multisecant.max_condition,
                                 solve.evaluator.product());
+}
+
+/// What of the given is of use. @throws std::invalid_argument if that does not fit
+SecantPairs of_use(SecantPairs given, const Options& options, Eigen::Index n) {
+  if (given.step.cols() == 0 || !pairs_are_of_residual(options)) return {};
+  if (given.step.rows() == n) return given;
+  throw std::invalid_argument("jfnk::Solver: u has size " + std::to_string(n) +
+                              ", the pairs it was given have size " +
+                              std::to_string(given.step.rows()));
 }
 
 /// Evaluates the first u; true if there is anything left to do.
@@ -325,6 +326,8 @@ void Solver::set_options(const Options& options) {
   detail::throw_if_invalid(options);
   memory_->options = options;
   memory_->course = {};
+  memory_->given = {};
+  memory_->hands_out = false;
 }
 
 void Solver::begin_with(SecantPairs pairs) {
@@ -340,10 +343,10 @@ void Solver::begin_with(SecantPairs pairs) {
 
 void Solver::pairs(int count, SecantPairs& pairs) const {
   const detail::Workspace& work = memory_->work;
-  const Options& options = memory_->options;
-  const bool of_residual = options.method != Method::newton_krylov &&
-                           !options.multisecant.preconditioned_norm && !work.evaluator_state.learnt;
+  const bool of_residual = memory_->hands_out && !work.evaluator_state.learnt;
   work.secants.copy_latest(of_residual ? count : 0, pairs.step, pairs.change);
+  // Steps may be too long for single precision, in units of their own.
+  if (!pairs.step.allFinite()) work.secants.copy_latest(0, pairs.step, pairs.change);
 }
 
 const Report& Solver::report() const {
@@ -371,7 +374,9 @@ std::size_t Solver::bytes() const {
   }
   return static_cast<std::size_t>(numbers) * sizeof(double) + work.gmres.bytes() +
          work.bicgstab.bytes() + work.secants.bytes() + work.broyden.bytes() +
-         memory_->report.history.capacity() * sizeof(Iteration);
+         memory_->report.history.capacity() * sizeof(Iteration) +
+         static_cast<std::size_t>(memory_->given.step.size() + memory_->given.change.size()) *
+             sizeof(float);
 }
 
 std::size_t Solver::bytes_to_come(Eigen::Index n, bool preconditioned, int krylov_vectors) const {
@@ -409,8 +414,9 @@ bool Solver::start_erased(const ResidualRef& residual, const Vector& u,
                           const PreconditionerRef& preconditioner, const ObserverRef& observer,
                           double rounding) {
   Memory& m = *memory_;
+  SecantPairs offered = std::exchange(m.given, {});
   detail::require_fit(m.options, residual, u);
-  detail::require_pairs_fit(m.given, u.size());
+  const SecantPairs given = detail::of_use(std::move(offered), m.options, u.size());
   detail::resize(m.work, u.size(), residual.global_size(u.size()), m.options,
                  !preconditioner.is_identity());
   detail::begin(m.report, m.options);
@@ -426,7 +432,7 @@ bool Solver::start_erased(const ResidualRef& residual, const Vector& u,
   m.work.best.u = u;
   evaluator.to_solver_units(m.work.best.u);
   detail::Solve solve{m.options, evaluator, observer, m.work, m.course, m.report};
-  const SecantPairs given = std::exchange(m.given, {});
+  m.hands_out = detail::pairs_are_of_residual(m.options);
   return detail::unless_thrown(m.course, m.report, [&] {
     detail::take_given(solve, given);
     return detail::start(solve);

@@ -82,6 +82,9 @@ struct LinearSolution {
 /// Whether the least squares of the multisecant stages are in the norm of P F.
 [[nodiscard]] bool in_preconditioned_norm(const Solve& solve);
 
+/// Whether P y is kept besides each y of a pair: P is then applied to F alone.
+[[nodiscard]] bool keeps_images(const Solve& solve);
+
 /// One iteration of each stage.
 [[nodiscard]] Ending multisecant_step(Solve& solve);
 [[nodiscard]] Ending newton_step(Solve& solve);

@@ -148,6 +148,20 @@ TEST(Curves, OfDifferentLengthAreComparedAtTheStepsTheyShare) {
   EXPECT_THAT(comparison::comparison_report(a, all), HasSubstr("2 and 2.5; 1 differ; step 2  <--"));
 }
 
+// What solvers have learnt differs with the last digits of the results.
+TEST(Differences, OfSecantPairsCountWithoutATolerance) {
+  const comparison::Source a =
+      source_of({{"particles/x", field({1.0})}, {"secants/step", field({1.0})}});
+  const comparison::Source b =
+      source_of({{"particles/x", field({1.0})}, {"secants/step", field({-1.0})}});
+  EXPECT_EQ(failing(a, b, {}), std::vector<std::string>{"secants/step"});
+  EXPECT_TRUE(failing(a, b, {.relative = {{"*", 1e-6}}}).empty());
+  EXPECT_EQ(failing(a, b, {.relative = {{"*", 1e-6}}, .only = {"secants/*"}}),
+            std::vector<std::string>{"secants/step"});
+  EXPECT_THAT(comparison::comparison_report(a, comparison::differences(a, b, {})),
+              HasSubstr("1 differ; pair 0 unknown 0  <--"));
+}
+
 TEST(Report, SumsUp) {
   const comparison::Source a =
       source_of({{"particles/x", field({1.0, 2.0})}, {"particles/y", field({1.0})}});

@@ -21,7 +21,7 @@
 namespace {
 
 using files::Hdf5File;
-using Values = std::variant<std::vector<double>, std::vector<std::int64_t>,
+using Values = std::variant<std::vector<double>, std::vector<float>, std::vector<std::int64_t>,
                             std::vector<std::int32_t>, std::string>;
 
 struct Dataset {
@@ -32,6 +32,7 @@ struct Dataset {
 
 Values values_of(const Hdf5File& file, const std::string& path, const std::string& type) {
   if (type == "float64") return file.read_all<double>(path);
+  if (type == "float32") return file.read_all<float>(path);
   if (type == "int64") return file.read_all<std::int64_t>(path);
   if (type == "int32") return file.read_all<std::int32_t>(path);
   return file.read_text(path);
@@ -57,7 +58,7 @@ struct Sound {
 };
 
 Sound read_sound() {
-  const std::filesystem::path path = std::filesystem::path(FPM_STORED_CHECKPOINTS) / "schema-3.hdf";
+  const std::filesystem::path path = std::filesystem::path(FPM_STORED_CHECKPOINTS) / "schema-9.hdf";
   record::CheckpointNotes notes;
   const Hdf5File file = record::open_checkpoint(path, notes);
   Sound sound{{}, {}, model::build_model<2>(model::scene_of(path, notes))};

@@ -79,27 +79,37 @@ struct SoftModes {
   }
 };
 
-// Each mode takes a pair of a solve that knows nothing, and none of one that is given them.
+/// Evaluations of ten steps that hand on so many pairs.
+template <class P>
+int evaluations(const Options& options, const P& preconditioner, int kept) {
+  Solver solver(options);
+  Vector u = Vector::Zero(60);
+  SecantPairs pairs;
+  int sum = 0;
+  for (int step = 1; step <= 10; ++step) {
+    solver.begin_with(pairs);
+    const Report& report = solver.solve(SoftModes{0.1 * step}, u, preconditioner);
+    EXPECT_TRUE(report.converged()) << report.reason;
+    sum += report.counts.total();
+    solver.pairs(kept, pairs);
+    EXPECT_LE(pairs.step.cols(), kept);
+  }
+  return sum;
+}
+
+// Each mode takes a pair of a solve that knows nothing, and none of one that is given them: with a
+// preconditioner or none, and with Broyden's updates of it besides.
 TEST(GivenPairs, SpareEvaluationsWhereTheSameModesAreSoftInEveryStep) {
-  const auto evaluations = [](int kept) {
-    Options options = jfnk::plasticity();
-    options.tolerances.relative = 1e-3;
-    Solver solver(options);
-    Vector u = Vector::Zero(60);
-    SecantPairs pairs;
-    int sum = 0;
-    for (int step = 1; step <= 10; ++step) {
-      solver.begin_with(pairs);
-      const Report& report = solver.solve(SoftModes{0.1 * step}, u);
-      EXPECT_TRUE(report.converged()) << report.reason;
-      sum += report.counts.total();
-      solver.pairs(kept, pairs);
-      EXPECT_LE(pairs.step.cols(), kept);
-    }
-    return sum;
-  };
-  constexpr int modes = 6, steps_given = 9;
-  EXPECT_LE(evaluations(10), evaluations(0) - modes * steps_given);
+  constexpr int modes = 6, steps_given = 9, kept = 10;
+  const auto scaled = [](const Vector& r, Vector& z) { z = 0.9 * r; };
+  Options options = jfnk::plasticity();
+  options.tolerances.relative = 1e-3;
+  const int spared = modes * steps_given;
+  EXPECT_LE(evaluations(options, jfnk::Identity{}, kept),
+            evaluations(options, jfnk::Identity{}, 0) - spared);
+  EXPECT_LE(evaluations(options, scaled, kept), evaluations(options, scaled, 0) - spared);
+  options.multisecant.broyden = true;
+  EXPECT_LE(evaluations(options, scaled, kept), evaluations(options, scaled, 0) - spared);
 }
 
 // They go on bit for bit in another solver: in files they are as they are kept.
@@ -177,6 +187,46 @@ TEST(GivenPairs, ThatMisleadAreDropped) {
   }
 }
 
+/// Steps that lead nowhere, of a length.
+SecantPairs random_pairs(Eigen::Index n, float length) {
+  std::mt19937 generator(5);
+  std::normal_distribution<float> normal;
+  const auto random = [&](Eigen::Index, Eigen::Index) { return normal(generator); };
+  return {length * Eigen::MatrixXf::NullaryExpr(n, 4, random),
+          Eigen::MatrixXf::NullaryExpr(n, 4, random)};
+}
+
+TEST(GivenPairs, ThatMisleadAreDroppedBeforeNewtonHelps) {
+  Options options = jfnk::plasticity();
+  options.multisecant.given_patience = 1000;  // more than that of all
+  Solver solver(options);
+  Vector u = Vector::Zero(60);
+  ASSERT_EQ(solver.solve(SoftModes{}, u).newton_iterations, 0);
+  solver.begin_with(random_pairs(60, 1.0F));
+  u.setZero();
+  const Report& report = solver.solve(SoftModes{}, u);
+  EXPECT_TRUE(report.converged()) << report.reason;
+  EXPECT_EQ(report.newton_iterations, 0);
+}
+
+// They lead out of the domain at once, so that Newton has to help: once.
+TEST(GivenPairs, AreForgottenAfterNewtonHasHelped) {
+  const auto bounded = [](const Vector& u, Vector& r) {
+    if (u.cwiseAbs().maxCoeff() > 1e3) return jfnk::Evaluation::out_of_domain;
+    SoftModes{}(u, r);
+    return jfnk::Evaluation::ok;
+  };
+  Options options = jfnk::plasticity();
+  options.multisecant.max_cuts = 0;
+  Solver solver(options);
+  solver.begin_with(random_pairs(60, 1e6F));
+  Vector u = Vector::Zero(60);
+  const Report& report = solver.solve(bounded, u);
+  EXPECT_TRUE(report.converged()) << report.reason;
+  EXPECT_GT(report.newton_iterations, 0);
+  EXPECT_LE(report.newton_iterations, options.hybrid.newton_steps);
+}
+
 TEST(GivenPairs, AreNotThereWhereChangesAreNotThoseOfTheResidual) {
   const jfnk_test::Bratu bratu(8, 6.0);
   Options options;
@@ -198,6 +248,49 @@ TEST(GivenPairs, AreNotThereWhereChangesAreNotThoseOfTheResidual) {
   EXPECT_EQ(pairs.step.cols(), 0);
 }
 
+TEST(GivenPairs, AreNotThereOfALearntJacobianNorUnderOtherOptions) {
+  const jfnk_test::Bratu bratu(20, 6.0);
+  Options options;
+  Solver solver(options);
+  Vector u = Vector::Zero(bratu.size());
+  SecantPairs pairs;
+  ASSERT_GT(solver.solve(bratu, u).counts.learning, 0);
+  solver.pairs(all, pairs);
+  EXPECT_EQ(pairs.step.cols(), 0);
+  options.learning.enabled = false;
+  solver.set_options(options);
+  u.setZero();
+  ASSERT_TRUE(solver.solve(bratu, u).converged());
+  solver.pairs(all, pairs);
+  EXPECT_GT(pairs.step.cols(), 0);
+  solver.begin_with(pairs);
+  solver.set_options(options);  // which might have been another unit of F
+  Vector a = Vector::Ones(bratu.size()), b = a;
+  (void)solver.solve(bratu, a);
+  (void)jfnk::solve(bratu, b, options);
+  EXPECT_TRUE(same_bits(a, b));
+  solver.set_options(options);
+  solver.pairs(all, pairs);
+  EXPECT_EQ(pairs.step.cols(), 0);
+}
+
+TEST(GivenPairs, AreTheLatestThatThereIsRoomFor) {
+  Options options = jfnk::plasticity();
+  options.multisecant.memory = 5;
+  Solver solver(options);
+  solver.begin_with(random_pairs(60, 1.0F));
+  SecantPairs eight = random_pairs(60, 1.0F);
+  eight.step = eight.step.replicate(1, 2).eval();
+  eight.change = Eigen::MatrixXf::Identity(60, 8);
+  solver.begin_with(eight);
+  Vector u = Vector::Zero(60);
+  ASSERT_TRUE(solver.start(SoftModes{}, u));
+  SecantPairs held;
+  solver.pairs(all, held);
+  EXPECT_TRUE(held.step == eight.step.rightCols(5));
+  EXPECT_TRUE(held.change == eight.change.rightCols(5));
+}
+
 TEST(GivenPairs, ThatDoNotFitAreRefused) {
   Solver solver(by_multisecants());
   SecantPairs pairs{Eigen::MatrixXf::Ones(12, 3), Eigen::MatrixXf::Ones(12, 2)};
@@ -212,6 +305,12 @@ TEST(GivenPairs, ThatDoNotFitAreRefused) {
   Vector u = Vector::Zero(5);
   const auto residual = [](const Vector& v, Vector& r) { r = v; };
   EXPECT_THROW((void)solver.solve(residual, u), std::invalid_argument);
+  EXPECT_TRUE(solver.solve(residual, u).converged());  // they are gone
+  Options newton;
+  newton.method = jfnk::Method::newton_krylov;
+  solver.set_options(newton);
+  solver.begin_with(pairs);
+  EXPECT_TRUE(solver.solve(residual, u).converged());  // which does not look at them
 }
 
 }  // namespace

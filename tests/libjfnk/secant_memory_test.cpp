@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -69,6 +70,23 @@ TEST(SecantMemory, ProjectionIsTheLeastSquaresSolutionOfTheLastPairs) {
     // Random columns have a condition number of a few; 1e4 units cover its square and 30 rows.
     EXPECT_LE((step + dU * gamma).norm(), 1e4 * rounding_unit * dU.norm() * gamma.norm()) << k;
     EXPECT_LE((remainder - (r - dR * gamma)).norm(), 1e4 * rounding_unit * r.norm()) << k;
+  }
+}
+
+TEST(SecantMemory, KnowsHowManyOfThoseGivenAreLeft) {
+  constexpr int n = 30, capacity = 6, given = 4;
+  Randoms random;
+  SecantMemory memory;
+  memory.resize(n, capacity);
+  Eigen::MatrixXf du(n, given), dr(n, given);
+  for (int j = 0; j < given; ++j) {
+    du.col(j) = random.vector(n).cast<float>();
+    dr.col(j) = random.vector(n).cast<float>();
+  }
+  memory.begin_with(du, dr, loose_condition, euclidean);
+  for (int added = 1; added <= 7; ++added) {
+    memory.add(random.vector(n), random.vector(n), loose_condition, euclidean);
+    EXPECT_EQ(memory.given(), std::clamp(capacity - added, 0, given)) << added;
   }
 }
 

@@ -2,6 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "files/hdf5_file.hpp"
+#include "record/checkpoint_file.hpp"
+#include "record/curve_file.hpp"
 #include "restart.hpp"
 
 namespace restart {
@@ -160,6 +165,29 @@ TEST_P(Resume, OfAResumedRunIsBitIdenticalToo) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Resume, ::testing::ValuesIn(cases),
                          [](const auto& info) { return info.param.name; });
+
+// The cases above would go on alike, too, if there were none.
+TEST(Checkpoint, HoldsWhatTheStepHasLearntOfTheTangentUntilRowsAreRebuilt) {
+  const support::TemporaryFolder folder;
+  ASSERT_EQ(fpm_run_in(folder / "run", footing,
+                       {"--set", "re_search.enabled=false", "--set", "programme.steps=40", "--set",
+                        "drive.target=0.05"})
+                .code,
+            program::ExitCode::done);
+  record::CheckpointNotes notes;
+  const auto file = record::open_checkpoint(checkpoint_of(folder / "run", 20), notes);
+  EXPECT_EQ(file.info("/state/secants/step").shape, file.info("/state/secants/change").shape);
+  EXPECT_GT(file.info("/state/secants/step").shape.front(), 0U);
+  ASSERT_EQ(fpm_run_in(folder / "searched", footing).code, program::ExitCode::done);
+  const auto searched = folder / "searched";
+  ASSERT_GT(column_sum_after(searched, "researched_rows", 0), 0.0);
+  const auto rows = record::read_curve(searched / "curve.csv");
+  const auto found =
+      std::ranges::find_if(rows, [](const auto& row) { return row.re_searched_rows > 0; });
+  const auto after =
+      record::open_checkpoint(checkpoint_of(searched, static_cast<int>(found->step)), notes);
+  EXPECT_FALSE(after.has("/state/secants/step"));
+}
 
 TEST(Threads, ChangeNoBitOfARunNorOfItsResumption) {
   for (const std::string* scene : {&footing, &block}) {

@@ -98,7 +98,12 @@ TEST(StateFile, IsRefusedByTheSecantPairsThatDoNotFit) {
   };
   EXPECT_EQ(reason([](model::State<2>&) {}), "none");
   EXPECT_EQ(reason([](model::State<2>& state) { state.secant_change.setOnes(7, 3); }),
-            "/state/secants/change is not of 192 unknowns each");
+            "/state/secants/change is not of at most 100 pairs of 192 unknowns each");
+  EXPECT_EQ(reason([](model::State<2>& state) {
+              state.secant_step.setOnes(192, 101);
+              state.secant_change.setOnes(192, 101);
+            }),
+            "/state/secants/step is not of at most 100 pairs of 192 unknowns each");
   EXPECT_EQ(reason([](model::State<2>& state) { state.secant_change.resize(0, 0); }),
             "/state/secants/ holds steps without changes");
 }

@@ -15,6 +15,9 @@ std::vector<double> numbers_of(model::State<2> state) {
   state.for_each_particle_field([&](const char*, const char*, const auto& field) {
     numbers.insert(numbers.end(), field.data(), field.data() + field.size());
   });
+  state.for_each_secant_field([&](const char*, const char*, const auto& field) {
+    numbers.insert(numbers.end(), field.data(), field.data() + field.size());
+  });
   state.programme.for_each_field([&](const char*, const char*, const auto& number) {
     numbers.push_back(static_cast<double>(number));
   });
@@ -32,6 +35,18 @@ TEST(LoadStepper, LeavesTheStateAsItWasWhenAStepFailsAtTheSmallestIncrement) {
   const StepResult result = run.stepper.advance();
   ASSERT_EQ(result.outcome, StepOutcome::minimum_increment);
   ASSERT_GT(result.record.cuts, 0);
+  EXPECT_EQ(numbers_of(run.state), before);
+}
+
+TEST(LoadStepper, LeavesTheSecantPairsOfTheStepBeforeAFailedOne) {
+  SmallFooting run({"re_search.enabled=false", "programme.minimum_increment_ratio=0.2"});
+  for (int step = 0; step < 5; ++step) {
+    ASSERT_EQ(run.stepper.advance().outcome, StepOutcome::converged);
+  }
+  ASSERT_GT(run.state.secant_step.cols(), 0);
+  const auto before = numbers_of(run.state);
+  EXPECT_EQ(run.stepper.advance([](const jfnk::Iteration& line) { return line.index < 2; }).outcome,
+            StepOutcome::stopped);
   EXPECT_EQ(numbers_of(run.state), before);
 }
 

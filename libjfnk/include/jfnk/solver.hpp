@@ -213,14 +213,16 @@ class Solver {
   /// The next solve, of as many unknowns and by multisecants, begins with these pairs of one
   /// before. They spare evaluations where the same few modes are soft in both, as in load steps of
   /// plastic flow; where the Jacobian changes smoothly as a whole they cost some. All pairs are
-  /// dropped when they lead nowhere (`Multisecant::given_patience`) or Newton has to help. Not used
-  /// in the norm of P F.
-  /// @param pairs  of a solver with the same u_scale and f_scale, as `pairs` hands them out
+  /// dropped when they lead nowhere (`Multisecant::given_patience`) or Newton has to help. Of no
+  /// use, and not looked at, by Newton-Krylov and in the norm of P F; forgotten by `set_options`
+  /// and `load`.
+  /// @param pairs  of a solver with the same u_scale and f_scale, as `pairs` hands them out; of a
+  ///   distributed residual the rows of this process
   /// @throws std::invalid_argument if steps and changes differ in size, or are not finite; `start`
   ///   and `solve` if they are not of the size of u
   void begin_with(SecantPairs pairs);
-  /// The latest pairs of the last solve, oldest first; none where there are no multisecant stages
-  /// or they are in the norm of P F.
+  /// The latest pairs of the last solve, oldest first; none where they are not changes of F
+  /// (Newton-Krylov, the norm of P F, a learnt Jacobian) or too long for single precision.
   /// @param count  no more than so many
   /// @param[out] pairs  resized
   void pairs(int count, SecantPairs& pairs) const;
