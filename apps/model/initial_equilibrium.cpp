@@ -176,7 +176,9 @@ class Bearing {
       return scene::share_of(scene_, scene::LoadKind::traction, name).constant;
     };
     for (const scene::Traction& traction : scene_.traction) {
-      if (place.face != static_cast<int>(traction.side) || !is_within_range(traction, place.at)) {
+      if (place.face != static_cast<int>(traction.side) ||
+          !is_within_range<Dim>(scene_, traction.side, place.at, traction.range_min,
+                                traction.range_max)) {
         continue;
       }
       sum += constant(traction.name) * Eigen::Map<const fpm::Vector<Dim>>(traction.value.data());
@@ -189,32 +191,10 @@ class Bearing {
         sum += traction_of<Dim>(of->pressure, of->shear, place.normal);
       }
     }
-    if (is_loaded(place)) sum += stress_ * place.normal;
+    if (is_loaded_by_stress(scene_, place.cut, place.side, place.face)) {
+      sum += stress_ * place.normal;
+    }
     return sum;
-  }
-  bool is_within_range(const scene::Traction& traction, const fpm::Vector<Dim>& at) const {
-    const double slack = scene::same_place(scene_.geometry);
-    std::size_t k = 0;
-    for (int i = 0; i < Dim && !traction.range_min.empty(); ++i) {
-      if (i == scene::axis_of(traction.side)) continue;
-      if (at[i] < traction.range_min[k] - slack || at[i] > traction.range_max[k] + slack) {
-        return false;
-      }
-      ++k;
-    }
-    return true;
-  }
-  bool is_loaded(const SurfacePlace<Dim>& place) const {
-    std::string_view name;
-    if (cutout(place) != nullptr) {
-      name = cutout(place)->name;
-    } else if (side(place) != nullptr) {
-      name = side(place)->name;
-    } else if (place.face >= 0 &&
-               scene::is_face_by_itself(scene_, static_cast<scene::Side>(place.face))) {
-      name = scene::name_of(static_cast<scene::Side>(place.face));
-    }
-    return !name.empty() && std::ranges::count(scene_.initial_stress.loaded_sides, name) > 0;
   }
 
   const scene::Scene& scene_;
@@ -236,6 +216,35 @@ std::string words_of(const fpm::Vector<Dim>& traction, const fpm::Vector<Dim>& n
   }
 }
 
+// What to do about a place where something is not borne.
+template <int Dim>
+std::string advice_on(const scene::Scene& scene, const SurfacePlace<Dim>& place) {
+  if (is_loaded_by_stress(scene, place.cut, place.side, place.face)) {
+    return "initial_stress.loaded_sides names it, by which it is loaded as it must be: give it no "
+           "other load that acts from the start";
+  }
+  const auto face = static_cast<scene::Side>(place.face);
+  const bool is_face = place.face >= 0;
+  const bool by_penalty =
+      is_face && std::ranges::any_of(scene.support, [&](const auto& support) {
+        return support.side == face && support.method == scene::SupportMethod::penalty;
+      });
+  const bool by_plate =
+      is_face && std::ranges::any_of(scene::all_drives(scene), [&](const auto* d) {
+        return d->side == face && !d->level &&
+               (d->kind == scene::DriveKind::displacement || scene::is_rigid_body(*d));
+      });
+  const bool elsewhere =
+      std::ranges::any_of(scene.support, [](const auto& support) { return !support.side; });
+  std::string advice = "hold it there";
+  if (by_penalty) advice = "a penalty bears nothing at first: use direct, ghosts or contact";
+  if (by_plate) advice = "the plate of a drive bears nothing at first: hold it otherwise";
+  if (!by_penalty && !by_plate && elsewhere) advice += " by a support that names its side";
+  return advice +
+         ", load it as much, or, if the ground goes on, name it in initial_stress.loaded_sides; "
+         "what is to be dug is a [[region]] that a [[stage]] removes";
+}
+
 template <int Dim>
 void check_surface(const scene::Scene& scene, const Model<Dim>& model, const Tensor<Dim>& stress) {
   const Bearing<Dim> bearing(scene, stress);
@@ -255,13 +264,11 @@ void check_surface(const scene::Scene& scene, const Model<Dim>& model, const Ten
                   "what is behind a mirror is sheared the other way: take the whole body, or axes "
                   "along which there is no shear");
   }
-  throw Refusal(
-      kind,
-      fmt::format("nothing bears {} on {}, at {}",
-                  words_of<Dim>(bearing.missing(*worst), worst->normal), name,
-                  text_of<Dim>(worst->at)),
-      "hold it there, load it as much, or, if the ground goes on, name it in "
-      "initial_stress.loaded_sides; what is to be dug is a [[region]] that a [[stage]] removes");
+  throw Refusal(kind,
+                fmt::format("nothing bears {} on {}, at {}",
+                            words_of<Dim>(bearing.missing(*worst), worst->normal), name,
+                            text_of<Dim>(worst->at)),
+                advice_on(scene, *worst));
 }
 
 template <int Dim>

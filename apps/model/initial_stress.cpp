@@ -35,15 +35,7 @@ template <int Dim>
 bool is_at_wall(const scene::Scene& scene, scene::Side side, const fpm::Vector<Dim>& place) {
   const scene::Drive& drive = scene.drive;
   if (!scene::drives_wall(scene) || drive.side != side) return false;
-  const double slack = scene::same_place(scene.geometry);
-  std::size_t k = 0;
-  for (int i = 0; i < Dim && !drive.range_min.empty(); ++i) {
-    if (i == scene::axis_of(side)) continue;
-    if (place[i] < drive.range_min[k] - slack || place[i] > drive.range_max[k] + slack)
-      return false;
-    ++k;
-  }
-  return true;
+  return is_within_range<Dim>(scene, side, place, drive.range_min, drive.range_max);
 }
 
 }  // namespace

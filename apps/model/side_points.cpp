@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
+#include <string_view>
 
 #include "model/bodies.hpp"
 #include "model/surface.hpp"
@@ -27,6 +29,24 @@ fpm::Vector<Dim> range_corner(const scene::Point& range, scene::Side side, doubl
 
 }  // namespace
 
+template <int Dim>
+bool is_within_range(const scene::Scene& scene, scene::Side side, const fpm::Vector<Dim>& place,
+                     const scene::Point& range_min, const scene::Point& range_max) {
+  const double slack = scene::same_place(scene.geometry);
+  std::size_t k = 0;
+  for (int i = 0; i < Dim && !range_min.empty(); ++i) {
+    if (i == scene::axis_of(side)) continue;
+    if (place[i] < range_min[k] - slack || place[i] > range_max[k] + slack) return false;
+    ++k;
+  }
+  return true;
+}
+
+template bool is_within_range<2>(const scene::Scene&, scene::Side, const fpm::Vector<2>&,
+                                 const scene::Point&, const scene::Point&);
+template bool is_within_range<3>(const scene::Scene&, scene::Side, const fpm::Vector<3>&,
+                                 const scene::Point&, const scene::Point&);
+
 std::string name_of_surface(const scene::Scene& scene, int cut, int side, int face) {
   const auto index = [](int i) { return static_cast<std::size_t>(i); };
   if (cut >= 0) return fmt::format("the cutout \"{}\"", scene.cutout[index(cut)].name);
@@ -37,6 +57,20 @@ std::string name_of_surface(const scene::Scene& scene, int cut, int side, int fa
     return fmt::format("the face \"{}\"", scene::name_of(of_box));
   }
   return "a part of the outline that no [[side]] names";
+}
+
+bool is_loaded_by_stress(const scene::Scene& scene, int cut, int side, int face) {
+  if (scene.initial_stress.kind != scene::InitialStressKind::uniform) return false;
+  const auto index = [](int i) { return static_cast<std::size_t>(i); };
+  std::string_view name;
+  if (cut >= 0) {
+    name = scene.cutout[index(cut)].name;
+  } else if (side >= 0) {
+    name = scene.side[index(side)].name;
+  } else if (face >= 0 && scene::is_face_by_itself(scene, static_cast<scene::Side>(face))) {
+    name = scene::name_of(static_cast<scene::Side>(face));
+  }
+  return !name.empty() && std::ranges::count(scene.initial_stress.loaded_sides, name) > 0;
 }
 
 bool is_plain_vertex_lattice(const scene::Scene& scene) {

@@ -22,9 +22,17 @@ SurfacePoints<Dim> side_points(const scene::Scene& scene, const Model<Dim>& mode
                                const std::vector<double>& range_min,
                                const std::vector<double>& range_max);
 
+/// Whether a place on a side is in such a range along it.
+template <int Dim>
+bool is_within_range(const scene::Scene& scene, scene::Side side, const fpm::Vector<Dim>& place,
+                     const std::vector<double>& range_min, const std::vector<double>& range_max);
+
 /// What a piece of the surface is called, `the side "face"`; -1 stands for none.
 /// @param cut, side, face  as a SurfacePiece has them
 std::string name_of_surface(const scene::Scene& scene, int cut, int side, int face);
+
+/// Whether a uniform initial stress loads such a piece, as the ground goes on beyond it.
+bool is_loaded_by_stress(const scene::Scene& scene, int cut, int side, int face);
 
 /// Whether the particles are the vertices of a lattice without jitter.
 bool is_plain_vertex_lattice(const scene::Scene& scene);

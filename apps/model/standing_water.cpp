@@ -6,6 +6,7 @@
 #include "model/side_points.hpp"
 #include "model/surface.hpp"
 #include "scene/derived.hpp"
+#include "scene/drives.hpp"
 #include "scene/ground.hpp"
 #include "scene/scene.hpp"
 #include "scene/water.hpp"
@@ -37,8 +38,19 @@ std::vector<Piece> pieces_of(const scene::Scene& scene, const Model<2>& model) {
   return pieces;
 }
 
+// Whether a plate that is displaced holds it.
+bool is_driven(const scene::Scene& scene, const Piece& piece) {
+  const auto side = static_cast<scene::Side>(piece.face);
+  const Place middle = 0.5 * (piece.from + piece.to);
+  return std::ranges::any_of(scene::all_drives(scene), [&](const scene::Drive* drive) {
+    return drive->kind == scene::DriveKind::displacement && !drive->level && drive->side == side &&
+           is_within_range<2>(scene, side, middle, drive->range_min, drive->range_max);
+  });
+}
+
 bool is_held(const scene::Scene& scene, const Piece& piece) {
   if (piece.face >= 0 && scene::is_held(scene, static_cast<scene::Side>(piece.face))) return true;
+  if (piece.face >= 0 && is_driven(scene, piece)) return true;
   if (piece.cut >= 0) {
     return scene.cutout[static_cast<std::size_t>(piece.cut)].kind != scene::CutoutKind::free;
   }

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "constitutive/tensor.hpp"
 #include "fpm/boundary.hpp"
+#include "model/initial_stress.hpp"
+#include "model/side_points.hpp"
 #include "model/surface.hpp"
 #include "scene/derived.hpp"
 #include "scene/ground.hpp"
@@ -28,20 +31,6 @@ fpm::Vector<Dim> traction_of(double pressure, double shear, const fpm::Vector<Di
   return traction;
 }
 
-// Whether a place on a side of the box is in a range along it; an empty one is all of the side.
-template <int Dim>
-bool is_within(const scene::Scene& scene, int axis, const fpm::Vector<Dim>& place,
-               const scene::Point& from, const scene::Point& to) {
-  const double slack = scene::same_place(scene.geometry);
-  std::size_t k = 0;
-  for (int i = 0; i < Dim && !from.empty(); ++i) {
-    if (i == axis) continue;
-    if (place[i] < from[k] - slack || place[i] > to[k] + slack) return false;
-    ++k;
-  }
-  return true;
-}
-
 template <int Dim>
 bool is_mirror(const Model<Dim>& model, const fpm::Face& face) {
   return std::ranges::any_of(model.ghosts.planes(), [&](const fpm::GhostPlane<Dim>& plane) {
@@ -60,13 +49,14 @@ void say_of_face(const scene::Scene& scene, const fpm::Face& face, WallPoint<Dim
     const bool has_plate =
         drive->kind == scene::DriveKind::displacement || scene::is_rigid_body(*drive);
     if (!has_plate || drive->side != side || drive->level) continue;
-    if (is_within(scene, face.axis, point.position, drive->range_min, drive->range_max)) {
+    if (is_within_range<Dim>(scene, side, point.position, drive->range_min, drive->range_max)) {
       point.is_known = false;
     }
   }
   for (const scene::Traction& traction : scene.traction) {
     if (traction.side != side) continue;
-    if (!is_within(scene, face.axis, point.position, traction.range_min, traction.range_max)) {
+    if (!is_within_range<Dim>(scene, side, point.position, traction.range_min,
+                              traction.range_max)) {
       continue;
     }
     add<Dim>(Eigen::Map<const fpm::Vector<Dim>>(traction.value.data()),
@@ -91,6 +81,15 @@ void say_of_side(const scene::Scene& scene, std::size_t index, WallPoint<Dim>& p
   add(traction_of(side.pressure, side.shear, point.normal), {}, point);
   add(traction_of(side.live_pressure, side.live_shear, point.normal),
       scene::share_of(scene, scene::LoadKind::traction, side.name), point);
+}
+
+// Beyond a side that a uniform initial stress loads the ground goes on, and presses with it.
+template <int Dim>
+void say_of_stress(const scene::Scene& scene, int cut, int side, int face, WallPoint<Dim>& point) {
+  if (!is_loaded_by_stress(scene, cut, side, face)) return;
+  const fpm::Tensor<Dim> stress =
+      constitutive::spatial_part<Dim>(initial_stress_at<Dim>(scene, point.position, 0));
+  point.constant += stress * point.normal;
 }
 
 // Calls add(place, normal, area) for the points of a piece.
@@ -126,6 +125,7 @@ void add_piece(const scene::Scene& scene, const Model<Dim>& model, const Surface
                      say_of_cutout(scene, static_cast<std::size_t>(piece.cut), point);
                    if (piece.side >= 0)
                      say_of_side(scene, static_cast<std::size_t>(piece.side), point);
+                   say_of_stress(scene, piece.cut, piece.side, piece.face, point);
                    points.push_back(point);
                  });
 }
@@ -178,6 +178,7 @@ std::vector<WallPoint<Dim>> wall_points(const scene::Scene& scene, const Model<D
       point.normal = quadrature.normal.row(c).transpose();
       point.area = quadrature.weight[c];
       say_of_face(scene, face, point);
+      say_of_stress(scene, -1, -1, 2 * face.axis + (face.upper ? 1 : 0), point);
       points.push_back(point);
     }
   }

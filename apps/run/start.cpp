@@ -10,6 +10,7 @@
 #include "model/state_file.hpp"
 #include "record/checkpoint_folder.hpp"
 #include "record/checkpoint_name.hpp"
+#include "scene/derived.hpp"
 #include "scene/scene.hpp"
 #include "scene/stages.hpp"
 
@@ -92,6 +93,8 @@ void resume(const std::filesystem::path& checkpoint, const scene::Scene& scene,
   start.refusals = refusals_among(start.changes);
   if (!start.refusals.empty()) return;
   start.state = model::read_state(file, model, notes.schema);
+  const std::string of_wall = note_on_wall(notes.schema, scene);
+  if (!of_wall.empty()) start.warnings.push_back(of_wall);
   start.lineage = lineage_from(checkpoint, notes, start.changes);
   start.history = std::move(notes.history);
   record::change_measures(start.history, notes.measures, start.measures);
@@ -104,6 +107,21 @@ void resume(const std::filesystem::path& checkpoint, const scene::Scene& scene,
 }
 
 }  // namespace
+
+std::string note_on_wall(std::int64_t schema, const scene::Scene& scene) {
+  // Before schema 4 nothing kept the initial stress at rest, nor does anything on resume.
+  constexpr std::int64_t schema_of_balance = 4, schema_of_walls = 9;
+  const scene::InitialStressKind kind = scene.initial_stress.kind;
+  const bool is_at_rest =
+      kind == scene::InitialStressKind::geostatic || kind == scene::InitialStressKind::gravity;
+  if (schema < schema_of_balance || schema >= schema_of_walls) return "";
+  if (!is_at_rest || !scene::drives_wall(scene)) return "";
+  return fmt::format(
+      "the checkpoint is of schema {}: what the drive moves bore nothing of the initial stress "
+      "when "
+      "the run began, and bears it from now on, so that its reaction jumps: begin the run anew",
+      schema);
+}
 
 InForce scene_in_force(const RunRequest& request) {
   if (!request.resume) return {request.scene};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -25,7 +26,7 @@ struct RunStart {
   std::vector<record::Ancestor> lineage;    // of the state, its checkpoint last
   std::vector<scene::SceneChange> changes;  // since the checkpoint, all allowed
   std::vector<std::string> refusals;  // why the run may not go on; the state is then not to be used
-  std::vector<std::string> warnings;  // newer checkpoints that are damaged
+  std::vector<std::string> warnings;  // newer checkpoints that are damaged; what older ones lack
   bool re_search_changed = false;
 };
 
@@ -39,6 +40,9 @@ struct InForce {
 /// (keep_methods); and the stage of that. What is wrong with the checkpoint is left for
 /// `find_start` to say.
 InForce scene_in_force(const RunRequest& request);
+
+/// What to say of a wall that bore nothing when an older program began the run; nothing: "".
+[[nodiscard]] std::string note_on_wall(std::int64_t schema, const scene::Scene& scene);
 
 /// The start of a run: the scene's initial state, or the state of the checkpoint that the request
 /// names or, if it names none, of the newest usable one in the output folder.

@@ -2,22 +2,25 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 #include "scene/check.hpp"
 #include "scene/drives.hpp"
+#include "scene/names.hpp"
 #include "scene/scene.hpp"
 
 namespace scene {
 namespace {
 
 // What is behind a mirror weighs the other way across it.
-void check_mirror(const Scene& scene, const std::string& key, const std::string& found,
+void check_mirror(const Scene& scene, Axis axis, const std::string& key, const std::string& found,
                   tables::Diagnosis& diagnosis) {
   for (const Symmetry& mirror : scene.symmetry) {
-    if (mirror.axis != Axis::x || !diagnosis.good({key, "symmetry"})) continue;
+    if (mirror.axis != axis || !diagnosis.good({key, "symmetry"})) continue;
     diagnosis.error(key,
-                    fmt::format("found {}, across the mirror at x = {:g}", found, mirror.position),
+                    fmt::format("found {}, across the mirror at {} = {:g}", found, name_of(axis),
+                                mirror.position),
                     "behind it the weight is aslant the other way: take the whole body, or a "
                     "roller");
     return;
@@ -28,10 +31,18 @@ void check_from_the_first(const Scene& scene, tables::Diagnosis& diagnosis) {
   const Load& load = scene.load;
   const Point& weight = scene.gravity.acceleration;
   const std::string key = "load.kh";
-  if (load.sought == Sought::earthquake || !diagnosis.good({key, "load.kv"})) return;
+  if (load.sought == Sought::earthquake) {
+    check_mirror(scene, Axis::x, "load.sought", "earthquake", diagnosis);
+    return;
+  }
+  if (!diagnosis.good({key, "load.kv"})) return;
   if (load.kh == 0.0) {
-    if (weight.empty() || weight[0] == 0.0) return;
-    check_mirror(scene, "gravity.acceleration", fmt::format("{:g} along x", weight[0]), diagnosis);
+    for (const Axis axis : {Axis::x, Axis::z}) {
+      const auto i = static_cast<std::size_t>(axis);
+      if (i >= weight.size() || weight[i] == 0.0) continue;
+      check_mirror(scene, axis, "gravity.acceleration",
+                   fmt::format("{:g} along {}", weight[i], name_of(axis)), diagnosis);
+    }
     return;
   }
   constexpr double written = 1e-5;  // with six digits
@@ -45,7 +56,7 @@ void check_from_the_first(const Scene& scene, tables::Diagnosis& diagnosis) {
         fmt::format("found {:g}, and a gravity.acceleration of {:g} along x", load.kh, weight[0]),
         "give one of them: without [gravity], kh and kv say how the earth's is aslant");
   } else {
-    check_mirror(scene, key, fmt::format("{:g}", load.kh), diagnosis);
+    check_mirror(scene, Axis::x, key, fmt::format("{:g}", load.kh), diagnosis);
   }
 }
 
@@ -64,7 +75,7 @@ void check_stage(const Scene& scene, std::size_t s, tables::Diagnosis& diagnosis
     diagnosis.error(key, "found with a gravity that does not act downwards",
                     "kh and kv are shares of the weight downwards");
   } else if (stage.kh.value_or(0.0) != 0.0) {
-    check_mirror(scene, key, fmt::format("{:g}", *stage.kh), diagnosis);
+    check_mirror(scene, Axis::x, key, fmt::format("{:g}", *stage.kh), diagnosis);
   }
 }
 

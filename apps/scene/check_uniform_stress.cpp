@@ -5,6 +5,7 @@
 #include <array>
 #include <set>
 
+#include "scene/box.hpp"
 #include "scene/check.hpp"
 #include "scene/derived.hpp"
 #include "scene/drives.hpp"
@@ -107,6 +108,13 @@ void check_uniform_stress(const Scene& scene, tables::Diagnosis& diagnosis) {
   for (const std::string& name : initial.loaded_sides) {
     if (!seen.insert(name).second) {
       diagnosis.error(key, fmt::format("found \"{}\" twice", name), "each name once");
+    }
+    for (int f = 0; f < 2 * scene.geometry.dimension; ++f) {
+      const auto face = static_cast<Side>(f);
+      if (name_of(face) != name || !is_face_by_itself(scene, face)) continue;
+      if (!diagnosis.good({"symmetry"}) || !is_mirror(scene, face)) continue;
+      diagnosis.error(key, fmt::format("found \"{}\", which is a mirror", name),
+                      "behind it is the same ground, which bears what presses on it");
     }
     for (const OutlineSide& side : scene.side) {
       if (side.name != name) continue;

@@ -9,6 +9,7 @@
 
 #include "constitutive/parameters.hpp"
 #include "scene/course.hpp"
+#include "scene/driven_side.hpp"
 #include "scene/factors.hpp"
 #include "scene/ground.hpp"
 #include "scene/outline_faces.hpp"
@@ -223,8 +224,11 @@ std::optional<ActingDrive> drive_by_images(const Scene& scene) {
 
 bool drives_wall(const Scene& scene) {
   const Drive& drive = scene.drive;
-  if (drive.kind != DriveKind::displacement || drive.later || drive.side == Side::top) return false;
-  return resolve_drive_method(scene) == DriveMethod::ghosts;
+  if (drive.kind != DriveKind::displacement || drive.later || drive.level) return false;
+  if (axis_of(drive.side) == 1 || resolve_drive_method(scene) != DriveMethod::ghosts) return false;
+  // Ground without weight settles under its loads alone.
+  if (scene.initial_stress.kind == InitialStressKind::gravity && !has_gravity(scene)) return false;
+  return !is_pressed_from_the_start(scene, drive.side);
 }
 
 DriveMethod resolve_drive_method(const Scene& scene, const Drive& drive) {

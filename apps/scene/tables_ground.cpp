@@ -116,9 +116,11 @@ SceneTable load() {
       .key("kh", &Load::kh,
            {.doc = "Of an earthquake: horizontal weight over weight, along +x or, if negative, "
                    "-x."})
-      .key("kv", &Load::kv,
-           {.range = {.lower = -1.0, .upper = 1.0, .upper_open = true},
-            .doc = "Of an earthquake: the share of the weight that it lifts."})
+      .key(
+          "kv", &Load::kv,
+          {.range = {.lower = -1.0, .upper = 1.0, .upper_open = true},
+           .doc = "Of an earthquake: the share of the weight that it lifts. A gravity.acceleration "
+                  "that is given has it in it already."})
       .key("guided", &Load::guided,
            {.need = tables::Need::optional,
             .doc = "The footing moves along its normal alone; fpm-limit only.",

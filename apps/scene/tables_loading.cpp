@@ -125,7 +125,7 @@ SceneTable initial_stress() {
                 "on it is the stress in the depth. "
                 "uniform: one stress everywhere, sigma_x and so on, of ground without weight; what "
                 "it presses on every side must be borne by a support, a mirror or a load. "
-                "fpm-limit has no use for it, but for its loaded_sides: collapse does not depend "
+                "fpm-limit ignores it, and refuses loaded_sides: collapse does not depend "
                 "on it."})
       .key("surface", &InitialStress::surface,
            {.need = tables::Need::optional,

@@ -3,34 +3,54 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "model/build.hpp"
 #include "model/initial_equilibrium.hpp"
 #include "model/initial_stress.hpp"
 #include "scene/derived.hpp"
+#include "scene/driven_side.hpp"
 #include "scene/drives.hpp"
 #include "scene/grading.hpp"
+#include "scene/names.hpp"
 #include "scene/scene.hpp"
 #include "stepping/stepper.hpp"
 
 namespace stepping {
 namespace {
 
-bool is_held(const scene::Scene& scene, scene::Side side) {
-  return std::ranges::any_of(
-      scene.support, [side](const scene::Support& support) { return support.side == side; });
+bool is_held_across(const scene::Scene& scene, scene::Side side) {
+  const auto across = static_cast<scene::Axis>(scene::axis_of(side));
+  return std::ranges::any_of(scene.support, [&](const scene::Support& support) {
+    return support.side == side && std::ranges::count(support.directions, across) > 0;
+  });
 }
 
-// A wall holds the ground that settles, if it goes all along its side.
+// Whether a wall holds the ground that settles: it must go all along its side.
+bool wall_holds(const scene::Scene& scene) {
+  return scene::drives_wall(scene) && scene::drives_whole_side(scene) &&
+         !is_held_across(scene, scene.drive.side);
+}
+
 void hold_wall(const scene::Scene& scene, scene::Scene& ground) {
   const scene::Drive& drive = scene.drive;
-  if (!drive.range_min.empty() || is_held(scene, drive.side)) return;
   scene::Support wall;
   wall.name = scene::name_of_drive(drive);
   wall.side = drive.side;
   wall.directions = {static_cast<scene::Axis>(scene::axis_of(drive.side))};
   ground.support.push_back(wall);
+}
+
+// That a plate did not hold the ground, if that may be why it does not stand.
+std::string words_of_drive(const scene::Scene& scene) {
+  const scene::Drive& drive = scene.drive;
+  if (drive.kind != scene::DriveKind::displacement || drive.later || drive.level) return "";
+  if (drive.side == scene::Side::top || wall_holds(scene) || is_held_across(scene, drive.side)) {
+    return "";
+  }
+  return fmt::format(", while the plate of the drive does not hold its side, the {}",
+                     scene::name_of(drive.side));
 }
 
 // The scene before its drive begins: weight, or else its dead loads, grow on the same particles.
@@ -60,7 +80,7 @@ scene::Scene settling(const scene::Scene& scene) {
   for (scene::Cutout& cutout : ground.cutout) {
     if (grows(cutout.name)) cutout.pressure = cutout.shear = 0.0;
   }
-  if (scene::drives_wall(scene)) hold_wall(scene, ground);
+  if (wall_holds(scene)) hold_wall(scene, ground);
   ground.drive = {};
   ground.other_drives.clear();
   ground.drive.kind = scene::DriveKind::load;
@@ -97,7 +117,7 @@ void take_stress(const model::Model<Dim>& ground, const model::State<Dim>& rest,
 }
 
 template <int Dim>
-void finish(LoadStepper<Dim>& stepper, const model::State<Dim>& state, const char* failure) {
+void finish(LoadStepper<Dim>& stepper, const model::State<Dim>& state, const std::string& failure) {
   while (!stepper.finished()) {
     const StepResult result = stepper.advance();
     if (result.outcome == StepOutcome::converged) continue;
@@ -147,12 +167,13 @@ model::Model<Dim> model_at_rest(const scene::Scene& scene) {
   model::State<Dim> rest = model::initial_state(ground);
   LoadStepper<Dim> stepper(ground_scene, ground, rest);
   finish(stepper, rest,
-         "initial_stress.kind = \"gravity\": the ground does not stand under its weight and "
-         "dead loads: no equilibrium");
+         fmt::format("initial_stress.kind = \"gravity\": the ground does not stand under its "
+                     "weight and dead loads{}: no equilibrium",
+                     words_of_drive(scene)));
   if (scene.initial_stress.K0 || scene.initial_stress.K0_z)
     rest = with_lateral_stress(scene, ground, rest);
   take_stress(ground, rest, model);
-  model.wall_bears = scene::drives_wall(scene) && is_held(ground_scene, scene.drive.side);
+  model.wall_bears = wall_holds(scene);
   return model;
 }
 

@@ -78,19 +78,28 @@ TEST(StandingWater, IsNoneWhereTheTableIsInTheGroundOrAtItsSurface) {
   EXPECT_TRUE(standing_on(dry).empty());
 }
 
-// Of a box its faces; those that are held are no news.
-TEST(StandingWater, IsOnFacesThatNothingHolds) {
+// Of a box its faces; those that are held, or that a plate moves, are no news.
+void expect_on_top(const std::string& right) {
   const auto found =
       standing_on("[geometry]\nmin = [0, 0]\nmax = [4, 2]\nspacing = 0.25\n" + soil +
-                  "[[support]]\nname = \"base\"\nside = \"bottom\"\ndirections = [\"x\", \"y\"]\n"
-                  "[[support]]\nname = \"left\"\nside = \"left\"\ndirections = [\"x\"]\n"
-                  "[[support]]\nname = \"right\"\nside = \"right\"\ndirections = [\"x\"]\n"
-                  "[water]\nunit_weight = 10e3\ntable = [[0, 3], [4, 3]]\n");
+                  "[[support]]\nname = \"base\"\nside = \"bottom\"\ndirections = [\"y\"]\n"
+                  "[[support]]\nname = \"left\"\nside = \"left\"\ndirections = [\"x\"]\n" +
+                  right + "[water]\nunit_weight = 10e3\ntable = [[0, 3], [4, 3]]\n");
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found.front().on, "the face \"top\"");
   EXPECT_NEAR(found.front().pressure, 10e3, round_off);
   EXPECT_NEAR(found.front().force.x(), 0.0, round_off);
   EXPECT_NEAR(found.front().force.y(), -4.0 * 10e3, round_off);
+}
+
+TEST(StandingWater, IsOnFacesThatNothingHolds) {
+  expect_on_top("[[support]]\nname = \"right\"\nside = \"right\"\ndirections = [\"x\"]\n");
+}
+
+TEST(StandingWater, IsNotOnAFaceThatThePlateOfADriveMoves) {
+  expect_on_top(
+      "[drive]\nkind = \"displacement\"\nside = \"right\"\ndirection = [-1, 0]\n"
+      "target = 0.01\nwidth = 2\n");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "model/state_file.hpp"
 #include "record/curve_file.hpp"
 #include "restart.hpp"
+#include "run/start.hpp"
 #include "scene/changes.hpp"
 #include "scene/derived.hpp"
 #include "scene/reader.hpp"
@@ -124,6 +125,28 @@ TEST(SchemaOfThePast, OfLoadsHasItsControl) {
               is_old ? scene::HourglassControl::mixed : scene::HourglassControl::incremental);
     EXPECT_EQ(scene::resolve_stiffness_ratio(resumed), is_old ? 0.01 : 0.001);
   }
+}
+
+// Walls that a drive moves bore nothing at first.
+TEST(SchemaOfThePast, OfAWallIsWarnedOf) {
+  const auto note = [](std::int64_t schema, const std::string& side) {
+    const auto reading = scene::parse_scene(
+        "[geometry]\nmin = [0.0, 0.0]\nmax = [1.0, 1.0]\nspacing = 0.25\n"
+        "[[material]]\nname = \"soil\"\nmodel = \"elastic\"\nyoungs_modulus = 1e6\n"
+        "poissons_ratio = 0.3\nunit_weight = 20e3\n"
+        "[[support]]\nname = \"base\"\nside = \"bottom\"\ndirections = [\"y\"]\n"
+        "[initial_stress]\nkind = \"geostatic\"\n"
+        "[drive]\nkind = \"displacement\"\nlateral = \"free\"\ntarget = 0.01\nwidth = 1.0\n" +
+            side,
+        "s.toml");
+    EXPECT_TRUE(reading.scene) << reading.errors.front().text();
+    return reading.scene ? run::note_on_wall(schema, *reading.scene) : "";
+  };
+  const std::string wall = "side = \"left\"\ndirection = [-1, 0]\n";
+  EXPECT_THAT(note(8, wall), HasSubstr("its reaction jumps"));
+  EXPECT_EQ(note(3, wall), "");
+  EXPECT_EQ(note(9, wall), "");
+  EXPECT_EQ(note(8, "side = \"top\"\ndirection = [0, -1]\n"), "");
 }
 
 const std::string of_the_future = "has checkpoint schema " +

@@ -78,6 +78,37 @@ colour = "red"
                   "s.toml: material: table is missing; a scene needs [[material]]"));
 }
 
+// In 3D what weighs across a mirror along z is aslant as much as along x.
+TEST(BadScenes, GravityAcrossAMirrorAlongZ) {
+  const std::string text = R"([geometry]
+dimension = 3
+min = [0, 0, 0]
+max = [1, 1, 1]
+spacing = 0.25
+[[material]]
+name = "rock"
+model = "elastic"
+youngs_modulus = 1e7
+poissons_ratio = 0.3
+density = 2000
+[[symmetry]]
+axis = "z"
+position = 0
+[[support]]
+name = "base"
+side = "bottom"
+directions = ["x", "y", "z"]
+[gravity]
+acceleration = [0, -9.81, 2]
+)";
+  const auto reading = parse_scene(text, "s.toml");
+  ASSERT_EQ(reading.errors.size(), 1U);
+  EXPECT_EQ(
+      reading.errors[0].text(),
+      "s.toml:20:16: gravity.acceleration: found 2 along z, across the mirror at z = 0; behind "
+      "it the weight is aslant the other way: take the whole body, or a roller");
+}
+
 TEST(BadScenes, AnEmptyFileNamesTheTablesItNeeds) {
   const auto reading = parse_scene("", "s.toml");
   ASSERT_EQ(reading.errors.size(), 2U);

@@ -432,6 +432,23 @@ kind = "reaction"
 support = "wall"
 )";
 
+// With what to do about it.
+TEST(InSituStress, IsRefusedWithWhatWouldBearIt) {
+  EXPECT_THAT(refusal({"side.0.kind=loaded", "side.0.pressure=1e6"}),
+              HasSubstr("initial_stress.loaded_sides names it"));
+  EXPECT_THAT(refusal({"support.1.method=penalty"}, box),
+              HasSubstr("a penalty bears nothing at first: use direct, ghosts or contact"));
+  EXPECT_THAT(
+      refusal({"initial_stress.loaded_sides=[\"left\"]", "drive.kind=displacement",
+               "drive.side=right", "drive.direction=[1,0]", "drive.target=0.01", "drive.width=1"},
+              box),
+      HasSubstr("the plate of a drive bears nothing at first"));
+  const std::string foot =
+      "[[support]]\nname = \"foot\"\nat = [0, 0]\ndirections = [\"x\", \"y\"]\n";
+  EXPECT_THAT(refusal({"initial_stress.loaded_sides=[\"left\"]"}, box + foot),
+              HasSubstr("hold it there by a support that names its side"));
+}
+
 // Sides that press against each other: each bears what it does, though in sum they bear nothing.
 TEST(InSituStress, IsShownByTheSupportsThatBearIt) {
   StagedRun run{scene_of(box)};
@@ -440,6 +457,29 @@ TEST(InSituStress, IsShownByTheSupportsThatBearIt) {
   EXPECT_NEAR(measured(run, "base_Ry_N_per_m"), 2.0 * 3e6, round_off);
   EXPECT_NEAR(measured(run, "wall_Rx_N_per_m"), 2e6, round_off);
   EXPECT_LT(run.state.displacement.cwiseAbs().maxCoeff(), 1e-9);
+}
+
+// What is measured on a side that the stress loads, aslant and of the box, at rest and after a
+// step.
+TEST(InSituStress, IsMeasuredOnTheSidesThatItLoads) {
+  const auto at_wall = [](const char* at) {
+    return fmt::format("[[measure]]\nname = \"at\"\nkind = \"stress\"\nat = {}\n", at);
+  };
+  struct Told {
+    double x, y, xy;  // [Pa]
+  };
+  const auto check = [](const std::string& text, const Settings& settings, const Told& told) {
+    StagedRun run{scene_of(text, settings)};
+    const double slack = 1e-6 * std::abs(told.x);
+    for (const bool stepped : {false, true}) {
+      if (stepped) run.complete();
+      EXPECT_NEAR(measured(run, "at_sxx_Pa"), told.x, slack) << stepped;
+      EXPECT_NEAR(measured(run, "at_syy_Pa"), told.y, slack) << stepped;
+      EXPECT_NEAR(measured(run, "at_sxy_Pa"), told.xy, slack) << stepped;
+    }
+  };
+  check(aslant + at_wall("[4.5, 0.5]"), {"geometry.spacing=0.125"}, {-8e6, -3e6, 2e6});
+  check(box + at_wall("[2.0, 0.5]"), {"geometry.spacing=0.0625"}, {-2e6, -3e6, 0.0});
 }
 
 // What is behind a mirror is sheared the other way; a roller lets it slide.
