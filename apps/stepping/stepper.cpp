@@ -250,13 +250,16 @@ bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult&
 }
 
 // What a solve learns of the tangent serves the next step where it is the load that grows. Elastic
-// steps are few, and where strength is divided, or rows are rebuilt, the tangent changes too. The
-// paper's algorithm knows nothing of it.
+// steps are few, and where strength is divided, or rows are rebuilt, the tangent changes too. Under
+// tight tolerances the last pairs are of the last digits: they spare nothing, and perturb bodies
+// that deform alike everywhere. The paper's algorithm knows nothing of it.
 template <int Dim>
 bool LoadStepper<Dim>::hands_on_pairs() const {
+  constexpr double tightest = 1e-4;
   const scene::Course& course = scene_.course;
-  return state_.layout.plastic &&
-         scene::resolve_solver(scene_).method != scene::SolverMethod::newton_krylov &&
+  const scene::SolverSettings settings = scene::resolve_solver(scene_);
+  return state_.layout.plastic && settings.tolerance >= tightest &&
+         settings.method != scene::SolverMethod::newton_krylov &&
          scene_.solver.preset != scene::SolverPreset::appendix_a &&
          course.reduction_begin == course.reduction_end;
 }
