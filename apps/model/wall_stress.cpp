@@ -91,6 +91,7 @@ std::optional<WallStress<Dim>> WallStress<Dim>::at(const scene::Scene& scene,
     result.take_thickness(walls, particles, foot);
   }
   result.take_initial(places, on);
+  if (result.fits_ == 0.0) return std::nullopt;
   result.factor(places, on);
   if (result.fit_.rank() < result.fit_.cols()) return std::nullopt;
   return result;
@@ -212,6 +213,12 @@ void WallStress<Dim>::take_initial(const std::vector<fpm::Vector<Dim>>& places,
   }
   const Eigen::MatrixXd linear = rows.colPivHouseholderQr().solve(right);
   initial_ = linear.row(0).transpose();
+  // Around a hole that was there before, stress is not linear, and the displacement that made it is
+  // not known. A linear one leaves round-off.
+  constexpr double all = 0.01, none = 0.03;
+  const double norm = right.norm();
+  const double left = norm > 0.0 ? (rows * linear - right).norm() / norm : 0.0;
+  fits_ = std::clamp((none - left) / (none - all), 0.0, 1.0);
   for (std::size_t k = 0; k < on.size(); ++k) {
     walls_[k].initial = initial_ + linear.template bottomRows<Dim>().transpose() * on[k] / radius_;
   }
@@ -256,7 +263,7 @@ double WallStress<Dim>::unbalanced(const State<Dim>& state, const Stress& stress
 template <int Dim>
 double WallStress<Dim>::share(const State<Dim>& state, const Stress& stress,
                               const Eigen::VectorXd& coefficients) const {
-  double share = 1.0;
+  double share = fits_;
   if (state.plastic_strain.size() > 0) {
     double most = 0.0;
     for (const Served& one : served_) most = std::max(most, state.plastic_strain[one.particle]);
@@ -319,7 +326,9 @@ template <int Dim>
 constitutive::StressVector<Dim> WallStress<Dim>::mended(const State<Dim>& state,
                                                         const Stress& interpolated) const {
   const double left_over = unbalanced(state, interpolated);
-  if (left_over > 0.0 && !begins_at_rest_) return interpolated;
+  // What walls bore when a later stage began is not known.
+  const double known = begins_at_rest_ ? 1.0 : 1.0 - left_over;
+  if (known == 0.0) return interpolated;
   Eigen::VectorXd right(fit_.rows());
   Eigen::Index row = 0;
   for (const Served& one : served_) {
@@ -339,7 +348,7 @@ constitutive::StressVector<Dim> WallStress<Dim>::mended(const State<Dim>& state,
   const Stress fitted =
       initial_ + stiffness_ * (cubic_strains<Dim>(fpm::Vector<Dim>::Zero()) * coefficients);
   const double part =
-      share(state, interpolated, coefficients) * unbent(state) * explained(state, right);
+      known * share(state, interpolated, coefficients) * unbent(state) * explained(state, right);
   return interpolated + part * (fitted - interpolated);
 }
 

@@ -91,6 +91,7 @@ class WallStress {
   double spacing_ = 0.0, radius_ = 0.0;  // [m]
   double area_ = 0.0;                    // [m^(Dim-1)] of the wall around
   double fades_ = 1.0;
+  double fits_ = 1.0;  // which part of the initial stress a linear function bears
   bool begins_at_rest_ = true;
   Eigen::Matrix<double, stress_rows, stress_rows> stiffness_;
   double modulus_ = 1.0;  // [Pa]

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "scene/grading.hpp"
 #include "scene/scene.hpp"
 #include "scene/tables.hpp"
 #include "tables/table.hpp"
@@ -71,6 +72,9 @@ void keep_methods(const Scene& before, Scene& scene) {
   if (hourglass.control == HourglassControl::automatic) {
     hourglass.control = before.hourglass.control;
   }
+  // A growth by default was a number in files of before, and is the rule's in others.
+  std::optional<double>& growth = scene.grading.growth;
+  if (!growth || *growth == resolve_growth(before)) growth = before.grading.growth;
   if (!hourglass.stiffness_ratio) hourglass.stiffness_ratio = before.hourglass.stiffness_ratio;
 }
 

@@ -134,13 +134,15 @@ double resolve_grading_length(const Scene& scene) {
 }
 
 // Collapse is decided next to the fine places, whatever the spacing is elsewhere; what an elastic
-// body gives way by is a sum over all of it. Halving the spacing then halves the error and doubles
-// the particles.
+// body gives way by is a sum over all of it. With spacings of sqrt(dx r) halving dx halves the
+// error and doubles the particles. Measured in the plane alone.
 double resolve_growth(const Scene& scene) {
   if (scene.grading.growth) return *scene.grading.growth;
   constexpr double most = 0.125;
-  if (std::ranges::any_of(scene.material, yields)) return most;
-  return std::min(most, std::sqrt(scene.geometry.spacing / shortest_extent(scene.geometry)));
+  constexpr double exponent_of_rule = 0.5;
+  const bool has_rule = scene.geometry.dimension == 2 && scene.grading.exponent == exponent_of_rule;
+  if (!has_rule || std::ranges::any_of(scene.material, yields)) return most;
+  return std::min(most, std::sqrt(scene.geometry.spacing / resolve_grading_length(scene)));
 }
 
 double resolve_coarsest(const Scene& scene) {

@@ -175,7 +175,7 @@ SceneTable grading() {
             .range = {0.0, 1.0, true, false},
             .doc = "A: at a distance r from the nearest such place the spacing is at most "
                    "A L (r / L)^exponent.",
-            .absent = "1/8; where nothing yields at most sqrt(spacing / shortest extent), as "
+            .absent = "1/8; in the plane where nothing yields at most sqrt(spacing / length), as "
                       "errors there are those of the coarse cells"})
       .key("exponent", &Grading::exponent,
            {.range = tables::between(0.0, 1.0),

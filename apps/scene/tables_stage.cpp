@@ -8,7 +8,7 @@ namespace scene {
 
 namespace {
 
-tables::TableBuilder<Scene, Stage>& with_changes(tables::TableBuilder<Scene, Stage>& table) {
+tables::TableBuilder<Scene, Stage>& with_ground(tables::TableBuilder<Scene, Stage>& table) {
   return table
       .key("remove", &Stage::remove,
            {.need = tables::Need::optional,
@@ -51,7 +51,11 @@ tables::TableBuilder<Scene, Stage>& with_changes(tables::TableBuilder<Scene, Sta
            {.need = tables::Need::optional,
             .range = {.lower = -1.0, .upper = 1.0, .upper_open = true},
             .doc = "Likewise, in place of load.kv: the share of the weight that it lifts.",
-            .absent = "as it was"})
+            .absent = "as it was"});
+}
+
+tables::TableBuilder<Scene, Stage>& with_materials(tables::TableBuilder<Scene, Stage>& table) {
+  return table
       .key("materials", &Stage::materials,
            {.need = tables::Need::optional,
             .doc = "Names of materials whose strength changes, to one value of each list below. "
@@ -116,11 +120,12 @@ SceneTable stage() {
                    "that has faded at the stage's end; the rest goes on to the next one, which may "
                    "begin with a lining."});
   tables::TableBuilder<Drive, Drive> drive("");
-  with_changes(table).within(
-      "drive", &Stage::drive, with_drive(drive, true).build(),
-      "As in [drive], from this stage on. The one before stays where it is, unless it is released. "
-      "A name alone goes on with the drive of that name.",
-      "as in [drive]");
+  with_materials(with_ground(table))
+      .within("drive", &Stage::drive, with_drive(drive, true).build(),
+              "As in [drive], from this stage on. The one before stays where it is, unless it is "
+              "released. "
+              "A name alone goes on with the drive of that name.",
+              "as in [drive]");
   return table.build();
 }
 

@@ -15,6 +15,7 @@
 #include "run/start.hpp"
 #include "scene/changes.hpp"
 #include "scene/derived.hpp"
+#include "scene/grading.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
 
@@ -147,6 +148,32 @@ TEST(SchemaOfThePast, OfAWallIsWarnedOf) {
   EXPECT_EQ(note(3, wall), "");
   EXPECT_EQ(note(9, wall), "");
   EXPECT_EQ(note(8, "side = \"top\"\ndirection = [0, -1]\n"), "");
+}
+
+// Files of before say 0.125 where the scene says nothing; a scene may say what the rule comes to.
+TEST(SchemaOfThePast, OfGradedBodiesHasItsGrowth) {
+  const auto before = scene::parse_scene(
+      "[geometry]\nmin = [0.0, 0.0]\nmax = [1.0, 1.0]\nspacing = 0.01\n"
+      "[grading]\nenabled = true\n[[refine]]\nat = [0.5, 0.5]\n"
+      "[[material]]\nname = \"soil\"\nmodel = \"elastic\"\nyoungs_modulus = 1e6\n"
+      "poissons_ratio = 0.3\ndensity = 2e3\n"
+      "[[support]]\nname = \"base\"\nside = \"bottom\"\ndirections = [\"x\", \"y\"]\n"
+      "[drive]\nside = \"top\"\ntarget = 0.01\n[programme]\nsteps = 4\n",
+      "s.toml");
+  ASSERT_TRUE(before.scene) << before.errors.front().text();
+  ASSERT_LT(scene::resolve_growth(*before.scene), 0.125);
+  const auto resumed = [&](std::optional<double> stored, std::optional<double> told) {
+    scene::Scene former = *before.scene, now = *before.scene;
+    former.grading.growth = stored;
+    now.grading.growth = told;
+    scene::keep_methods(former, now);
+    return scene::scene_changes(former, now, 0).empty();
+  };
+  EXPECT_TRUE(resumed(0.125, std::nullopt));
+  EXPECT_TRUE(resumed(std::nullopt, std::nullopt));
+  EXPECT_TRUE(resumed(std::nullopt, scene::resolve_growth(*before.scene)));
+  EXPECT_FALSE(resumed(0.125, 0.25));
+  EXPECT_FALSE(resumed(std::nullopt, 0.125));
 }
 
 const std::string of_the_future = "has checkpoint schema " +

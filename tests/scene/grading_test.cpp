@@ -76,6 +76,17 @@ TEST(Grading, IsCloserInElasticBodiesOfFineSpacing) {
   EXPECT_EQ(resolve_growth(scene), 0.125);
   for (Material& material : scene.material) material.model = "elastic";
   EXPECT_DOUBLE_EQ(resolve_growth(scene), 1.0 / 16.0);
+  // Of the length of the rule: else the particles of a small footing grow without bound.
+  scene.grading.length = 0.25;
+  EXPECT_DOUBLE_EQ(resolve_growth(scene), 0.125);
+  scene.grading.length.reset();
+  // Of no other rule, nor in space, where it was not measured.
+  scene.grading.exponent = 0.6;
+  EXPECT_EQ(resolve_growth(scene), 0.125);
+  scene.grading.exponent = 0.5;
+  scene.geometry.dimension = 3;
+  EXPECT_EQ(resolve_growth(scene), 0.125);
+  scene.geometry.dimension = 2;
   scene.geometry.spacing = 0.1;
   EXPECT_EQ(resolve_growth(scene), 0.125);
   scene.grading.growth = 0.25;
