@@ -283,16 +283,21 @@ double WallStress<Dim>::share(const State<Dim>& state, const Stress& stress,
   return share;
 }
 
+// The stress of a particle over that before the first step.
+template <int Dim>
+constitutive::StressVector<Dim> WallStress<Dim>::added_to(const State<Dim>& state,
+                                                          fpm::Index a) const {
+  Stress added = state.stress.col(a);
+  if (model_->initial_stress.size() > 0) added -= model_->initial_stress.col(a);
+  if (model_->stress_at_rest.size() > 0) added -= model_->stress_at_rest.col(a);
+  return added;
+}
+
 // Stress along the wall of a thin body is what bends it if it changes its sign on the way across.
 template <int Dim>
 double WallStress<Dim>::unbent(const State<Dim>& state) const {
   if (across_ < 0) return 1.0;
-  const auto along = [&](fpm::Index a) {
-    Stress added = state.stress.col(a);
-    if (model_->initial_stress.size() > 0) added -= model_->initial_stress.col(a);
-    if (model_->stress_at_rest.size() > 0) added -= model_->stress_at_rest.col(a);
-    return tangential<Dim>(added, normal_);
-  };
+  const auto along = [&](fpm::Index a) { return tangential<Dim>(added_to(state, a), normal_); };
   const auto here = along(own_), across = along(across_);
   constexpr double none = 0.5, all = 0.75;  // the bending share of it
   const double bent = (here - across).norm(), both = (here + across).norm();
@@ -300,17 +305,17 @@ double WallStress<Dim>::unbent(const State<Dim>& state) const {
 }
 
 // Beside a traction that jumps, or the end of a crack, no cubic function bears what the walls do:
-// how much of the stress around is missing there says so.
+// how much of the stress added around is missing there says so.
 template <int Dim>
 double WallStress<Dim>::explained(const State<Dim>& state, const Eigen::VectorXd& right) const {
   double particles = 0.0, points = 0.0, stress = 0.0;
   for (const Served& one : served_) {
     const double square = one.weight * one.weight;
     particles += square;
-    stress += square * state.stress.col(one.particle).squaredNorm();
+    stress += square * added_to(state, one.particle).squaredNorm();
   }
   for (const Wall& wall : walls_) points += wall.weight * wall.weight;
-  if (!(stress > 0.0)) return 1.0;
+  if (!(stress > 0.0)) return 0.0;  // at rest the particles know what was there
   Eigen::VectorXd left = fit_.householderQ().adjoint() * right;
   left.head(fit_.cols()).setZero();
   left.applyOnTheLeft(fit_.householderQ());

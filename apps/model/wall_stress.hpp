@@ -79,6 +79,7 @@ class WallStress {
                   const Foot<Dim>& foot, std::vector<fpm::Vector<Dim>>& on);
   void take_thickness(const std::vector<WallPoint<Dim>>& walls,
                       const fpm::ParticleSet<Dim>& particles, const Foot<Dim>& foot);
+  [[nodiscard]] Stress added_to(const State<Dim>& state, fpm::Index a) const;
   [[nodiscard]] double unbent(const State<Dim>& state) const;
   void take_initial(const std::vector<fpm::Vector<Dim>>& places,
                     const std::vector<fpm::Vector<Dim>>& on);
