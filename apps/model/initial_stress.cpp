@@ -98,6 +98,16 @@ void add_loaded_sides(const scene::Scene& scene, Model<Dim>& model) {
 
 namespace {
 
+// Geostatic stress at a point of a side, of the material within where that ends at an interface.
+template <int Dim>
+fpm::Tensor<Dim> stress_behind(const scene::Scene& scene, const Model<Dim>& model,
+                               const fpm::BoundaryPoints<Dim>& points, fpm::Index c) {
+  const fpm::Vector<Dim> place = points.position.row(c).transpose();
+  const fpm::Vector<Dim> within = place - 0.5 * model.spacing * points.normal.row(c).transpose();
+  return constitutive::spatial_part<Dim>(
+      geostatic_stress<Dim>(scene, place, scene::material_at(scene, {within.data(), Dim})));
+}
+
 // What the geostatic stress presses with on the sides of a box that do not bear it.
 template <int Dim>
 void add_faces(const scene::Scene& scene, const Model<Dim>& model, fpm::Field<Dim>& load) {
@@ -130,12 +140,8 @@ void add_sides(const scene::Scene& scene, const Model<Dim>& model, fpm::Field<Di
     const auto surface = surface_points(model, SurfacePart::of_side(i));
     fpm::Field<Dim> traction = fpm::Field<Dim>::Zero(surface.points.size(), Dim);
     for (fpm::Index c = 0; c < surface.points.size(); ++c) {
-      const fpm::Vector<Dim> place = surface.points.position.row(c).transpose();
       const fpm::Vector<Dim> normal = surface.points.normal.row(c).transpose();
-      const fpm::Vector<Dim> within = place - 0.5 * model.spacing * normal;
-      const auto stress =
-          geostatic_stress<Dim>(scene, place, scene::material_at(scene, {within.data(), Dim}));
-      traction.row(c) = (constitutive::spatial_part<Dim>(stress) * normal).transpose();
+      traction.row(c) = (stress_behind<Dim>(scene, model, surface.points, c) * normal).transpose();
     }
     fpm::add_traction<Dim>(surface.op, surface.points, traction, load);
   }
@@ -183,9 +189,33 @@ void add_initial_stress(const scene::Scene& scene, Model<Dim>& model) {
   }
   add_faces(scene, model, load);
   add_sides(scene, model, load);
+  take_wall_force(scene, model);
   model.initial_load = Eigen::Map<const Eigen::VectorXd>(load.data(), model.unknowns());
 }
 
+template <int Dim>
+void take_wall_force(const scene::Scene& scene, Model<Dim>& model) {
+  model.wall_force.reset();
+  const scene::Drive& drive = scene.drive;
+  if (!model.wall_bears || scene::resolve_drive_method(scene) != scene::DriveMethod::direct) return;
+  const SurfacePoints<Dim> face =
+      side_points(scene, model, drive.side, drive.range_min, drive.range_max);
+  const double outwards = scene::is_upper(drive.side) ? 1.0 : -1.0;
+  fpm::Field<Dim> traction(model.size(), Dim);
+  for (Eigen::Index a = 0; a < model.size(); ++a) {
+    const fpm::Tensor<Dim> stress = constitutive::spatial_part<Dim>(
+        constitutive::StressVector<Dim>(model.initial_stress.col(a)));
+    traction.row(a) = outwards * stress.col(scene::axis_of(drive.side)).transpose();
+  }
+  fpm::Vector<Dim> force = fpm::Vector<Dim>::Zero();
+  for (fpm::Index c = 0; c < face.points.size(); ++c) {
+    force += face.points.weight[c] * face.op.value(c, traction);
+  }
+  model.wall_force = force;
+}
+
+template void take_wall_force<2>(const scene::Scene&, Model<2>&);
+template void take_wall_force<3>(const scene::Scene&, Model<3>&);
 template bool is_at_wall<2>(const scene::Scene&, scene::Side, const fpm::Vector<2>&);
 template bool is_at_wall<3>(const scene::Scene&, scene::Side, const fpm::Vector<3>&);
 template constitutive::StressVector<2> geostatic_stress<2>(const scene::Scene&,

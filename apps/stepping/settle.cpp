@@ -174,6 +174,7 @@ model::Model<Dim> model_at_rest(const scene::Scene& scene) {
     rest = with_lateral_stress(scene, ground, rest);
   take_stress(ground, rest, model);
   model.wall_bears = wall_holds(scene);
+  model::take_wall_force(scene, model);
   return model;
 }
 

@@ -90,6 +90,8 @@ TEST_P(WallBeforeSand, BearsWhatRankineSays) {
 const Settings at_rest{"drive.target=2e-6", "programme.steps=1"};
 const Settings pushed{"drive.direction=[1.0,0.0]", "drive.target=0.15"};
 
+constexpr const char* direct = "drive.method=direct";
+
 Settings with(Settings settings, const char* more) {
   settings.emplace_back(more);
   return settings;
@@ -113,6 +115,22 @@ INSTANTIATE_TEST_SUITE_P(
              0.003,
              {"water.table=[[0,2],[8,2]]", "water.unit_weight=10e3"}},
         Wall{"ThatIsPushed", 3.0, dry, 0.003, pushed},
+        // Whose particles are moved themselves.
+        Wall{"AtRestByParticles", -0.5, dry, 1e-3, with(at_rest, direct)},
+        Wall{"AtRestByParticlesOnceSettled", -0.5, dry, 1e-3,
+             with(with(at_rest, direct), "initial_stress.kind=gravity")},
+        Wall{"ByParticlesThatGivesWay", -1.0 / 3.0, dry, 0.003, {direct}},
+        Wall{"ByParticlesThatGivesWayOnceSettled",
+             -1.0 / 3.0,
+             dry,
+             0.003,
+             {direct, "initial_stress.kind=gravity"}},
+        Wall{"ByParticlesThatGivesWayAsAVertexLattice",
+             -1.0 / 3.0,
+             dry,
+             0.003,
+             {direct, "geometry.layout=vertex"}},
+        Wall{"ByParticlesThatIsPushed", 3.0, dry, 0.003, with(pushed, direct)},
         Wall{"ThatOnlyTouches", -1.0 / 3.0, dry, 0.003, {"drive.method=contact"}}),
     [](const auto& info) { return info.param.name; });
 
