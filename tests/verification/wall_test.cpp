@@ -134,6 +134,19 @@ INSTANTIATE_TEST_SUITE_P(
         Wall{"ThatOnlyTouches", -1.0 / 3.0, dry, 0.003, {"drive.method=contact"}}),
     [](const auto& info) { return info.param.name; });
 
+// Before the first step: K0 on the wall, the weight on the base, to round-off.
+TEST(Wall, BearsGroundAtRestInTheFirstRow) {
+  for (const char* method : {"drive.method=ghosts", direct}) {
+    const TestScene scene = scene_of(sand, {method});
+    const model::Model<2> model = stepping::model_at_rest<2>(scene);
+    model::State<2> state = model::initial_state(model);
+    stepping::LoadStepper<2> stepper(scene, model, state);
+    const double found = stepper.at_rest().mean_pressure;
+    EXPECT_NEAR(found, -0.5 * dry * 0.5 * height, 1e-9 * dry * height) << method;
+    EXPECT_NEAR(state.reaction.col(1).sum(), dry * height * 8.0, 1e-9 * dry * height * 8.0);
+  }
+}
+
 // A support that holds along the wall alone leaves it to the wall to bear what presses across: on a
 // smooth base as much as the far side does. The ground is too strong to yield.
 TEST(Wall, ThatIsRoughBearsSandThatHasSettled) {
