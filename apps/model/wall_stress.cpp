@@ -126,10 +126,14 @@ bool WallStress<Dim>::take_particles(const fpm::ParticleSet<Dim>& particles,
       if (image) sign[i] = model.ghosts.sign(b - n, i);
     }
     const double cell = std::pow(spacing_, Dim);
-    if (offset.norm() < beside * spacing_) beside_.push_back(served_.size());
+    const double close = weight_at(offset.norm() / (beside * spacing_));
+    if (close > 0.0) beside_.emplace_back(served_.size(), close);
     served_.push_back({a, sign, std::sqrt(weight_at(r) * particles.volume[a] / cell)});
     places.push_back(offset);
   }
+  double sum = 0.0;
+  for (const auto& [k, share] : beside_) sum += share;
+  for (auto& [k, share] : beside_) share /= sum;
   constexpr std::size_t times = 2;  // as many particles as coefficients
   return served_.size() >= times * static_cast<std::size_t>(cubic_terms<Dim>);
 }
@@ -371,17 +375,19 @@ constitutive::StressVector<Dim> WallStress<Dim>::yielding(const State<Dim>& stat
                                                           const Stress& stress,
                                                           double known) const {
   const auto& law = model_->laws[model_->law[static_cast<std::size_t>(own_)]];
-  double used = 0.0;
-  here.stress.setZero();  // one particle's may be far from its neighbours': their mean
-  for (const std::size_t k : beside_) {
+  constexpr double none = 0.9, all = 0.98;  // of its strength
+  double yielding = 0.0;                    // share of the particles next to the point
+  here.stress.setZero();                    // one's may be far from its neighbours': their mean
+  for (const auto& [k, share] : beside_) {
     const auto& [a, sign, weight] = served_[k];
     const Stress there = state.stress.col(a);
-    used = std::max(used, constitutive::utilisation<Dim>(law, there, state.plastic_volume_strain[a],
-                                                         state.plastic_strain[a]));
-    here.stress += behind_mirror<Dim>(there, sign) / static_cast<double>(beside_.size());
+    const double used = constitutive::utilisation<Dim>(law, there, state.plastic_volume_strain[a],
+                                                       state.plastic_strain[a]);
+    yielding += share * std::clamp((used - none) / (all - none), 0.0, 1.0);
+    here.stress += share * behind_mirror<Dim>(there, sign);
   }
-  constexpr double none = 0.9, all = 0.98;  // of its strength
-  const double part = known * std::clamp((used - none) / (all - none), 0.0, 1.0);
+  constexpr double few = 0.25, most = 0.75;
+  const double part = known * std::clamp((yielding - few) / (most - few), 0.0, 1.0);
   if (part == 0.0) return stress;
   const auto yields = yielding_on_wall<Dim>(law, here, normal_, bears);
   return yields ? Stress(stress + part * (*yields - stress)) : stress;

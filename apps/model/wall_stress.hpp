@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "constitutive/material.hpp"
@@ -104,7 +105,8 @@ class WallStress {
   double modulus_ = 1.0;  // [Pa]
   Stress initial_ = Stress::Zero();
   std::vector<Served> served_;
-  std::vector<std::size_t> beside_;  // of them, those next to the point
+  // Of them, those next to the point, and how much each counts.
+  std::vector<std::pair<std::size_t, double>> beside_;
   std::vector<Wall> walls_;
   std::size_t nearest_ = 0;  // of them, that the point is on
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> fit_;
