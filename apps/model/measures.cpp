@@ -14,7 +14,6 @@
 #include "model/side_points.hpp"
 #include "scene/derived.hpp"
 #include "scene/element_body.hpp"
-#include "scene/ground.hpp"
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
 #include "scene/stages.hpp"
@@ -41,15 +40,19 @@ Measures<Dim>::Measures(const scene::Scene& scene, const Model<Dim>& model)
   if (reduces_strength_) columns_.emplace_back("strength_reduction");
   if (scene::has_stage_drives(scene)) name_drives(scene);
   name_rotations(scene);
-  if (!scene.region.empty() && !scene::is_solid(scene)) outline_ = scene::outline_of(scene);
   const std::vector<scene::Measure> all = scene::resolve_measures(scene);
+  std::optional<StressPoints<Dim>> stress_points;
   if (std::ranges::count(all, scene::MeasureKind::stress, &scene::Measure::kind) > 0) {
-    walls_ = wall_points(scene, model);
+    stress_points.emplace(scene, model);
   }
   for (const scene::Measure& asked : all) {
     Measure& measure = measures_.emplace_back();
     measure.kind = asked.kind;
-    if (!asked.at.empty()) locate(scene, asked, measure);
+    if (asked.kind == scene::MeasureKind::stress) {
+      measure.stress = stress_points->at(asked.at);
+    } else if (!asked.at.empty()) {
+      locate(scene, asked, measure);
+    }
     if (asked.support) find_support(scene, *asked.support, measure);
     if (asked.side) find_side(scene, *asked.side, measure);
     name_columns(asked);
@@ -117,125 +120,14 @@ Eigen::Index Measures<Dim>::plate_of(const std::string& drive) const {
   return -1;
 }
 
-namespace {
-
-// Stress may jump where the material changes, within one body as well.
-template <int Dim>
-fpm::ParticleSet<Dim> by_material(const Model<Dim>& model) {
-  fpm::ParticleSet<Dim> particles = model.particles;
-  particles.body.resize(model.material.size(), 0);
-  const auto bodies = *std::ranges::max_element(particles.body) + 1;
-  for (std::size_t a = 0; a < particles.body.size(); ++a) {
-    particles.body[a] += bodies * static_cast<fpm::Index>(model.material[a]);
-  }
-  return particles;
-}
-
-// Those of the point's body that its rows lead to in two steps. What lies as near beyond a slot is
-// made another body's.
-template <int Dim>
-fpm::ParticleSet<Dim> within_reach(fpm::ParticleSet<Dim> particles,
-                                   const fpm::PointOperator<Dim>& point, fpm::Index own) {
-  std::vector<fpm::Index> near;
-  point.for_each_value(
-      0, [&](fpm::Index a, double /*weight*/, const auto& /*sign*/) { near.push_back(a); });
-  const fpm::Index body = particles.body[static_cast<std::size_t>(own)];
-  const fpm::Index beyond = *std::ranges::max_element(particles.body) + 1;
-  const double step = point.support_radius(0);
-  for (fpm::Index a = 0; a < particles.size(); ++a) {
-    auto& of = particles.body[static_cast<std::size_t>(a)];
-    const auto leads_here = [&](fpm::Index b) {
-      return (particles.position.row(a) - particles.position.row(b)).norm() <= step;
-    };
-    if (of == body && std::ranges::none_of(near, leads_here)) of = beyond;
-  }
-  return particles;
-}
-
-// The material of a stress at a point is that of the region the point is in, which may be another
-// one than the nearest particle's. On a joint, chords of an arc included, it is the latter.
-template <int Dim>
-Eigen::Index particle_of_stress(const scene::Scene& scene, const shape::Outline& outline,
-                                const std::vector<double>& at, const Model<Dim>& model) {
-  constexpr double on_joint = 0.01;  // of the spacing
-  const Eigen::Index nearest = nearest_particle(scene, at, model);
-  const double spacing = model.spacing_at(nearest);
-  const auto here = scene::materials_of_regions_at(scene, outline, at, on_joint * spacing);
-  const auto is_here = [&](Eigen::Index a) {
-    const auto material = model.material[static_cast<std::size_t>(a)];
-    return std::ranges::count(here, static_cast<std::size_t>(material)) > 0;
-  };
-  if (here.empty() || is_here(nearest)) return nearest;
-  const Eigen::Map<const Eigen::Matrix<double, 1, Dim>> place(at.data());
-  Eigen::Index best = nearest;
-  double least = 2.0 * spacing;  // further off it has been dug away, or given to its neighbours
-  for (Eigen::Index a = 0; a < model.size(); ++a) {
-    const double distance = (model.particles.position.row(a) - place).norm();
-    if (distance >= least || !is_here(a)) continue;
-    least = distance;
-    best = a;
-  }
-  return best;
-}
-
-}  // namespace
-
 template <int Dim>
 void Measures<Dim>::locate(const scene::Scene& scene, const scene::Measure& asked,
                            Measure& measure) const {
   measure.particle = nearest_particle(scene, asked.at, model_);
-  if (asked.kind != scene::MeasureKind::displacement && asked.kind != scene::MeasureKind::stress) {
-    return;
-  }
+  if (asked.kind != scene::MeasureKind::displacement) return;
   const fpm::Field<Dim> point = Eigen::Map<const Eigen::Matrix<double, 1, Dim>>(asked.at.data());
-  if (asked.kind == scene::MeasureKind::displacement) {
-    measure.point =
-        fpm::PointOperator<Dim>(model_.particles, model_.ghosts, point, model_.row_options);
-    return;
-  }
-  locate_stress(scene, asked, measure);
-}
-
-template <int Dim>
-void Measures<Dim>::locate_stress(const scene::Scene& scene, const scene::Measure& asked,
-                                  Measure& measure) const {
-  if (outline_) measure.particle = particle_of_stress(scene, *outline_, asked.at, model_);
-  const auto particles = by_material(model_);
-  const std::vector<fpm::Index> own{static_cast<fpm::Index>(measure.particle)};
-  const auto material = model_.material[static_cast<std::size_t>(measure.particle)];
-  const bool alternates =
-      scene::is_nearly_incompressible(scene.material[static_cast<std::size_t>(material)]);
-  const auto near = [&](const fpm::Field<Dim>& place) {
-    Interpolated result;
-    result.point =
-        fpm::PointOperator<Dim>(particles, model_.ghosts, place, model_.row_options, own);
-    if (!alternates) return result;
-    fpm::RowOptions wide = model_.row_options;
-    wide.support_radius *= 2.0;  // as of recovered_mean_stress
-    try {
-      result.mean = fpm::PointOperator<Dim>(within_reach(particles, result.point, own.front()),
-                                            model_.ghosts, place, wide, own);
-    } catch (const fpm::PoorNeighbourhood&) {
-      // The mean is that of the point's own rows, then.
-    }
-    return result;
-  };
-  try {
-    const fpm::Vector<Dim> place = Eigen::Map<const fpm::Vector<Dim>>(asked.at.data());
-    measure.stress = near(place.transpose());
-    const double reach = model_.spacing_at(measure.particle);
-    const auto foot = foot_on_wall(walls_, place, reach);
-    if (!foot) return;
-    Interpolated on_wall = near(foot->place.transpose());
-    auto fit = WallStress<Dim>::at(scene, model_, walls_,
-                                   within_reach(particles, on_wall.point, own.front()), *foot,
-                                   own.front());
-    if (!fit) return;
-    measure.wall = NextToWall{std::move(on_wall), std::move(*fit), 1.0 - foot->distance / reach};
-  } catch (const fpm::PoorNeighbourhood&) {
-    // Where they are too few for a gradient the stress is that of the particle.
-    measure.kind = scene::MeasureKind::particle_stress;
-  }
+  measure.point =
+      fpm::PointOperator<Dim>(model_.particles, model_.ghosts, point, model_.row_options);
 }
 
 template <int Dim>
@@ -379,34 +271,6 @@ fpm::Vector<Dim> Measures<Dim>::force(const Measure& measure, const State<Dim>& 
   return sum;
 }
 
-// Linear in the particles of the nearest one's material; an image behind a mirror has the stress of
-// its particle seen there.
-template <int Dim>
-constitutive::StressVector<Dim> Measures<Dim>::stress(const Interpolated& place,
-                                                      const State<Dim>& state) const {
-  constitutive::StressVector<Dim> sum = constitutive::StressVector<Dim>::Zero();
-  place.point.for_each_value(0, [&](fpm::Index a, double weight, const auto& sign) {
-    sum += weight * behind_mirror<Dim>(state.stress.col(a), sign);
-  });
-  if (place.mean) {
-    const Eigen::VectorXd mean = state.stress.template topRows<3>().colwise().mean().transpose();
-    sum.template head<3>().array() +=
-        place.mean->scalar_value(0, mean) - sum.template head<3>().mean();
-  }
-  return sum;
-}
-
-// Away from a wall the particles' error falls to a half in half a spacing, and so does what mends
-// it.
-template <int Dim>
-constitutive::StressVector<Dim> Measures<Dim>::stress(const Measure& measure,
-                                                      const State<Dim>& state) const {
-  const constitutive::StressVector<Dim> here = stress(measure.stress, state);
-  if (!measure.wall) return here;
-  const constitutive::StressVector<Dim> foot = stress(measure.wall->foot, state);
-  return here + measure.wall->share * (measure.wall->fit.of(state, foot) - foot);
-}
-
 template <int Dim>
 std::vector<double> Measures<Dim>::of(const State<Dim>& state) const {
   std::vector<double> values;
@@ -431,7 +295,7 @@ std::vector<double> Measures<Dim>::of(const State<Dim>& state) const {
         add(measure.point.value(0, state.displacement));
         break;
       case scene::MeasureKind::stress:
-        add(stress(measure, state));
+        add(measure.stress.of(state));
         break;
       case scene::MeasureKind::particle_stress:
         add(state.stress.col(measure.particle));

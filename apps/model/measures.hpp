@@ -8,12 +8,11 @@
 #include "model/holders.hpp"
 #include "model/model.hpp"
 #include "model/state.hpp"
-#include "model/wall_stress.hpp"
+#include "model/stress_point.hpp"
 #include "record/curve.hpp"
 #include "scene/choices.hpp"
 #include "scene/drives.hpp"
 #include "scene/scene.hpp"
-#include "shape/outline.hpp"
 
 namespace scene {
 struct Measure;
@@ -45,23 +44,10 @@ class Measures {
     scene::LoadShare share;                // of it, what stays and what grows
     std::optional<std::size_t> following;  // the model's, of one that follows the boundary
   };
-  /// What the particles around a place say of the stress there.
-  struct Interpolated {
-    fpm::PointOperator<Dim> point;
-    // Of its mean, from further around, where the particles' own alternates.
-    std::optional<fpm::PointOperator<Dim>> mean;
-  };
-  /// By how much they are wrong on the wall, of which a share counts where the place is.
-  struct NextToWall {
-    Interpolated foot;
-    WallStress<Dim> fit;
-    double share = 1.0;
-  };
   struct Measure {
     scene::MeasureKind kind;
     fpm::PointOperator<Dim> point;           // of a displacement
-    Interpolated stress;                     // of a stress
-    std::optional<NextToWall> wall;          // of a stress
+    StressPoint<Dim> stress;                 // of a stress
     Eigen::Index particle = 0;               // of a particle's stress or plastic strain
     typename Holders<Dim>::Shares unknowns;  // of a reaction or resultant
     std::vector<std::size_t> penalties;      // the model's, of a reaction or resultant
@@ -71,8 +57,6 @@ class Measures {
   };
 
   void locate(const scene::Scene& scene, const scene::Measure& asked, Measure& measure) const;
-  void locate_stress(const scene::Scene& scene, const scene::Measure& asked,
-                     Measure& measure) const;
   void find_support(const scene::Scene& scene, const std::string& name, Measure& measure) const;
   void add_contacts(std::string Interface<Dim>::*of, const std::string& name,
                     Measure& measure) const;
@@ -82,8 +66,6 @@ class Measures {
   void find_side(const scene::Scene& scene, scene::Side side, Measure& measure) const;
   void name_columns(const scene::Measure& asked);
   fpm::Vector<Dim> force(const Measure& measure, const State<Dim>& state) const;
-  constitutive::StressVector<Dim> stress(const Measure& measure, const State<Dim>& state) const;
-  constitutive::StressVector<Dim> stress(const Interpolated& place, const State<Dim>& state) const;
 
   const Model<Dim>& model_;
   Holders<Dim> holders_;
@@ -94,13 +76,11 @@ class Measures {
     double scale;  // [m] of a displacement, else 1
   };
 
-  std::optional<shape::Outline> outline_;  // of plane regions and prisms
   scene::Course course_;
   bool has_stages_ = false, reduces_strength_ = false;
   std::vector<Place> drives_;  // of a run with several
   // Of plates that turn: about which axis, and which of the state's, or -1.
   std::vector<std::pair<Eigen::Index, Eigen::Index>> rotations_;
-  std::vector<WallPoint<Dim>> walls_;  // if a stress is asked for
   std::vector<Measure> measures_;
   std::vector<std::string> columns_;
 };

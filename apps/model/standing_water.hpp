@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -14,15 +13,17 @@ namespace model {
 
 /// Water that stands on a part of the body's surface that nothing holds, as the scene's pore
 /// pressure has it there.
+template <int Dim>
 struct StandingWater {
-  std::string on;                                   // the side "face"
-  double pressure = 0.0;                            // [Pa] its largest
-  Eigen::Vector2d at;                               // [m] where that is
-  Eigen::Vector2d force = Eigen::Vector2d::Zero();  // [N/m] of all of it on the body
+  std::string on;                                     // the side "face"
+  double pressure = 0.0;                              // [Pa] its largest
+  fpm::Vector<Dim> at;                                // [m] where that is
+  fpm::Vector<Dim> force = fpm::Vector<Dim>::Zero();  // [N/m or N] of all of it on the body
 };
 
 /// By sides, in the order of the surface; those that are dry, but for rounding, are left out.
-[[nodiscard]] std::vector<StandingWater> standing_water(const scene::Scene& scene,
-                                                        const Model<2>& model);
+template <int Dim>
+[[nodiscard]] std::vector<StandingWater<Dim>> standing_water(const scene::Scene& scene,
+                                                             const Model<Dim>& model);
 
 }  // namespace model

@@ -6,7 +6,9 @@
 
 #include "constitutive/elastic.hpp"
 #include "constitutive/material.hpp"
+#include "constitutive/utilisation.hpp"
 #include "model/cubic.hpp"
+#include "model/wall_yield.hpp"
 #include "scene/course.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
@@ -16,6 +18,7 @@ namespace {
 
 constexpr double reach = 4.25;       // [spacings] radius of the fit
 constexpr double wall_weight = 0.5;  // beta
+constexpr double beside = 1.5;       // [spacings] of the particles next to the point
 
 // Smooth, and zero from the radius on.
 double weight_at(double r) {
@@ -123,9 +126,14 @@ bool WallStress<Dim>::take_particles(const fpm::ParticleSet<Dim>& particles,
       if (image) sign[i] = model.ghosts.sign(b - n, i);
     }
     const double cell = std::pow(spacing_, Dim);
+    const double close = weight_at(offset.norm() / (beside * spacing_));
+    if (close > 0.0) beside_.emplace_back(served_.size(), close);
     served_.push_back({a, sign, std::sqrt(weight_at(r) * particles.volume[a] / cell)});
     places.push_back(offset);
   }
+  double sum = 0.0;
+  for (const auto& [k, share] : beside_) sum += share;
+  for (auto& [k, share] : beside_) share /= sum;
   constexpr std::size_t times = 2;  // as many particles as coefficients
   return served_.size() >= times * static_cast<std::size_t>(cubic_terms<Dim>);
 }
@@ -160,6 +168,7 @@ bool WallStress<Dim>::take_walls(const std::vector<WallPoint<Dim>>& walls,
     if (!wall.is_known) return false;
     area_ += wall.area;
     const double weight = std::sqrt(wall_weight * weight_at(r) * wall.area / piece) / modulus_;
+    if (walls_.empty() || offset.norm() < on[nearest_].norm()) nearest_ = walls_.size();
     walls_.push_back({wall.normal, wall.constant, wall.growing, Stress::Zero(), weight});
     on.push_back(offset);
   }
@@ -271,16 +280,20 @@ double WallStress<Dim>::share(const State<Dim>& state, const Stress& stress,
     const double elastic = stress.norm() / modulus_;
     share = std::min(share, most > 0.0 ? std::max(0.0, 1.0 - all_of * most / elastic) : 1.0);
   }
-  if (state.layout.finite) {
-    constexpr double small = 0.02, large = 0.1;  // displacement gradients
-    const Eigen::Index n = coefficients.size() / Dim;
-    double square = 0.0;
-    for (int axis = 0; axis < Dim; ++axis) {
-      square += coefficients.segment<Dim>(axis * n + 1).squaredNorm();
-    }
-    share = std::min(share, std::clamp((large - std::sqrt(square)) / (large - small), 0.0, 1.0));
+  return std::min(share, small(state, coefficients));
+}
+
+// How much of a stress counts that bears the walls where they were in the beginning.
+template <int Dim>
+double WallStress<Dim>::small(const State<Dim>& state, const Eigen::VectorXd& coefficients) const {
+  if (!state.layout.finite) return 1.0;
+  constexpr double all = 0.02, none = 0.1;  // displacement gradients
+  const Eigen::Index n = coefficients.size() / Dim;
+  double square = 0.0;
+  for (int axis = 0; axis < Dim; ++axis) {
+    square += coefficients.segment<Dim>(axis * n + 1).squaredNorm();
   }
-  return share;
+  return std::clamp((none - std::sqrt(square)) / (none - all), 0.0, 1.0);
 }
 
 // The stress of a particle over that before the first step.
@@ -328,12 +341,15 @@ double WallStress<Dim>::explained(const State<Dim>& state, const Eigen::VectorXd
 }
 
 template <int Dim>
-constitutive::StressVector<Dim> WallStress<Dim>::mended(const State<Dim>& state,
-                                                        const Stress& interpolated) const {
-  const double left_over = unbalanced(state, interpolated);
-  // What walls bore when a later stage began is not known.
-  const double known = begins_at_rest_ ? 1.0 : 1.0 - left_over;
-  if (known == 0.0) return interpolated;
+fpm::Vector<Dim> WallStress<Dim>::borne_by(const Wall& wall, double load, double left_over) const {
+  const fpm::Vector<Dim> bears = wall.constant + load * wall.growing;
+  if (left_over == 0.0) return bears;
+  return bears + left_over * (traction<Dim>(wall.initial, wall.normal) - wall.constant);
+}
+
+// What the cubic functions are to be: displacements, and what walls bear beyond the initial stress.
+template <int Dim>
+Eigen::VectorXd WallStress<Dim>::wanted(const State<Dim>& state, double left_over) const {
   Eigen::VectorXd right(fit_.rows());
   Eigen::Index row = 0;
   for (const Served& one : served_) {
@@ -343,32 +359,70 @@ constitutive::StressVector<Dim> WallStress<Dim>::mended(const State<Dim>& state,
     row += Dim;
   }
   for (const Wall& wall : walls_) {
-    const fpm::Vector<Dim> at_rest = traction<Dim>(wall.initial, wall.normal);
-    const fpm::Vector<Dim> bears =
-        wall.constant + state.programme.load * wall.growing + left_over * (at_rest - wall.constant);
-    right.segment<Dim>(row) = wall.weight * (bears - at_rest);
+    right.segment<Dim>(row) = wall.weight * (borne_by(wall, state.programme.load, left_over) -
+                                             traction<Dim>(wall.initial, wall.normal));
     row += Dim;
   }
-  const Eigen::VectorXd coefficients = fit_.solve(right);
-  const Stress fitted =
-      initial_ + stiffness_ * (cubic_strains<Dim>(fpm::Vector<Dim>::Zero()) * coefficients);
-  const double part =
-      known * share(state, interpolated, coefficients) * unbent(state) * explained(state, right);
-  return interpolated + part * (fitted - interpolated);
+  return right;
 }
 
-// What is extrapolated to a wall may be beyond yield where no particle is.
+// Where the ground is yielding its strength says what the strain no longer does.
+// @param here  the particles' stress on the wall, and the plastic strains there
+template <int Dim>
+constitutive::StressVector<Dim> WallStress<Dim>::yielding(const State<Dim>& state,
+                                                          constitutive::PointState<Dim> here,
+                                                          const fpm::Vector<Dim>& bears,
+                                                          const Stress& stress,
+                                                          double known) const {
+  const auto& law = model_->laws[model_->law[static_cast<std::size_t>(own_)]];
+  constexpr double none = 0.9, all = 0.98;  // of its strength
+  double yielding = 0.0;                    // share of the particles next to the point
+  here.stress.setZero();                    // one's may be far from its neighbours': their mean
+  for (const auto& [k, share] : beside_) {
+    const auto& [a, sign, weight] = served_[k];
+    const Stress there = state.stress.col(a);
+    const double used = constitutive::utilisation<Dim>(law, there, state.plastic_volume_strain[a],
+                                                       state.plastic_strain[a]);
+    yielding += share * std::clamp((used - none) / (all - none), 0.0, 1.0);
+    here.stress += share * behind_mirror<Dim>(there, sign);
+  }
+  constexpr double few = 0.25, most = 0.75;
+  const double part = known * std::clamp((yielding - few) / (most - few), 0.0, 1.0);
+  if (part == 0.0) return stress;
+  const auto yields = yielding_on_wall<Dim>(law, here, normal_, bears);
+  return yields ? Stress(stress + part * (*yields - stress)) : stress;
+}
+
 template <int Dim>
 constitutive::StressVector<Dim> WallStress<Dim>::of(const State<Dim>& state,
                                                     const Stress& interpolated) const {
-  const Stress stress = mended(state, interpolated);
-  if (state.plastic_strain.size() == 0) return stress;
-  constitutive::PointState<Dim> before, after;
-  before.stress = interpolated;
-  before.plastic_strain = state.plastic_strain[own_];
-  before.plastic_volume_strain = state.plastic_volume_strain[own_];
+  Stress stress = interpolated;
+  const double left_over = unbalanced(state, interpolated);
+  // What walls bore when a later stage began is not known.
+  const double known = begins_at_rest_ ? 1.0 : 1.0 - left_over;
+  const bool plastic = state.plastic_strain.size() > 0;
+  constitutive::PointState<Dim> here, after;
+  here.stress = interpolated;
+  if (plastic) {
+    here.plastic_strain = state.plastic_strain[own_];
+    here.plastic_volume_strain = state.plastic_volume_strain[own_];
+  }
+  if (known > 0.0) {
+    const Eigen::VectorXd right = wanted(state, left_over);
+    const Eigen::VectorXd coefficients = fit_.solve(right);
+    const Stress fitted =
+        initial_ + stiffness_ * (cubic_strains<Dim>(fpm::Vector<Dim>::Zero()) * coefficients);
+    stress += known * share(state, interpolated, coefficients) * unbent(state) *
+              explained(state, right) * (fitted - interpolated);
+    if (plastic) {
+      stress = yielding(state, here, borne_by(walls_[nearest_], state.programme.load, left_over),
+                        stress, known * small(state, coefficients));
+    }
+  }
+  if (!plastic) return stress;
+  // What is extrapolated to a wall may be beyond yield where no particle is.
   const auto law = model_->law[static_cast<std::size_t>(own_)];
-  const auto outcome = constitutive::update<Dim>(model_->laws[law], stress, before, after);
+  const auto outcome = constitutive::update<Dim>(model_->laws[law], stress, here, after);
   return outcome.failed ? interpolated : after.stress;
 }
 

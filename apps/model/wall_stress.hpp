@@ -2,8 +2,10 @@
 
 #include <Eigen/QR>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "constitutive/material.hpp"
 #include "constitutive/tensor.hpp"
 #include "model/model.hpp"
 #include "model/state.hpp"
@@ -48,9 +50,9 @@ class WallStress {
                                       fpm::Index own);
 
   /// The stress [Pa] at the point, in place of what the particles' own says there. Where the ground
-  /// around has yielded, strains are large, a thin body is bent or the fit does not bear the
-  /// tractions it is a part of the way from the latter to the former, or the latter. Never beyond
-  /// yield.
+  /// is yielding it is that of its strength (yielding_on_wall); where it has yielded, strains are
+  /// large, a thin body is bent or the fit does not bear the tractions it is a part of the way from
+  /// the latter to the former, or the latter. Never beyond yield.
   [[nodiscard]] constitutive::StressVector<Dim> of(
       const State<Dim>& state, const constitutive::StressVector<Dim>& interpolated) const;
 
@@ -68,7 +70,12 @@ class WallStress {
     Stress initial;
     double weight;
   };
-  [[nodiscard]] Stress mended(const State<Dim>& state, const Stress& interpolated) const;
+  [[nodiscard]] fpm::Vector<Dim> borne_by(const Wall& wall, double load, double left_over) const;
+  [[nodiscard]] Eigen::VectorXd wanted(const State<Dim>& state, double left_over) const;
+  [[nodiscard]] Stress yielding(const State<Dim>& state, constitutive::PointState<Dim> here,
+                                const fpm::Vector<Dim>& bears, const Stress& stress,
+                                double known) const;
+  [[nodiscard]] double small(const State<Dim>& state, const Eigen::VectorXd& coefficients) const;
   [[nodiscard]] double unbalanced(const State<Dim>& state, const Stress& stress) const;
   [[nodiscard]] double share(const State<Dim>& state, const Stress& stress,
                              const Eigen::VectorXd& coefficients) const;
@@ -98,7 +105,10 @@ class WallStress {
   double modulus_ = 1.0;  // [Pa]
   Stress initial_ = Stress::Zero();
   std::vector<Served> served_;
+  // Of them, those next to the point, and how much each counts.
+  std::vector<std::pair<std::size_t, double>> beside_;
   std::vector<Wall> walls_;
+  std::size_t nearest_ = 0;  // of them, that the point is on
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> fit_;
 };
 

@@ -64,14 +64,14 @@ template std::vector<std::string> joined_notes<3>(const scene::Scene&, const mod
 template <int Dim>
 std::vector<std::string> water_notes(const scene::Scene& scene, const model::Model<Dim>& model) {
   std::vector<std::string> notes;
-  if constexpr (Dim == 2) {
-    for (const model::StandingWater& water : model::standing_water(scene, model)) {
-      notes.push_back(fmt::format(
-          "water stands on {}: with up to {:.6g} Pa, at ({:.4g}, {:.4g}) m, {:.3g} m deep; it "
-          "presses with ({:.4g}, {:.4g}) N/m",
-          water.on, water.pressure, water.at.x(), water.at.y(),
-          water.pressure / scene.water.unit_weight, water.force.x(), water.force.y()));
-    }
+  const auto listed = [](const fpm::Vector<Dim>& v) {
+    return fmt::format("({:.4g})", fmt::join(v.data(), v.data() + Dim, ", "));
+  };
+  for (const model::StandingWater<Dim>& water : model::standing_water(scene, model)) {
+    notes.push_back(fmt::format(
+        "water stands on {}: with up to {:.6g} Pa, at {} m, {:.3g} m deep; it presses with {} {}",
+        water.on, water.pressure, listed(water.at), water.pressure / scene.water.unit_weight,
+        listed(water.force), Dim == 2 ? "N/m" : "N"));
   }
   return notes;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/check.hpp"
+#include "scene/element_body.hpp"
 #include "scene/names.hpp"
 #include "scene/water.hpp"
 
@@ -86,6 +87,9 @@ void check_share(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (scene.region.empty()) {
     diagnosis.error(key, fmt::format("found {} in a box", *scene.water.r_u),
                     "it belongs to a body of [[region]]s; in a box give a table");
+  } else if (is_solid(scene)) {
+    diagnosis.error(key, fmt::format("found {} with volumes of a mesh", *scene.water.r_u),
+                    "the weight above is that of polygons: give a table");
   } else if (!scene.cutout.empty()) {
     diagnosis.error(key, fmt::format("found {} in ground with a cutout", *scene.water.r_u),
                     "there is no weight above it that was not borne by what is cut out: give a "
@@ -141,10 +145,8 @@ void check_water(const Scene& scene, tables::Diagnosis& diagnosis) {
   } else if (scene.water.r_u && !scene.water.table.empty()) {
     diagnosis.error(key, fmt::format("found {}, and a table", *scene.water.r_u),
                     "the pressure is what one of them says: leave the other out");
-  } else if (scene.geometry.dimension != 2) {
-    diagnosis.error(key, "found in 3D", "pore water is for plane bodies");
-  } else if (scene.gravity.acceleration.size() != 2 || scene.gravity.acceleration[1] >= 0.0) {
-    diagnosis.error(key, "found in ground without weight",
+  } else if (scene.gravity.acceleration.size() < 2 || scene.gravity.acceleration[1] >= 0.0) {
+    diagnosis.error(key, "found in ground without weight along -y",
                     "give materials a unit_weight, or gravity.acceleration downwards");
   } else if (told) {
     check_told(scene, *told, diagnosis);

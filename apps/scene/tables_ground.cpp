@@ -134,7 +134,8 @@ SceneTable water() {
              "Pore water whose pressure is given: it is not coupled to the ground, which does not "
              "consolidate. Stress is then effective, and so are cohesion and friction; tractions, "
              "pressures, reactions and a footing's pressure are in addition to the water's, which "
-             "presses on flooded faces by itself. Plane bodies only. fpm-limit reads the same.")
+             "presses on flooded faces by itself. In 3D up is y, and all is the same along z. "
+             "fpm-limit reads the same.")
       .key("table", &Water::table,
            {.need = tables::Need::optional,
             .unit = "m",

@@ -24,8 +24,10 @@ SceneTable measure() {
                    "point is in, or, if these are too few, of the nearest; the mean stress, where "
                    "poissons_ratio is above 0.45, from twice as far around; next to a wall whose "
                    "traction is known, stress as their displacements and that traction say, where "
-                   "the ground is elastic and the wall smooth; particle_stress or "
-                   "plastic_strain of the particle nearest to a point; reaction, the force of a "
+                   "the ground is elastic and the wall smooth, or as that traction and its "
+                   "strength, where "
+                   "it yields; particle_stress or plastic_strain of the particle nearest to a "
+                   "point; reaction, the force of a "
                    "support on the body; resultant, the force on the body at a side, of supports, "
                    "drive and tractions; "
                    "max_displacement, the length of the largest one."})

@@ -1,21 +1,18 @@
 #include "stepping/stepper.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "equilibrium/equilibrium.hpp"
 #include "equilibrium/preconditioner.hpp"
-#include "fpm/carried_consistency.hpp"
 #include "jfnk/gmres.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
 #include "scene/stages.hpp"
 #include "stepping/corrected_load.hpp"
+#include "stepping/re_search.hpp"
+#include "stepping/solver_setup.hpp"
 
 namespace stepping {
 namespace {
@@ -25,93 +22,6 @@ constexpr double end_slack = 1e-9;
 
 // Secant pairs that a step hands on to the next. Measured: 8 and 15 serve no better.
 constexpr int kept_pairs = 10;
-
-jfnk::Options solver_options(const scene::Scene& scene, double rounding) {
-  const scene::SolverSettings settings = scene::resolve_solver(scene);
-  jfnk::Options options = scene.solver.preset == scene::SolverPreset::appendix_a
-                              ? jfnk::appendix_a(settings.tolerance, settings.tolerance, 1000)
-                              : jfnk::plasticity();
-  options.tolerances.relative = settings.tolerance;
-  options.tolerances.absolute = rounding;
-  switch (settings.method) {
-    case scene::SolverMethod::hybrid:
-      options.method = jfnk::Method::hybrid;
-      break;
-    case scene::SolverMethod::newton_krylov:
-      options.method = jfnk::Method::newton_krylov;
-      break;
-    case scene::SolverMethod::multisecant:
-      options.method = jfnk::Method::multisecant;
-      break;
-  }
-  if (settings.jacobian == scene::JacobianKind::finite_difference) {
-    options.jacobian.source = jfnk::Jacobian::Source::finite_difference;
-  }
-  // Rounded columns take half the memory, and cost hardly an evaluation before such a tolerance;
-  // forcing terms of these presets are coarser by far. The paper's algorithm is left as it is.
-  constexpr double finest_for_single_precision = 1e-6;
-  const bool rounds = settings.tolerance >= finest_for_single_precision &&
-                      scene.solver.preset != scene::SolverPreset::appendix_a;
-  options.multisecant.single_precision = options.krylov.single_precision = rounds;
-  options.jacobian.length_scale = scene.geometry.spacing;
-  options.max_evaluations = scene.solver.max_evaluations_per_step;
-  return options;
-}
-
-// What rounding alone leaves of a residual, whatever the loads: places are known to epsilon of
-// their size, strains to that over a spacing, and each particle's forces are the stress of such a
-// strain on its faces. A body without loads, or whose loads cancel, is in equilibrium within this.
-template <int Dim>
-double rounding_of_forces(const scene::Scene& scene, const model::Model<Dim>& model) {
-  constexpr double neighbours = 10.0;  // whose rounding adds up in a particle
-  const fpm::Vector<Dim> origin = model.nearby_origin();
-  const double size = std::max((model.box_min - origin).cwiseAbs().maxCoeff(),
-                               (model.box_max - origin).cwiseAbs().maxCoeff()) +
-                      scene.drive.target;
-  const double strain = std::numeric_limits<double>::epsilon() * size / model.spacing;
-  const double stiffest = *std::ranges::max_element(model.youngs_modulus);
-  return neighbours * stiffest * strain * std::pow(model.spacing, Dim - 1) *
-         std::sqrt(static_cast<double>(model.size()));
-}
-
-// The solver's outcome in the words of the scene; its own name options that no scene has.
-std::string reason_of(const jfnk::Report& report, const scene::Scene& scene, int dimension) {
-  if (report.status == jfnk::Status::out_of_domain_at_start) {
-    return "the step cannot be evaluated at its start";
-  }
-  const char* unit = dimension == 2 ? "N/m" : "N";
-  // More digits where two would hide which one is the larger.
-  std::string found = fmt::format("{:.2g}", report.residual_norm);
-  std::string allowed = fmt::format("{:.2g}", report.tolerance);
-  if (found == allowed) {
-    found = fmt::format("{:.6g}", report.residual_norm);
-    allowed = fmt::format("{:.6g}", report.tolerance);
-  }
-  const std::string unbalanced =
-      fmt::format("unbalanced are {} {}, solver.tolerance = {} allows {}", found, unit,
-                  scene::resolve_solver(scene).tolerance, allowed);
-  if (report.status != jfnk::Status::evaluation_limit) return unbalanced;
-  return fmt::format("solver.max_evaluations_per_step = {} is used up: {}",
-                     scene.solver.max_evaluations_per_step, unbalanced);
-}
-
-// On the initial rows, whatever was re-searched since: a resumed run has the same preconditioner.
-template <int Dim>
-equilibrium::Preconditioner<Dim> preconditioner_for(
-    const scene::Scene& scene, const model::Model<Dim>& model,
-    const equilibrium::Equilibrium<Dim>& equilibrium) {
-  const scene::PreconditionerKind kind = scene::resolve_solver(scene).preconditioner;
-  using Way = equilibrium::Preconditioner<Dim>;
-  if (kind == scene::PreconditionerKind::factors) {
-    return Way(equilibrium::StiffnessFactors<Dim>(model, equilibrium.initial_operator()));
-  }
-  const fpm::MomentOperator<Dim> op(
-      fpm::Rows<Dim>(model.particles, model.ghosts, model.row_options), model.ghosts,
-      model.channels);
-  const double coarse =
-      kind == scene::PreconditionerKind::two_level ? scene.solver.coarse_spacing_over_spacing : 0.0;
-  return Way(equilibrium::TwoLevelPreconditioner<Dim>(model, op, coarse));
-}
 
 }  // namespace
 
@@ -400,54 +310,11 @@ void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
   choose_next_increment(record);
 }
 
-// Rows that have strained plastically since their last search get new neighbours; stress and
-// history stay with the particle, and the next step absorbs the small loss of equilibrium.
-// Departure: with hysteresis, and without a separate return to equilibrium
-// (share/doc/decisions/re-search.md).
 template <int Dim>
 Eigen::Index LoadStepper<Dim>::re_search() {
-  if (!scene_.re_search.enabled || !state_.layout.finite || !state_.layout.plastic) return 0;
-  const Eigen::VectorXd gained = state_.plastic_strain - state_.plastic_strain_at_search;
-  if (!(gained.maxCoeff() > scene_.re_search.trigger)) return 0;
-  const double threshold = scene_.re_search.trigger * scene_.re_search.hysteresis;
-  std::vector<fpm::Index> rows;
-  for (fpm::Index a = 0; a < gained.size(); ++a) {
-    if (gained[a] > threshold) rows.push_back(a);
-  }
-  const Eigen::Index n = model_.size();
-  Eigen::VectorXd ratio(n);
-  for (Eigen::Index a = 0; a < n; ++a) {
-    ratio[a] =
-        Eigen::Map<const fpm::Tensor<Dim>>(state_.deformation_gradient.col(a).data()).determinant();
-  }
-  const Eigen::VectorXd volume = state_.rows.reference_volume().cwiseProduct(ratio);
-  const fpm::Field<Dim> position = model_.particles.position + state_.displacement;
-  std::vector<fpm::Vector<Dim>> plane_motion = model_.plane_drive;
-  for (fpm::Vector<Dim>& motion : plane_motion) motion *= state_.programme.load;
-  for (std::size_t p = 0; p < model_.plane_held.size(); ++p)
-    plane_motion[p] += model_.plane_held[p];
-  const auto rebuilt =
-      state_.rows.research(rows, position, volume, model_.driven_particle, plane_motion);
-  std::vector<fpm::Index> changed = rebuilt;
-  if (model_.consistency) {
-    changed = fpm::carry_consistency<Dim>(equilibrium_->moment_operator(), model_.ghosts, rebuilt,
-                                          {volume, state_.deformation_gradient}, state_.rows)
-                  .rows;
-  }
-  for (const fpm::Index a : rebuilt) {
-    state_.searched_volume_ratio[a] *= ratio[a];
-    Eigen::Map<fpm::Tensor<Dim>>(state_.deformation_gradient.col(a).data()).setIdentity();
-  }
-  // A row that could not be rebuilt waits for as much strain again.
-  for (const fpm::Index a : rows) {
-    state_.plastic_strain_at_search[a] = state_.plastic_strain[a];
-  }
-  if (!rebuilt.empty()) {
-    equilibrium_->follow_re_search(changed);
-    forget_pairs();
-  }
-  ++state_.programme.re_searches;
-  return static_cast<Eigen::Index>(rebuilt.size());
+  const Eigen::Index rebuilt = stepping::re_search(scene_, model_, state_, *equilibrium_);
+  if (rebuilt > 0) forget_pairs();
+  return rebuilt;
 }
 
 // Back to the nominal step gently after a cut; beyond it only where steps are easy. A step that was

@@ -27,6 +27,9 @@ void add_consistency(const Ghosts<Dim>& ghosts, const Field<Dim>& potential, Ind
       geometry.own_volume * detail::weighted_remainder(geometry, weights, difference);
 }
 
+// Whose weights are in memory at once while an operator is set up: a multiple of the blocks.
+constexpr Index part_rows = 4096;
+
 // Where the moments of pairs are kept; not read without pairs.
 template <int Dim>
 struct Moments {
@@ -34,17 +37,16 @@ struct Moments {
   Eigen::VectorXd& second;
 };
 
-// Of the rows where `wanted` is set. Rows do not see each other: each on some thread.
-template <int Dim>
+// Of the wanted rows in [first, last). Rows do not see each other: each on some thread.
+template <int Dim, class Predicate>
 detail::WeightedRows weigh(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Channels channels,
-                           const ConsistencyCorrection<Dim>& correction,
-                           const std::vector<char>& wanted, Moments<Dim> moments) {
-  const auto is_wanted = [&](Index a) { return wanted[static_cast<std::size_t>(a)] != 0; };
-  const Index size = rows.size();
+                           const ConsistencyCorrection<Dim>& correction, Index first, Index last,
+                           const Predicate& is_wanted, Moments<Dim> moments) {
   detail::WeightedRows weighted;
   weighted.channels = channels.count(Dim);
-  weighted.offset.reserve(static_cast<std::size_t>(size) + 1);
-  for (Index a = 0; a < size; ++a) {
+  weighted.first = first;
+  weighted.offset.reserve(static_cast<std::size_t>(last - first) + 1);
+  for (Index a = first; a < last; ++a) {
     weighted.offset.push_back(weighted.offset.back() +
                               (is_wanted(a) ? rows.neighbours(a).size() : 0));
   }
@@ -55,7 +57,7 @@ detail::WeightedRows weigh(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Cha
     RowGeometry<Dim> geometry;
     RowWeights<Dim> weights;
 #pragma omp for schedule(static)
-    for (Index a = 0; a < size; ++a) {
+    for (Index a = first; a < last; ++a) {
       if (!is_wanted(a)) continue;
       const auto neighbours = rows.neighbours(a);
       rows.geometry(a, geometry);
@@ -66,7 +68,7 @@ detail::WeightedRows weigh(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Cha
       } else if (correction.corrects(a) && !rows.searched(a)) {
         add_consistency(ghosts, correction.potential, a, neighbours, geometry, weights);
       }
-      const auto begin = weighted.offset[static_cast<std::size_t>(a)];
+      const auto begin = weighted.begin(a);
       std::ranges::copy(neighbours, weighted.id.begin() + static_cast<std::ptrdiff_t>(begin));
       if (channels.pair) {
         moments.first.row(a).setZero();
@@ -121,13 +123,47 @@ MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const Ghosts<Dim>& gh
     first_moment_.resize(size_, Dim);
     second_moment_.resize(static_cast<Eigen::Index>(size_) * Dim * Dim);
   }
-  detail::WeightedRows weighted = weigh<Dim>(rows, ghosts_, channels_, correction,
-                                             std::vector<char>(static_cast<std::size_t>(size_), 1),
-                                             {first_moment_, second_moment_});
+  segment_forward(rows, correction);
+  segment_transposed();
+}
+
+template <int Dim>
+void MomentOperator<Dim>::segment_forward(const Rows<Dim>& rows,
+                                          const ConsistencyCorrection<Dim>& correction) {
+  const auto all = [](Index /*row*/) { return true; };
+  detail::Segmenter segmenter(channel_count(), block_rows, size_ + ghosts_.size());
+  for (Index first = 0; first < size_; first += part_rows) {
+    segmenter.append(weigh<Dim>(rows, ghosts_, channels_, correction, first,
+                                std::min(first + part_rows, size_), all,
+                                {first_moment_, second_moment_}));
+  }
+  forward_ = segmenter.finish();
+}
+
+template <int Dim>
+void MomentOperator<Dim>::segment_transposed() {
   const Index nodes = size_ + ghosts_.size();
-  forward_ = detail::segment(weighted, block_rows, nodes);
-  weighted = detail::transpose(weighted, nodes, summed_channels());
-  transposed_ = detail::segment(weighted, block_rows, size_);
+  // The rows that are in a part of the nodes or have an entry there.
+  std::vector<std::vector<Index>> sources(
+      static_cast<std::size_t>((nodes + part_rows - 1) / part_rows));
+  for (Index a = 0; a < size_; ++a) {
+    const auto touch = [&](Index b) {
+      std::vector<Index>& of_part = sources[static_cast<std::size_t>(b / part_rows)];
+      if (of_part.empty() || of_part.back() != a) of_part.push_back(a);
+    };
+    touch(a);
+    for_each_entry(a, [&](Index b, const double*) { touch(b); });
+  }
+  const auto all = [](Index /*node*/) { return true; };
+  detail::Segmenter segmenter(channel_count(), block_rows, size_);
+  for (std::size_t part = 0; part < sources.size(); ++part) {
+    const Index first = static_cast<Index>(part) * part_rows;
+    const detail::Columns columns{first, std::min(first + part_rows, nodes), all};
+    segmenter.append(
+        detail::transpose_part(sources[part], columns, channel_count(), summed_channels(),
+                               [&](Index a, const auto& visit) { for_each_entry(a, visit); }));
+  }
+  transposed_ = segmenter.finish();
 }
 
 // A gradient acts on differences, so its row has a self entry; the caller handles that of pairs.
@@ -168,10 +204,13 @@ void MomentOperator<Dim>::update(const Rows<Dim>& rows, const std::vector<Index>
     if (own || is_source[static_cast<std::size_t>(a)] != 0) sources.push_back(a);
   }
 
-  detail::WeightedRows weighted =
-      weigh<Dim>(rows, ghosts_, channels_, correction, wanted, {first_moment_, second_moment_});
+  const auto is_wanted = [&](Index a) { return wanted[static_cast<std::size_t>(a)] != 0; };
+  detail::WeightedRows weighted = weigh<Dim>(rows, ghosts_, channels_, correction, 0, size_,
+                                             is_wanted, {first_moment_, second_moment_});
   forward_ = detail::segment_anew(forward_, weighted, forward_blocks, block_rows, nodes);
-  weighted = detail::transpose_part(sources, touched, channel_count(), summed_channels(),
+  const auto is_touched = [&](Index b) { return touched[static_cast<std::size_t>(b)] != 0; };
+  weighted = detail::transpose_part(sources, detail::Columns{0, nodes, is_touched}, channel_count(),
+                                    summed_channels(),
                                     [&](Index a, const auto& visit) { for_each_entry(a, visit); });
   transposed_ = detail::segment_anew(transposed_, weighted, transposed_blocks, block_rows, size_);
 }

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 #include <span>
-#include <string>
 #include <tuple>
-#include <unordered_map>
+#include <utility>
 
 namespace fpm::detail {
 namespace {
@@ -31,169 +29,151 @@ std::string stencil_key(const WeightedRows& rows, Index row) {
   return key_of(rows.ids(row), row, rows.weights(row));
 }
 
-class Layout {
-  struct Place {
-    std::size_t id;
-    std::size_t weight;
-  };
-
- public:
-  Layout(const WeightedRows& rows, Index sources, SegmentedRows& out)
-      : rows_(rows), sources_(sources), out_(out) {}
-
-  void add_block(Index begin, Index end) {
-    Index pending = begin;  // rows [pending, row) wait for a segment of their own
-    const auto flush = [&](Index until) {
-      for (; pending < until; pending += std::min(lanes, until - pending)) {
-        add_own(pending, std::min(lanes, until - pending));
-      }
-    };
-    Index row = begin;
-    while (row < end) {
-      const std::string key = stencil_key(rows_, row);
-      Index run = 1;
-      while (row + run < end && stencil_key(rows_, row + run) == key) ++run;
-      if (run >= shortest_shared_run) {
-        flush(row);
-        add_shared(row, run, key);
-        pending = row + run;
-      }
-      row += run;
-    }
-    flush(end);
+// Whether the entries of four rows stand side by side as the rows do.
+bool are_aligned(const WeightedRows& rows, Index first, Index count) {
+  if (count != lanes) return false;
+  const auto ids = rows.ids(first);
+  for (Index lane = 1; lane < lanes; ++lane) {
+    const auto others = rows.ids(first + lane);
+    const auto follows = [&](Index id, Index other) { return other == id + lane; };
+    if (!std::ranges::equal(ids, others, follows)) return false;
   }
-
-  // A segment as it is in another layout. Of a stencil that is shared there one copy is kept.
-  void add_copy(const SegmentedRows& before, SegmentedRows::Segment segment) {
-    const bool shared = segment.kind == SegmentedRows::Kind::shared;
-    const auto width = static_cast<std::size_t>(segment.width);
-    const std::size_t ids = segment.kind == SegmentedRows::Kind::own ? lanes * width : width;
-    const std::size_t weights =
-        (shared ? 1 : lanes) * width * static_cast<std::size_t>(rows_.channels);
-    const std::span<const Index> id{before.ids.data() + segment.id_begin, ids};
-    const std::span<const double> weight{before.weights.data() + segment.weight_begin, weights};
-    const std::size_t old = segment.id_begin;
-    Place place{out_.ids.size(), out_.weights.size()};
-    bool is_new = true;
-    if (const auto copied = copied_.find(old); shared && copied != copied_.end()) {
-      place = copied->second;
-      is_new = false;
-    } else if (shared) {
-      std::tie(place, is_new) = pooled(key_of(id, 0, weight), place);
-      copied_.emplace(old, place);
-    }
-    segment.id_begin = place.id;
-    segment.weight_begin = place.weight;
-    out_.segments.push_back(segment);
-    if (!is_new) return;
-    out_.ids.insert(out_.ids.end(), id.begin(), id.end());
-    out_.weights.insert(out_.weights.end(), weight.begin(), weight.end());
-  }
-
- private:
-  void add_shared(Index first, Index count, const std::string& key) {
-    const auto ids = rows_.ids(first);
-    const auto [place, is_new] = pooled(key, {out_.ids.size(), out_.weights.size()});
-    if (is_new) {
-      for (const Index b : ids) out_.ids.push_back(b - first);
-      const auto weights = rows_.weights(first);
-      out_.weights.insert(out_.weights.end(), weights.begin(), weights.end());
-    }
-    out_.segments.push_back({first, count, static_cast<Index>(ids.size()),
-                             SegmentedRows::Kind::shared, place.id, place.weight});
-  }
-
-  // Where a stencil is that was met before, else `next`, where it will be.
-  std::pair<Place, bool> pooled(const std::string& key, const Place& next) {
-    const auto [known, is_new] = pool_.try_emplace(key, next);
-    return {known->second, is_new};
-  }
-
-  void add_own(Index first, Index count) {
-    std::size_t width = 0;
-    for (Index r = first; r < first + count; ++r) width = std::max(width, rows_.width(r));
-    const auto m = static_cast<std::size_t>(rows_.channels);
-    const bool aligned = are_aligned(first, count);
-    out_.segments.push_back({first, count, static_cast<Index>(width),
-                             aligned ? SegmentedRows::Kind::aligned : SegmentedRows::Kind::own,
-                             out_.ids.size(), out_.weights.size()});
-    for (std::size_t k = 0; k < width; ++k) {
-      for (Index lane = 0; lane < (aligned ? 1 : lanes); ++lane) {
-        const Index row = std::min(first + lane, first + count - 1);
-        const auto ids = rows_.ids(row);
-        out_.ids.push_back(k < ids.size() ? ids[k] : std::min(row, sources_ - 1));
-      }
-      for (std::size_t c = 0; c < m; ++c) {
-        for (Index lane = 0; lane < lanes; ++lane) {
-          const bool real = lane < count && k < rows_.width(first + lane);
-          out_.weights.push_back(real ? rows_.weights(first + lane)[k * m + c] : 0.0);
-        }
-      }
-    }
-  }
-
-  // Whether the entries of four rows stand side by side as the rows do.
-  bool are_aligned(Index first, Index count) const {
-    if (count != lanes) return false;
-    const auto ids = rows_.ids(first);
-    for (Index lane = 1; lane < lanes; ++lane) {
-      const auto others = rows_.ids(first + lane);
-      const auto follows = [&](Index id, Index other) { return other == id + lane; };
-      if (!std::ranges::equal(ids, others, follows)) return false;
-    }
-    return true;
-  }
-
-  const WeightedRows& rows_;
-  Index sources_;
-  SegmentedRows& out_;
-  std::unordered_map<std::string, Place> pool_;
-  std::unordered_map<std::size_t, Place> copied_;  // by where the ids were
-};
+  return true;
+}
 
 }  // namespace
 
-WeightedRows transpose(const WeightedRows& rows, Index transposed_size,
-                       const std::vector<char>& in_sum) {
-  const auto m = static_cast<std::size_t>(rows.channels);
-  std::vector<Index> sources(static_cast<std::size_t>(rows.size()));
-  std::iota(sources.begin(), sources.end(), 0);
-  const std::vector<char> all(static_cast<std::size_t>(transposed_size), 1);
-  return transpose_part(sources, all, rows.channels, in_sum, [&](Index a, const auto& visit) {
-    const auto ids = rows.ids(a);
-    const double* const weights = rows.weights(a).data();
-    for (std::size_t k = 0; k < ids.size(); ++k) visit(ids[k], weights + k * m);
-  });
+void Segmenter::append(const WeightedRows& rows) {
+  const Index end = (rows.last() + block_rows_ - 1) / block_rows_;
+  for (Index block = rows.first / block_rows_; block < end; ++block) append_block(rows, block);
 }
 
-SegmentedRows segment(const WeightedRows& rows, Index block_rows, Index sources) {
-  const auto blocks = static_cast<std::size_t>((rows.size() + block_rows - 1) / block_rows);
-  return segment_anew({}, rows, std::vector<char>(blocks, 1), block_rows, sources);
+void Segmenter::append_block(const WeightedRows& rows, Index block) {
+  out_.block_begin.push_back(static_cast<Index>(out_.segments.size()));
+  out_.row_count = std::min((block + 1) * block_rows_, rows.last());
+  add_rows(rows, block * block_rows_, out_.row_count);
+}
+
+void Segmenter::append_copy(const SegmentedRows& before, Index block) {
+  const auto at = static_cast<std::size_t>(block);
+  out_.block_begin.push_back(static_cast<Index>(out_.segments.size()));
+  for (Index s = before.block_begin[at]; s < before.block_begin[at + 1]; ++s) {
+    add_copy(before, before.segments[static_cast<std::size_t>(s)]);
+  }
+  out_.row_count = std::min((block + 1) * block_rows_, before.row_count);
+}
+
+SegmentedRows Segmenter::finish() {
+  out_.block_begin.push_back(static_cast<Index>(out_.segments.size()));
+  // Kept for the whole run, and half of it may be room to grow.
+  out_.segments.shrink_to_fit();
+  out_.block_begin.shrink_to_fit();
+  out_.ids.shrink_to_fit();
+  out_.weights.shrink_to_fit();
+  return std::move(out_);
+}
+
+void Segmenter::add_rows(const WeightedRows& rows, Index begin, Index end) {
+  Index pending = begin;  // rows [pending, row) wait for a segment of their own
+  const auto flush = [&](Index until) {
+    for (; pending < until; pending += std::min(lanes, until - pending)) {
+      add_own(rows, pending, std::min(lanes, until - pending));
+    }
+  };
+  Index row = begin;
+  while (row < end) {
+    const std::string key = stencil_key(rows, row);
+    Index run = 1;
+    while (row + run < end && stencil_key(rows, row + run) == key) ++run;
+    if (run >= shortest_shared_run) {
+      flush(row);
+      add_shared(rows, row, run, key);
+      pending = row + run;
+    }
+    row += run;
+  }
+  flush(end);
+}
+
+void Segmenter::add_shared(const WeightedRows& rows, Index first, Index count,
+                           const std::string& key) {
+  const auto ids = rows.ids(first);
+  const auto [place, is_new] = pooled(key, {out_.ids.size(), out_.weights.size()});
+  if (is_new) {
+    for (const Index b : ids) out_.ids.push_back(b - first);
+    const auto weights = rows.weights(first);
+    out_.weights.insert(out_.weights.end(), weights.begin(), weights.end());
+  }
+  out_.segments.push_back({first, count, static_cast<Index>(ids.size()),
+                           SegmentedRows::Kind::shared, place.id, place.weight});
+}
+
+void Segmenter::add_own(const WeightedRows& rows, Index first, Index count) {
+  std::size_t width = 0;
+  for (Index r = first; r < first + count; ++r) width = std::max(width, rows.width(r));
+  const auto m = static_cast<std::size_t>(channels_);
+  const bool aligned = are_aligned(rows, first, count);
+  out_.segments.push_back({first, count, static_cast<Index>(width),
+                           aligned ? SegmentedRows::Kind::aligned : SegmentedRows::Kind::own,
+                           out_.ids.size(), out_.weights.size()});
+  for (std::size_t k = 0; k < width; ++k) {
+    for (Index lane = 0; lane < (aligned ? 1 : lanes); ++lane) {
+      const Index row = std::min(first + lane, first + count - 1);
+      const auto ids = rows.ids(row);
+      out_.ids.push_back(k < ids.size() ? ids[k] : std::min(row, sources_ - 1));
+    }
+    for (std::size_t c = 0; c < m; ++c) {
+      for (Index lane = 0; lane < lanes; ++lane) {
+        const bool real = lane < count && k < rows.width(first + lane);
+        out_.weights.push_back(real ? rows.weights(first + lane)[k * m + c] : 0.0);
+      }
+    }
+  }
+}
+
+// A segment as it is in another layout. Of a stencil that is shared there one copy is kept.
+void Segmenter::add_copy(const SegmentedRows& before, SegmentedRows::Segment segment) {
+  const bool shared = segment.kind == SegmentedRows::Kind::shared;
+  const auto width = static_cast<std::size_t>(segment.width);
+  const std::size_t ids = segment.kind == SegmentedRows::Kind::own ? lanes * width : width;
+  const std::size_t weights = (shared ? 1 : lanes) * width * static_cast<std::size_t>(channels_);
+  const std::span<const Index> id{before.ids.data() + segment.id_begin, ids};
+  const std::span<const double> weight{before.weights.data() + segment.weight_begin, weights};
+  const std::size_t old = segment.id_begin;
+  Place place{out_.ids.size(), out_.weights.size()};
+  bool is_new = true;
+  if (const auto copied = copied_.find(old); shared && copied != copied_.end()) {
+    place = copied->second;
+    is_new = false;
+  } else if (shared) {
+    std::tie(place, is_new) = pooled(key_of(id, 0, weight), place);
+    copied_.emplace(old, place);
+  }
+  segment.id_begin = place.id;
+  segment.weight_begin = place.weight;
+  out_.segments.push_back(segment);
+  if (!is_new) return;
+  out_.ids.insert(out_.ids.end(), id.begin(), id.end());
+  out_.weights.insert(out_.weights.end(), weight.begin(), weight.end());
+}
+
+// Where a stencil is that was met before, else `next`, where it will be.
+std::pair<Segmenter::Place, bool> Segmenter::pooled(const std::string& key, const Place& next) {
+  const auto [known, is_new] = pool_.try_emplace(key, next);
+  return {known->second, is_new};
 }
 
 SegmentedRows segment_anew(const SegmentedRows& before, const WeightedRows& rows,
                            const std::vector<char>& changed, Index block_rows, Index sources) {
-  SegmentedRows out;
-  out.row_count = rows.size();
-  Layout layout(rows, sources, out);
+  Segmenter segmenter(rows.channels, block_rows, sources);
   for (std::size_t block = 0; block < changed.size(); ++block) {
-    out.block_begin.push_back(static_cast<Index>(out.segments.size()));
     if (changed[block] == 0) {
-      for (Index s = before.block_begin[block]; s < before.block_begin[block + 1]; ++s) {
-        layout.add_copy(before, before.segments[static_cast<std::size_t>(s)]);
-      }
-      continue;
+      segmenter.append_copy(before, static_cast<Index>(block));
+    } else {
+      segmenter.append_block(rows, static_cast<Index>(block));
     }
-    const auto begin = static_cast<Index>(block) * block_rows;
-    layout.add_block(begin, std::min(begin + block_rows, rows.size()));
   }
-  out.block_begin.push_back(static_cast<Index>(out.segments.size()));
-  // Kept for the whole run, and half of it may be room to grow.
-  out.segments.shrink_to_fit();
-  out.block_begin.shrink_to_fit();
-  out.ids.shrink_to_fit();
-  out.weights.shrink_to_fit();
-  return out;
+  return segmenter.finish();
 }
 
 }  // namespace fpm::detail

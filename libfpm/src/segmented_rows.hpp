@@ -1,37 +1,35 @@
 #pragma once
 
 #include <algorithm>
+#include <numeric>
 #include <span>
+#include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "fpm/moment_operator.hpp"
 
 namespace fpm::detail {
 
-/// A sparse operator with several weights per entry, row by row.
+/// Rows of a sparse operator with several weights per entry, that follow one another.
 struct WeightedRows {
   int channels = 0;
+  Index first = 0;
   std::vector<std::size_t> offset{0};
   std::vector<Index> id;
   std::vector<double> weight;  // `channels` per entry
 
   Index size() const { return static_cast<Index>(offset.size()) - 1; }
-  std::size_t width(Index row) const {
-    return offset[static_cast<std::size_t>(row) + 1] - offset[static_cast<std::size_t>(row)];
-  }
-  std::span<const Index> ids(Index row) const {
-    return {id.data() + offset[static_cast<std::size_t>(row)], width(row)};
-  }
+  Index last() const { return first + size(); }
+  std::size_t begin(Index row) const { return offset[static_cast<std::size_t>(row - first)]; }
+  std::size_t width(Index row) const { return begin(row + 1) - begin(row); }
+  std::span<const Index> ids(Index row) const { return {id.data() + begin(row), width(row)}; }
   std::span<const double> weights(Index row) const {
     const auto m = static_cast<std::size_t>(channels);
-    return {weight.data() + offset[static_cast<std::size_t>(row)] * m, width(row) * m};
+    return {weight.data() + begin(row) * m, width(row) * m};
   }
 };
-
-/// The transposed operator. Its row b < rows.size() starts from its own entry: minus the
-/// sum of its weights in the channels where `in_sum` is set, zero in the others.
-WeightedRows transpose(const WeightedRows& rows, Index transposed_size,
-                       const std::vector<char>& in_sum);
 
 /// Calls visit(id) for all that a block's entries refer to, some more than once.
 template <class Visitor>
@@ -51,12 +49,23 @@ void for_each_id(const SegmentedRows& rows, std::size_t block, const Visitor& vi
   }
 }
 
-/// What `transpose` has for the columns where `wanted` is set, and nothing for the others.
-/// @param sources  the rows that may have an entry in these columns, ascending, `wanted` ones among
+/// Columns of an operator.
+template <class Predicate>
+struct Columns {
+  Index first, last;
+  Predicate is_wanted;  // of those in [first, last)
+
+  bool operator()(Index b) const { return b >= first && b < last && is_wanted(b); }
+};
+
+/// Rows of the transposed operator: those of the wanted columns, and nothing for the others. If it
+/// is a row of the operator as well, each starts from its own entry: minus the sum of that row's
+/// weights in the channels where `in_sum` is set, zero in the others.
+/// @param sources  the rows that may have an entry in these columns, ascending, wanted ones among
 ///   them
 /// @param for_each_entry  called as for_each_entry(row, visit) with visit(column, weights)
-template <class ForEachEntry>
-WeightedRows transpose_part(const std::vector<Index>& sources, const std::vector<char>& wanted,
+template <class Predicate, class ForEachEntry>
+WeightedRows transpose_part(const std::vector<Index>& sources, const Columns<Predicate>& wanted,
                             int channels, const std::vector<char>& in_sum,
                             const ForEachEntry& for_each_entry);
 
@@ -64,41 +73,72 @@ WeightedRows transpose_part(const std::vector<Index>& sources, const std::vector
 /// of one group are filled up to the widest with entries of no weight, which refer to the row
 /// itself or, as a transposed row may be none, to the last of the `sources` that an entry may refer
 /// to: what they read must exist, since zero times garbage may be NaN.
-SegmentedRows segment(const WeightedRows& rows, Index block_rows, Index sources);
+class Segmenter {
+ public:
+  Segmenter(int channels, Index block_rows, Index sources)
+      : channels_(channels), block_rows_(block_rows), sources_(sources) {}
 
-/// The same where only the blocks with `changed` set have rows in `rows`; the others stay as they
+  /// The blocks that follow, from rows that are all of theirs.
+  void append(const WeightedRows& rows);
+  /// The block that follows, from rows that have it.
+  void append_block(const WeightedRows& rows, Index block);
+  /// The block that follows, as it is in `before`.
+  void append_copy(const SegmentedRows& before, Index block);
+  SegmentedRows finish();
+
+ private:
+  struct Place {
+    std::size_t id;
+    std::size_t weight;
+  };
+
+  void add_rows(const WeightedRows& rows, Index begin, Index end);
+  void add_shared(const WeightedRows& rows, Index first, Index count, const std::string& key);
+  void add_own(const WeightedRows& rows, Index first, Index count);
+  void add_copy(const SegmentedRows& before, SegmentedRows::Segment segment);
+  std::pair<Place, bool> pooled(const std::string& key, const Place& next);
+
+  int channels_;
+  Index block_rows_;
+  Index sources_;
+  SegmentedRows out_;
+  std::unordered_map<std::string, Place> pool_;
+  std::unordered_map<std::size_t, Place> copied_;  // by where the ids were
+};
+
+/// All of an operator's blocks anew where `changed` is set, from `rows`; the others stay as they
 /// are in `before`.
 SegmentedRows segment_anew(const SegmentedRows& before, const WeightedRows& rows,
                            const std::vector<char>& changed, Index block_rows, Index sources);
 
-template <class ForEachEntry>
-WeightedRows transpose_part(const std::vector<Index>& sources, const std::vector<char>& wanted,
+template <class Predicate, class ForEachEntry>
+WeightedRows transpose_part(const std::vector<Index>& sources, const Columns<Predicate>& wanted,
                             int channels, const std::vector<char>& in_sum,
                             const ForEachEntry& for_each_entry) {
   const auto m = static_cast<std::size_t>(channels);
-  const auto is_wanted = [&](Index b) { return wanted[static_cast<std::size_t>(b)] != 0; };
+  const auto place = [&](Index b) { return static_cast<std::size_t>(b - wanted.first); };
   WeightedRows out;
   out.channels = channels;
-  std::vector<std::size_t> count(wanted.size(), 0);
+  out.first = wanted.first;
+  out.offset.assign(place(wanted.last) + 1, 0);
   for (const Index a : sources) {
-    if (is_wanted(a)) ++count[static_cast<std::size_t>(a)];
+    if (wanted(a)) ++out.offset[place(a) + 1];
     for_each_entry(a, [&](Index b, const double*) {
-      if (is_wanted(b)) ++count[static_cast<std::size_t>(b)];
+      if (wanted(b)) ++out.offset[place(b) + 1];
     });
   }
-  out.offset.resize(count.size() + 1);
-  for (std::size_t b = 0; b < count.size(); ++b) out.offset[b + 1] = out.offset[b] + count[b];
+  std::partial_sum(out.offset.begin(), out.offset.end(), out.offset.begin());
   out.id.resize(out.offset.back());
   out.weight.assign(out.offset.back() * m, 0.0);
 
   std::vector<std::size_t> fill(out.offset.begin(), out.offset.end() - 1);
   for (const Index a : sources) {
-    const bool own_wanted = is_wanted(a);
-    const auto own = own_wanted ? fill[static_cast<std::size_t>(a)]++ : 0;
+    const bool own_wanted = wanted(a);
+    const auto own = own_wanted ? fill[place(a)]++ : 0;
     if (own_wanted) out.id[own] = a;
     for_each_entry(a, [&](Index b, const double* weights) {
-      const bool entry_wanted = is_wanted(b);
-      const auto at = entry_wanted ? fill[static_cast<std::size_t>(b)]++ : 0;
+      const bool entry_wanted = wanted(b);
+      const auto at = entry_wanted ? fill[place(b)]++ : 0;
       if (entry_wanted) out.id[at] = a;
       for (std::size_t c = 0; c < m; ++c) {
         const double w = weights[c];

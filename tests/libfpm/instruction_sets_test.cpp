@@ -88,7 +88,9 @@ std::vector<double> everything(const fpm::SegmentedRows& rows, Channels channels
 template <int Dim>
 void expect_the_same_by_every_set(Channels channels) {
   constexpr Index size = 303;
-  const auto rows = fpm::detail::segment(some_rows(size, channels.count(Dim)), block_rows, size);
+  fpm::detail::Segmenter segmenter(channels.count(Dim), block_rows, size);
+  segmenter.append(some_rows(size, channels.count(Dim)));
+  const auto rows = segmenter.finish();
   using Kind = fpm::SegmentedRows::Kind;
   for (const Kind kind : {Kind::shared, Kind::aligned, Kind::own}) {
     EXPECT_GT(std::ranges::count(rows.segments, kind, &fpm::SegmentedRows::Segment::kind), 8);

@@ -14,10 +14,11 @@
 namespace model {
 namespace {
 
-std::vector<StandingWater> standing_on(const std::string& text) {
+template <int Dim = 2>
+std::vector<StandingWater<Dim>> standing_on(const std::string& text) {
   const auto reading = scene::parse_scene(text, "scene", {});
   if (!reading.scene) throw std::invalid_argument(reading.errors.front().text());
-  return standing_water(*reading.scene, build_model<2>(*reading.scene));
+  return standing_water(*reading.scene, build_model<Dim>(*reading.scene));
 }
 
 const std::string soil = R"(
@@ -57,7 +58,7 @@ constexpr double round_off = 1e-6;  // of tens of kN
 TEST(StandingWater, PressesAsItStandsOnEachSide) {
   const auto found = standing_on(dam("table = [[0, 4], [2.4, 4], [7.4, 1], [8, 1]]\n"));
   ASSERT_EQ(found.size(), 2U);
-  for (const StandingWater& water : found) {
+  for (const StandingWater<2>& water : found) {
     const bool up = water.on == "the side \"upstream\"";
     EXPECT_TRUE(up || water.on == "the side \"downstream\"") << water.on;
     const double h = up ? 4.0 : 1.0;
@@ -100,6 +101,34 @@ TEST(StandingWater, IsNotOnAFaceThatThePlateOfADriveMoves) {
   expect_on_top(
       "[drive]\nkind = \"displacement\"\nside = \"right\"\ndirection = [-1, 0]\n"
       "target = 0.01\nwidth = 2\n");
+}
+
+// Of a prism as of its section, times its length; of a box in space its faces.
+TEST(StandingWater, StandsInSpaceAsInThePlane) {
+  std::string prism = dam("table = [[0, 4], [2.4, 4], [7.4, 1], [8, 1]]\n");
+  prism.insert(prism.find("spacing"), "dimension = 3\ndepth = [0, 2]\n");
+  const std::string ends =
+      "[[support]]\nname = \"front\"\nside = \"front\"\ndirections = [\"z\"]\n"
+      "[[support]]\nname = \"back\"\nside = \"back\"\ndirections = [\"z\"]\n";
+  const auto found = standing_on<3>(prism + ends);
+  ASSERT_EQ(found.size(), 2U);
+  for (const StandingWater<3>& water : found) {
+    const bool up = water.on == "the side \"upstream\"";
+    const double h = up ? 4.0 : 1.0;
+    EXPECT_LT(water.pressure, 10e3 * h);  // in the middle of the lowest piece
+    EXPECT_GT(water.pressure, 10e3 * (h - 0.25));
+    EXPECT_NEAR(water.force.x(), 2.0 * (up ? 1.0 : -1.0) * 10e3 * h * h / 2.0, 10e3 * 0.25 * 0.25);
+    EXPECT_NEAR(water.force.z(), 0.0, round_off);
+  }
+  const auto box = standing_on<3>(
+      "[geometry]\ndimension = 3\nmin = [0, 0, 0]\nmax = [2, 1, 1]\nspacing = 0.25\n" + soil +
+      "[[support]]\nname = \"base\"\nside = \"bottom\"\ndirections = [\"y\"]\n" + ends +
+      "[[support]]\nname = \"left\"\nside = \"left\"\ndirections = [\"x\"]\n"
+      "[[support]]\nname = \"right\"\nside = \"right\"\ndirections = [\"x\"]\n"
+      "[water]\nunit_weight = 10e3\ntable = [[0, 3], [2, 3]]\n");
+  ASSERT_EQ(box.size(), 1U);
+  EXPECT_EQ(box.front().on, "the face \"top\"");
+  EXPECT_NEAR(box.front().force.y(), -2.0 * 1.0 * 20e3, round_off);
 }
 
 }  // namespace

@@ -325,5 +325,42 @@ TEST(WallStress, IsNeverBeyondYield) {
   EXPECT_TRUE(has_yielded);
 }
 
+// A cylinder under a pressure p at which its inner part yields: across the bore Mohr and Coulomb's
+// strength is used up, N s - (-p) = 2 c sqrt(N), N = tan^2(45 + phi / 2).
+double yielding_bore_error(int cells, double dilation) {
+  std::string text = box(2.0, 2.0, 1.0 / cells) + mirrors +
+                     "[approximation]\nkinematics = \"small_strain\"\n[programme]\nsteps = 5\n"
+                     "[drive]\nkind = \"load\"\nscales = [\"traction\"]\n[solver]\n"
+                     "tolerance = 1e-4\n[[material]]\nname = \"m\"\nmodel = \"mohr_coulomb\"\n"
+                     "youngs_modulus = 1e6\npoissons_ratio = 0.3\ncohesion = 1.2e3\n"
+                     "friction_angle = 20\n" +
+                     fmt::format("dilation_angle = {}\n", dilation) +
+                     "[[cutout]]\nname = \"bore\"\ncentre = [0, 0]\nradius = 1.0\npressure = 1e3\n"
+                     "[[cutout]]\nname = \"mantle\"\ncentre = [0, 0]\nradius = 2.0\n"
+                     "outside = true\n";
+  for (int k = 0; k < turns; ++k) text += stress_at(k, std::cos(turn(k)), std::sin(turn(k)));
+  verification::Run<2> run(scene_of(text));
+  run.complete();
+  const auto measured = stresses_of<2>(run.scene, run.model, run.state);
+  const double n = std::pow(std::tan(std::numbers::pi * (45 + 10) / 180), 2);
+  const double exact = (2.0 * 1.2e3 * std::sqrt(n) - 1e3) / n;
+  double most = 0.0;
+  for (std::size_t k = 0; k < turns; ++k) {
+    const double found = along_wall(&measured[4 * k], turn(static_cast<int>(k)));
+    most = std::max(most, std::abs(found - exact) / exact);
+  }
+  return most;
+}
+
+TEST(WallStress, OfAWallThatYieldsIsItsStrength) {
+  for (const double dilation : {0.0, 20.0}) {
+    for (const int cells : {10, 20}) {
+      const double error = yielding_bore_error(cells, dilation);
+      report(fmt::format("error_at_{}_cells_dilation_{}", cells, dilation), error);
+      EXPECT_LT(error, 0.01);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace verification

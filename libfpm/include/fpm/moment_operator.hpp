@@ -140,6 +140,8 @@ class MomentOperator {
 
  private:
   std::vector<char> summed_channels() const;
+  void segment_forward(const Rows<Dim>& rows, const ConsistencyCorrection<Dim>& correction);
+  void segment_transposed();
 
   Index size_ = 0;
   Channels channels_;
