@@ -27,11 +27,14 @@ struct EvaluationFailure {
 
 /// What a converged step leaves for the records.
 struct StepForces {
-  double reaction = 0.0;        // [N/m or N] along the measured direction, positive against it; of
-                                // a loaded plate its load
-  double hourglass_work = 0.0;  // [J/m or J] of this step
-  double external_work = 0.0;   // [J/m or J] of this step, by reactions and loads
-  Eigen::Index plastic = 0;     // particles that yielded in this step
+  double reaction = 0.0;         // [N/m or N] along the measured direction, positive against it; of
+                                 // a loaded plate its load
+  double hourglass_work = 0.0;   // [J/m or J] of this step
+  double external_work = 0.0;    // [J/m or J] of this step, by reactions and loads
+  double growing_work = 0.0;     // [J/m or J] of the loads that grow, at a load parameter of one;
+                                 // 0 if forces that follow or plates may belong to them
+  double unbalanced_work = 0.0;  // [J/m or J] that balance lacks on the step's motion
+  Eigen::Index plastic = 0;      // particles that yielded in this step
   double max_plastic_strain = 0.0;
   double settlement = 0.0;  // [m] of a loaded plate, along its load, since the run began
 };
@@ -122,6 +125,7 @@ class Equilibrium {
   void take_side_reactions();
   void take_reactions();
   [[nodiscard]] double reported_reaction() const;
+  void take_shares_of_growing_loads(const Eigen::VectorXd& increment, StepForces& forces) const;
   void act(const Eigen::VectorXd& v, double load_change, Eigen::VectorXd& jv);
   void place_particles();
   void remember_pairs(Eigen::Index a, const Eigen::VectorXd& position_moments);

@@ -1,4 +1,5 @@
 // The beginning and the end of a step: what stays the same in it, and what it leaves.
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -164,6 +165,20 @@ std::optional<double> Equilibrium<Dim>::reactions_at_rest(double load, double re
   return reported_reaction();
 }
 
+// At collapse soil, control and what is out of balance share the power of the loads.
+template <int Dim>
+void Equilibrium<Dim>::take_shares_of_growing_loads(const Eigen::VectorXd& increment,
+                                                    StepForces& forces) const {
+  const bool has_plates = std::ranges::any_of(
+      model_.interfaces, [](const model::Interface<Dim>& i) { return i.plate.has_value(); });
+  if (!model_.following_pressures.empty() || has_plates) return;
+  forces.growing_work = model_.scaled_load.dot(increment);
+  forces.unbalanced_work = -evaluation_.unmasked.dot(increment);
+  for (const Eigen::Index k : given_) {
+    forces.unbalanced_work += evaluation_.unmasked[k] * increment[k];
+  }
+}
+
 template <int Dim>
 StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
   StepForces forces;
@@ -180,6 +195,7 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
   forces.settlement = interfaces_.settlement();
   extend_increment(increment);
   forces.hourglass_work = hourglass_work(loop_data());
+  take_shares_of_growing_loads(increment, forces);
   forces.external_work += step_.external.dot(increment);
   if (evaluation_.following.size() > 0) {
     forces.external_work += evaluation_.following.dot(increment);

@@ -90,6 +90,24 @@ std::vector<scene::Side> sides_of_planes(const scene::Scene& scene, const Model<
   return sides;
 }
 
+template <int Dim>
+std::vector<char> mirrors(const scene::Scene& scene, const Model<Dim>& model) {
+  std::vector<char> result;
+  // A side that a later stage holds has moved before.
+  const bool is_first = scene.course.stage == 0;
+  const bool has_driven = !model.plane_drive.empty();
+  for (const fpm::GhostPlane<Dim>& plane : model.ghosts.planes()) {
+    bool slides = is_first && !plane.has_range() && !(has_driven && result.size() == driven_plane);
+    for (int i = 0; i < Dim; ++i) {
+      slides = slides && plane.held[static_cast<std::size_t>(i)] == (i == plane.axis);
+    }
+    result.push_back(plane.symmetry || slides ? 1 : 0);
+  }
+  return result;
+}
+
+template std::vector<char> mirrors<2>(const scene::Scene&, const Model<2>&);
+template std::vector<char> mirrors<3>(const scene::Scene&, const Model<3>&);
 template std::vector<scene::Side> sides_of_planes<2>(const scene::Scene&, const Model<2>&);
 template std::vector<scene::Side> sides_of_planes<3>(const scene::Scene&, const Model<3>&);
 template std::vector<Eigen::Index> sources_of_planes<2>(const Model<2>&, int, double);

@@ -29,4 +29,9 @@ std::vector<scene::Side> sides_of_planes(const scene::Scene& scene, const Model<
 /// Place of the driven side among them, if it is driven by ghosts.
 inline constexpr std::size_t driven_plane = 0;
 
+/// For each plane, whether the body goes on behind it as its images do, from the beginning on: of
+/// symmetry, or one along which it slides freely and that does not move.
+template <int Dim>
+[[nodiscard]] std::vector<char> mirrors(const scene::Scene& scene, const Model<Dim>& model);
+
 }  // namespace model

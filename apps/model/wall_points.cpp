@@ -7,6 +7,7 @@
 #include "constitutive/tensor.hpp"
 #include "fpm/boundary.hpp"
 #include "model/initial_stress.hpp"
+#include "model/planes.hpp"
 #include "model/side_points.hpp"
 #include "model/surface.hpp"
 #include "scene/derived.hpp"
@@ -32,11 +33,15 @@ fpm::Vector<Dim> traction_of(double pressure, double shear, const fpm::Vector<Di
 }
 
 template <int Dim>
-bool is_mirror(const Model<Dim>& model, const fpm::Face& face) {
-  return std::ranges::any_of(model.ghosts.planes(), [&](const fpm::GhostPlane<Dim>& plane) {
-    const double middle = 0.5 * (model.box_min[plane.axis] + model.box_max[plane.axis]);
-    return plane.symmetry && plane.axis == face.axis && (plane.position > middle) == face.upper;
-  });
+bool is_mirror(const scene::Scene& scene, const Model<Dim>& model, const fpm::Face& face) {
+  const std::vector<char> are_mirrors = mirrors(scene, model);
+  const auto& planes = model.ghosts.planes();
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    const double middle = 0.5 * (model.box_min[face.axis] + model.box_max[face.axis]);
+    const bool is_here = planes[p].axis == face.axis && (planes[p].position > middle) == face.upper;
+    if (is_here && are_mirrors[p] != 0) return true;
+  }
+  return false;
 }
 
 // What supports and plates hold of a face of the box is not known; what presses on the rest is.
@@ -111,7 +116,7 @@ template <int Dim>
 void add_piece(const scene::Scene& scene, const Model<Dim>& model, const SurfacePiece<Dim>& piece,
                std::vector<WallPoint<Dim>>& points) {
   const fpm::Face face{piece.face / 2, piece.face % 2 == 1};
-  if (piece.face >= 0 && is_mirror(model, face)) return;
+  if (piece.face >= 0 && is_mirror(scene, model, face)) return;
   for_each_point(model, piece,
                  [&](const fpm::Vector<Dim>& place, const fpm::Vector<Dim>& outward, double area) {
                    WallPoint<Dim> point;
@@ -145,11 +150,14 @@ void add_meetings(const Model<Dim>& model, std::vector<WallPoint<Dim>>& points) 
   }
 }
 
-// What the images behind planes of symmetry have.
+// What the images behind mirrors have.
 template <int Dim>
-void add_images(const Model<Dim>& model, std::vector<WallPoint<Dim>>& points) {
-  for (const fpm::GhostPlane<Dim>& plane : model.ghosts.planes()) {
-    if (!plane.symmetry) continue;
+void add_images(const scene::Scene& scene, const Model<Dim>& model,
+                std::vector<WallPoint<Dim>>& points) {
+  const std::vector<char> are_mirrors = mirrors(scene, model);
+  for (std::size_t p = 0; p < are_mirrors.size(); ++p) {
+    const fpm::GhostPlane<Dim>& plane = model.ghosts.planes()[p];
+    if (are_mirrors[p] == 0) continue;
     const std::size_t count = points.size();
     for (std::size_t k = 0; k < count; ++k) {
       WallPoint<Dim> image = points[k];
@@ -170,7 +178,7 @@ std::vector<WallPoint<Dim>> wall_points(const scene::Scene& scene, const Model<D
   if (scene.geometry.layout == scene::Layout::vertex) return points;
   for (const SurfacePiece<Dim>& piece : model.surface) add_piece(scene, model, piece, points);
   for (const fpm::Face& face : fpm::all_faces<Dim>()) {
-    if (!model.surface.empty() || is_mirror(model, face)) continue;
+    if (!model.surface.empty() || is_mirror(scene, model, face)) continue;
     const auto quadrature = fpm::boundary_quadrature(model.cells, face);
     for (Eigen::Index c = 0; c < quadrature.size(); ++c) {
       WallPoint<Dim> point;
@@ -183,7 +191,7 @@ std::vector<WallPoint<Dim>> wall_points(const scene::Scene& scene, const Model<D
     }
   }
   add_meetings(model, points);
-  add_images(model, points);
+  add_images(scene, model, points);
   return points;
 }
 

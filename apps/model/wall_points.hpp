@@ -25,8 +25,9 @@ struct WallPoint {
   bool is_known = false;
 };
 
-/// The surface of all bodies, at least two points to a spacing, but for planes of symmetry, behind
-/// which it goes on as their images do. Empty for particles on the boundary itself (layout vertex).
+/// The surface of all bodies, at least two points to a spacing, but for mirrors, behind which it
+/// goes on as their images do (`mirrors`). Empty for particles on the boundary itself (layout
+/// vertex).
 template <int Dim>
 std::vector<WallPoint<Dim>> wall_points(const scene::Scene& scene, const Model<Dim>& model);
 

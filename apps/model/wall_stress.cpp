@@ -8,6 +8,7 @@
 #include "constitutive/material.hpp"
 #include "constitutive/utilisation.hpp"
 #include "model/cubic.hpp"
+#include "model/planes.hpp"
 #include "model/wall_yield.hpp"
 #include "scene/course.hpp"
 #include "scene/derived.hpp"
@@ -87,7 +88,8 @@ std::optional<WallStress<Dim>> WallStress<Dim>::at(const scene::Scene& scene,
   result.stiffness_ = constitutive::elastic_stiffness<Dim>(moduli);
   result.modulus_ = model.youngs_modulus_of(own);
   std::vector<fpm::Vector<Dim>> places, on;
-  if (!result.take_particles(particles, foot.place, places)) return std::nullopt;
+  if (!result.take_particles(particles, mirrors(scene, model), foot.place, places))
+    return std::nullopt;
   if (!result.take_walls(walls, particles, foot, on)) return std::nullopt;
   const auto material = static_cast<std::size_t>(model.material[static_cast<std::size_t>(own)]);
   if (!scene::is_nearly_incompressible(scene.material[material])) {
@@ -100,10 +102,11 @@ std::optional<WallStress<Dim>> WallStress<Dim>::at(const scene::Scene& scene,
   return result;
 }
 
-// Those around the point, images by symmetry included; false if there are too few, if one is held
-// or of another law.
+// Those around the point, images behind mirrors included; false if there are too few, if one is
+// held or of another law.
 template <int Dim>
 bool WallStress<Dim>::take_particles(const fpm::ParticleSet<Dim>& particles,
+                                     const std::vector<char>& mirrors,
                                      const fpm::Vector<Dim>& point,
                                      std::vector<fpm::Vector<Dim>>& places) {
   const auto at = [](fpm::Index a) { return static_cast<std::size_t>(a); };
@@ -116,7 +119,7 @@ bool WallStress<Dim>::take_particles(const fpm::ParticleSet<Dim>& particles,
     const fpm::Vector<Dim> offset = position.row(b).transpose() - point;
     const double r = offset.norm() / radius_;
     const bool image = b >= n;
-    if (r >= 1.0 || (image && !model.ghosts.by_symmetry(b - n))) continue;
+    if (r >= 1.0 || (image && !model.ghosts.made_by(b - n, mirrors))) continue;
     const fpm::Index a = image ? model.ghosts.source(b - n) : b;
     if (model.law[at(a)] != model.law[at(own_)]) return false;
     if (particles.body[at(a)] != particles.body[at(own_)]) continue;  // beyond a slot

@@ -80,8 +80,8 @@ class WallStress {
   [[nodiscard]] double share(const State<Dim>& state, const Stress& stress,
                              const Eigen::VectorXd& coefficients) const;
   [[nodiscard]] double explained(const State<Dim>& state, const Eigen::VectorXd& right) const;
-  bool take_particles(const fpm::ParticleSet<Dim>& particles, const fpm::Vector<Dim>& point,
-                      std::vector<fpm::Vector<Dim>>& places);
+  bool take_particles(const fpm::ParticleSet<Dim>& particles, const std::vector<char>& mirrors,
+                      const fpm::Vector<Dim>& point, std::vector<fpm::Vector<Dim>>& places);
   bool take_walls(const std::vector<WallPoint<Dim>>& walls, const fpm::ParticleSet<Dim>& particles,
                   const Foot<Dim>& foot, std::vector<fpm::Vector<Dim>>& on);
   void take_thickness(const std::vector<WallPoint<Dim>>& walls,

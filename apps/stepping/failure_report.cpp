@@ -166,6 +166,16 @@ std::string where(const model::Model<Dim>& model, const model::State<Dim>& state
   return text;
 }
 
+// Where more load than the ground bears may have seemed to be borne.
+std::string energy_corrected(const scene::Scene& scene, bool plastic, const StepResult& result,
+                             double load) {
+  if (!result.corrected_load || !plastic || scene.drive.kind != scene::DriveKind::load) return "";
+  return fmt::format(
+      "\n  energy-corrected: {:.4g} of the load, without {:.2g} % that the hourglass control bears "
+      "and the tolerance leaves unbalanced in the last step.",
+      *result.corrected_load, 100.0 * (1.0 - *result.corrected_load / load));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -175,9 +185,11 @@ std::string failure_report(const scene::Scene& scene, const model::Model<Dim>& m
   for (const std::string& cause : likely_causes(scene, model, state)) {
     causes += fmt::format("\n  likely: {}.", cause);
   }
-  return fmt::format("{}: {}.\n  limits: {}.{}{}\n  advice: {}{}.",
+  const std::string corrected =
+      energy_corrected(scene, state.layout.plastic, result, state.programme.load);
+  return fmt::format("{}: {}.\n  limits: {}.{}{}{}\n  advice: {}{}.",
                      what_ended_it(scene, result, state.programme), result.reason,
-                     what_limits(result), where(model, state, result), causes,
+                     what_limits(result), where(model, state, result), causes, corrected,
                      causes.empty() ? "" : "if that is not it, ", advice(scene, state, result));
 }
 

@@ -10,6 +10,7 @@
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
 #include "scene/stages.hpp"
+#include "stepping/corrected_load.hpp"
 #include "stepping/re_search.hpp"
 #include "stepping/solver_setup.hpp"
 
@@ -263,6 +264,7 @@ StepResult& LoadStepper<Dim>::give_up(StepOutcome outcome, StepResult& result) {
   result.outcome = outcome;
   result.attempts = patience_.attempts();
   result.patience_mark = patience_.mark();
+  result.corrected_load = corrected_load_;
   if (!increment_.allFinite()) return result;
   Eigen::VectorXd residual(increment_.size());
   if ((*equilibrium_)(increment_, residual) != jfnk::Evaluation::ok) return result;
@@ -287,6 +289,7 @@ void LoadStepper<Dim>::finish_step(double increment, StepRecord& record) {
   programme.progress =
       1.0 - programme.progress - increment < end_slack ? 1.0 : programme.progress + increment;
   programme.load = load_at(programme.progress);
+  corrected_load_ = corrected_load(programme.load, forces);
   programme.last_increment = increment;
   patience_.attempted();
   patience_.reached(programme.progress);

@@ -52,6 +52,7 @@ struct StepResult {
   Eigen::VectorXd residual;         // [N/m or N] at it, 0 at prescribed unknowns, or empty
   int attempts = 0;                 // at steps, since the load was `patience_mark`
   double patience_mark = 0.0;
+  std::optional<double> corrected_load;  // of the last converged step, if it has one
 };
 
 /// Advances a state through the load programme, one converged step at a time: predictor, solve,
@@ -120,6 +121,7 @@ class LoadStepper {
   double nominal_increment_ = 1.0;  // of the progress
   Patience patience_;
   Eigen::VectorXd increment_;
+  std::optional<double> corrected_load_;  // load parameter of the last step
 };
 
 }  // namespace stepping

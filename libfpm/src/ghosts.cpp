@@ -118,6 +118,11 @@ bool Ghosts<Dim>::by_symmetry(Index g) const {
 }
 
 template <int Dim>
+bool Ghosts<Dim>::made_by(Index g, const std::vector<char>& some) const {
+  return std::ranges::all_of(shares(g), [&](const Share& share) { return some[share.plane] != 0; });
+}
+
+template <int Dim>
 bool Ghosts<Dim>::visible_from(const Vector<Dim>& x, Index g,
                                const std::vector<Vector<Dim>>& motion) const {
   for (const Share& share : shares(g)) {

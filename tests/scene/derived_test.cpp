@@ -77,6 +77,23 @@ TEST(Solver, PresetFillsAbsentKeysOnly) {
   EXPECT_EQ(paper.jacobian, JacobianKind::analytic);
 }
 
+TEST(Solver, IsTighterWhereWhatYieldsMayFail) {
+  Scene scene = scene_of("mohr_coulomb");
+  EXPECT_EQ(resolve_solver(scene).tolerance, 1e-3);
+  for (const DriveKind kind : {DriveKind::load, DriveKind::strength}) {
+    scene.drive.kind = kind;
+    EXPECT_EQ(resolve_solver(scene).tolerance, 1e-4);
+  }
+  scene.solver.tolerance = 3e-3;
+  EXPECT_EQ(resolve_solver(scene).tolerance, 3e-3);
+  scene.solver = {};
+  scene.solver.preset = SolverPreset::appendix_a;
+  EXPECT_EQ(resolve_solver(scene).tolerance, 1e-3) << "the paper's";
+  Scene elastic = scene_of("elastic");
+  elastic.drive.kind = DriveKind::load;
+  EXPECT_EQ(resolve_solver(elastic).tolerance, 1e-3);
+}
+
 TEST(Solver, TakesFactorsNextToIncompressibilityInThePlane) {
   Scene scene;
   scene.geometry.dimension = 2;

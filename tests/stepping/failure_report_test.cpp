@@ -5,6 +5,7 @@
 
 #include "scene/scene.hpp"
 #include "small_footing.hpp"
+#include "stepping/corrected_load.hpp"
 
 namespace stepping {
 namespace {
@@ -172,6 +173,34 @@ TEST(FailureReport, AdvisesALoadDriveToDriveADisplacement) {
   EXPECT_THAT(failure_report(loaded, run.model, run.state, given_up(jfnk::Status::stagnated)),
               HasSubstr("advice: the load may be beyond what the body carries: drive a "
                         "displacement instead."));
+}
+
+TEST(FailureReport, SaysWhatALoadIsWithoutControlAndToleranceIfItKnows) {
+  SmallFooting run;
+  run.state.programme.load = 0.5;
+  scene::Scene loaded = run.scene;
+  loaded.drive.kind = scene::DriveKind::load;
+  StepResult result = given_up(jfnk::Status::stagnated);
+  const auto says = [&](const scene::Scene& scene) {
+    return failure_report(scene, run.model, run.state, result);
+  };
+  EXPECT_THAT(says(loaded), Not(HasSubstr("energy-corrected")));
+  result.corrected_load = 0.49;
+  EXPECT_THAT(says(loaded), HasSubstr("energy-corrected: 0.49 of the load, without 2 % that the "
+                                      "hourglass control bears"));
+  EXPECT_THAT(says(run.scene), Not(HasSubstr("energy-corrected")));
+}
+
+// What control and unbalanced forces do on a step's motion, over what a load of one does on it.
+TEST(CorrectedLoad, TakesOffWhatIsNotBorneByTheSoil) {
+  equilibrium::StepForces forces;
+  forces.growing_work = 20.0;
+  forces.hourglass_work = 0.3;
+  forces.unbalanced_work = 0.1;
+  EXPECT_NEAR(corrected_load(0.8, forces).value(), 0.78, 1e-15);
+  EXPECT_FALSE(corrected_load(0.0, forces));  // nothing has grown yet
+  forces.growing_work = -1.0;                 // what gives way lifts it
+  EXPECT_FALSE(corrected_load(0.8, forces));
 }
 
 TEST(FailureReport, AdvisesConstantLoadsOnWhatYieldsToGrow) {

@@ -116,7 +116,6 @@ class Reduction {
                    means_);
     settle(*rough_);
     if (!rough_->factor()) return;
-    constexpr double worse = 1.1;  // than a finer mesh, mostly
     const double expected = *rough_->factor() / worse;
     above_.start_from(expected, worse);
     above_.rest_as(*rough_, expected);
@@ -127,7 +126,12 @@ class Reduction {
     has_begun_above_ = true;
     if (upper()) {
       const double below = below_.factor().value_or(*upper());
-      above_.start_from(std::sqrt(*upper() * below), std::max(close, std::sqrt(*upper() / below)));
+      const double middle = std::sqrt(*upper() * below);
+      // Of a mesh's own mechanism a finer one improves a little; far below it solvers lose
+      // themselves in soils that are steep there.
+      const bool is_rough = rough_ && rough_->factor() == upper();
+      const double first = is_rough ? std::max(middle, *upper() / worse) : middle;
+      above_.start_from(first, std::max(close, *upper() / first));
     }
     settle(above_);
   }
@@ -216,6 +220,7 @@ class Reduction {
   Solution result_;
   // What stresses and mechanisms come to, mostly.
   static constexpr double close = 1.05;
+  static constexpr double worse = 1.1;  // a mesh of few triangles than a finer one, mostly
   // With a block for a bound, mechanisms of a mesh are sought only where stresses do not come near.
   static constexpr int most_without_above = 5000;
   bool has_begun_above_ = false;

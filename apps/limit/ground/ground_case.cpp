@@ -267,6 +267,7 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
   if (result.seeks_strength) {
     say_skins(scene, outline, result.lower, result);
   }
+  say_ends_of_live_pressure(scene, outline, result.lower, result);
   say_pressure(scene, outline, result);
   try {
     result.lower.mesh =

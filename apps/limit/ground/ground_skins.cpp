@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "limit/ground/ground_pressure.hpp"
@@ -74,6 +75,36 @@ std::string skin_words(const GroundScene& scene, std::size_t material, const Gro
                      scene.materials[material].name, side.name, place.x(), place.y());
 }
 
+// Where what acts on a side ends beside a bare one of the same ground without cohesion.
+struct EndBesideBareSand {
+  int loaded = 0, bare = 0;  // sides
+  std::size_t material = 0;
+  mesh::Point place{0.0, 0.0};
+};
+
+template <class Acts>
+std::optional<EndBesideBareSand> end_beside_bare_sand(const GroundScene& scene,
+                                                      const GroundOutline& outline,
+                                                      const problem::Problem& problem,
+                                                      const Acts& acts) {
+  const auto side_of = [&](const GroundSegment& segment) -> const GroundSide& {
+    return scene.sides[static_cast<std::size_t>(segment.side)];
+  };
+  for (const GroundSegment& loaded : outline.segments) {
+    if (loaded.right >= 0 || !acts(side_of(loaded))) continue;
+    const std::size_t m = scene.regions[static_cast<std::size_t>(loaded.left)].material;
+    if (!problem.soils[m].is_loose()) continue;
+    for (const GroundSegment& bare : outline.segments) {
+      if (bare.right >= 0 || bare.left != loaded.left || !is_bare(side_of(bare))) continue;
+      const bool ends = bare.first == loaded.second, begins = bare.second == loaded.first;
+      if (!ends && !begins) continue;
+      return EndBesideBareSand{loaded.side, bare.side, m,
+                               outline.at(ends ? loaded.second : loaded.first)};
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void check_bare_faces(const GroundScene& scene, const GroundOutline& outline,
@@ -127,31 +158,36 @@ void check_bare_faces(const GroundScene& scene, const GroundOutline& outline,
 
 void check_ends_of_pressure(const GroundScene& scene, const GroundOutline& outline,
                             const problem::Problem& problem, tables::Diagnosis& diagnosis) {
-  const auto side_of = [&](const GroundSegment& segment) -> const GroundSide& {
-    return scene.sides[static_cast<std::size_t>(segment.side)];
-  };
-  for (const GroundSegment& loaded : outline.segments) {
-    if (loaded.right >= 0 || !presses(side_of(loaded))) continue;
-    const std::size_t m = scene.regions[static_cast<std::size_t>(loaded.left)].material;
-    if (!problem.soils[m].is_loose()) continue;
-    for (const GroundSegment& bare : outline.segments) {
-      if (bare.right >= 0 || bare.left != loaded.left || !is_bare(side_of(bare))) continue;
-      const bool ends = bare.first == loaded.second, begins = bare.second == loaded.first;
-      if (!ends && !begins) continue;
-      const mesh::Point& place = outline.at(ends ? loaded.second : loaded.first);
-      const bool is_pressure = side_of(loaded).pressure != 0.0;
-      diagnosis.error(
-          fmt::format("side.{}.{}", loaded.side, is_pressure ? "pressure" : "shear"),
-          fmt::format(
-              "found {:g}, which ends at ({:.6g}, {:.6g}) beside the bare side \"{}\" of {}, "
-              "which has no cohesion",
-              is_pressure ? side_of(loaded).pressure : side_of(loaded).shear, place.x(), place.y(),
-              side_of(bare).name, scene.materials[m].name),
-          "where nothing presses on sand it bears nothing, and gives way under what is given: "
-          "allowed are a cohesion, as of a thousandth of the pressure, or a pressure beside, too");
-      return;
-    }
-  }
+  const auto end = end_beside_bare_sand(scene, outline, problem, presses);
+  if (!end) return;
+  const GroundSide& loaded = scene.sides[static_cast<std::size_t>(end->loaded)];
+  const bool is_pressure = loaded.pressure != 0.0;
+  diagnosis.error(
+      fmt::format("side.{}.{}", end->loaded, is_pressure ? "pressure" : "shear"),
+      fmt::format("found {:g}, which ends at ({:.6g}, {:.6g}) beside the bare side \"{}\" of {}, "
+                  "which has no cohesion",
+                  is_pressure ? loaded.pressure : loaded.shear, end->place.x(), end->place.y(),
+                  scene.sides[static_cast<std::size_t>(end->bare)].name,
+                  scene.materials[end->material].name),
+      "where nothing presses on sand it bears nothing, and gives way under what is given: "
+      "allowed are a cohesion, as of a thousandth of the pressure, or a pressure beside, too");
+}
+
+void say_ends_of_live_pressure(const GroundScene& scene, const GroundOutline& outline,
+                               const problem::Problem& problem, problem::Case& result) {
+  if (scene.load.sought != Sought::traction) return;
+  const auto end = end_beside_bare_sand(scene, outline, problem, [](const GroundSide& side) {
+    return side.kind == SideKind::loaded && (side.live_pressure != 0.0 || side.live_shear != 0.0);
+  });
+  if (!end) return;
+  result.known_upper = 0.0;
+  result.notes.push_back(fmt::format(
+      "what grows on the side \"{}\" ends at ({:.6g}, {:.6g}) beside the bare side \"{}\" of {}, "
+      "which has no cohesion: where nothing presses on sand it bears nothing, so that no multiple "
+      "at all of it is borne, and the upper bound is 0; a cohesion, a pressure beside, too, or a "
+      "rigid footing in its place has both bounds",
+      scene.sides[static_cast<std::size_t>(end->loaded)].name, end->place.x(), end->place.y(),
+      scene.sides[static_cast<std::size_t>(end->bare)].name, scene.materials[end->material].name));
 }
 
 void say_skins(const GroundScene& scene, const GroundOutline& outline,

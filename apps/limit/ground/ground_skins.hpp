@@ -23,4 +23,8 @@ void check_bare_faces(const GroundScene& scene, const GroundOutline& outline,
 void check_ends_of_pressure(const GroundScene& scene, const GroundOutline& outline,
                             const problem::Problem& problem, tables::Diagnosis& diagnosis);
 
+/// Of a traction that grows and ends there the upper bound is known, nothing: says so in the notes.
+void say_ends_of_live_pressure(const GroundScene& scene, const GroundOutline& outline,
+                               const problem::Problem& problem, problem::Case& result);
+
 }  // namespace limit::ground

@@ -90,6 +90,9 @@ class Ghosts {
 
   /// Whether all planes that made ghost g are planes of symmetry.
   bool by_symmetry(Index g) const;
+  /// Whether all planes that made ghost g are among some.
+  /// @param some  for each plane, whether it is
+  bool made_by(Index g, const std::vector<char>& some) const;
 
   /// Whether a row whose particle is at `x` may have ghost g as a neighbour: it lies within the
   /// ranges of the planes that made it.

@@ -2,9 +2,13 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <numbers>
 #include <string>
 
+#include "limit/bracket/solve.hpp"
 #include "limit/ground/ground_case.hpp"
+#include "limit/ground/ground_cases.hpp"
 #include "limit/ground/ground_scene.hpp"
 
 namespace {
@@ -74,6 +78,62 @@ TEST(BareSand, BearsNoGivenPressureThatEndsBesideIt) {
             HasSubstr("where nothing presses on sand it bears nothing")));
   EXPECT_THAT(complaint(bench(5.0, 6.0, loaded, "strength")), IsEmpty());
   EXPECT_THAT(complaint(bench(0.0, 6.0, live, "traction")), IsEmpty());
+}
+
+// The stress of the sand beside nothing is nothing, whatever its weight: so is what grows.
+TEST(BareSand, BearsNothingThatGrowsAndEndsBesideIt) {
+  const auto sand = case_of(bench(0.0, 6.0, live, "traction"));
+  ASSERT_TRUE(sand);
+  const bracket::Solution found = bracket::solution_of(sand->associated, {}, {});
+  EXPECT_EQ(found.upper, 0.0);
+  EXPECT_TRUE(found.bracket.attempts.empty());
+  EXPECT_THAT(sand->associated.notes,
+              testing::Contains(HasSubstr("ends at (2, 0) beside the bare side \"face\" of sand, "
+                                          "which has no cohesion")));
+  const auto bonded = case_of(bench(5.0, 6.0, live, "traction"));
+  ASSERT_TRUE(bonded);
+  EXPECT_FALSE(bonded->associated.known_upper);
+  EXPECT_FALSE(case_of(bench(0.0, 6.0, footing, "footing"))->associated.known_upper);
+}
+
+// Half of a strip anchor, twice as deep as it is wide, that is pulled up through sand. What it
+// lifts is the sand between planes that lean outwards by phi, gamma H (1 + H / B tan(phi)), as
+// Murray & Geddes (1987) have it, a mechanism of associated soil.
+TEST(BareSand, HoldsAStripAnchorBetweenBounds) {
+  const std::string anchor = R"([load]
+sought = "footing"
+[[material]]
+name = "sand"
+friction_angle = 30
+unit_weight = 1.0
+[[region]]
+material = "sand"
+outline = [[0, 0], [3.5, 0], [3.5, 2], [0, 2]]
+[[side]]
+name = "anchor"
+kind = "footing"
+along = [[0, 0], [0.5, 0]]
+[[side]]
+name = "rigid"
+kind = "fixed"
+along = [[0.5, 0], [3.5, 0], [3.5, 2]]
+[[side]]
+name = "axis"
+kind = "symmetry"
+along = [[0, 0], [0, 2]]
+[[side]]
+name = "surface"
+kind = "free"
+along = [[0, 2], [3.5, 2]]
+)";
+  const auto problem = case_of(anchor);
+  ASSERT_TRUE(problem);
+  const bracket::Solution found = bracket::solution_of(problem->associated, {}, {});
+  const double exact = 2.0 * (1.0 + 2.0 * std::tan(std::numbers::pi / 6.0));
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_LT(*found.lower, exact);
+  EXPECT_LT(found.gap(), 0.02);  // as asked by default
+  EXPECT_NEAR(*found.upper, exact, 0.02 * exact);
 }
 
 }  // namespace

@@ -21,8 +21,10 @@ std::string slope(double spacing, double run_out, double friction_angle, double 
       "[[side]]\nname = \"left\"\nkind = \"roller\"\nalong = [[-1, 0], [-1, -0.5]]\n"
       "[[side]]\nname = \"right\"\nkind = \"roller\"\nalong = [[2.2, -0.5], [2.2, 1]]\n"
       "[drive]\nkind = \"load\"\nscales = [\"gravity\"]\n[programme]\nsteps = 48\n"
-      "[solver]\nmax_evaluations_per_step = 100\n",
-      spacing, run_out, friction_angle, weight, friction_angle > 0.0 ? 0.3 : 0.49);
+      "[solver]\nmax_evaluations_per_step = {5}\n",
+      spacing, run_out, friction_angle, weight, friction_angle > 0.0 ? 0.3 : 0.49,
+      // Next to incompressibility the first step wants more.
+      friction_angle > 0.0 ? 100 : 400);
 }
 
 // The unit weight that is borne.
@@ -35,7 +37,7 @@ double borne(const std::string& text, double weight) {
   return run.state.programme.load * weight;
 }
 
-// 60 degrees, phi = 20: Chen's 10.39; the error falls with the spacing, to 2 % at 80 cells.
+// 60 degrees, phi = 20: Chen's 10.39; the error falls with the spacing, below 1 % at 80 cells.
 TEST(SlopeOf60Degrees, BearsWhatChenSays) {
   const double exact = 10.39, weight = 12.0;
   std::vector<double> error;
@@ -45,10 +47,10 @@ TEST(SlopeOf60Degrees, BearsWhatChenSays) {
     testing::Test::RecordProperty(fmt::format("error_at_{}", spacing),
                                   fmt::format("{}", error.back()));
   }
-  EXPECT_GT(error[2], 0.0);
+  EXPECT_GT(error[2], -0.01);  // within what a load can be told apart, 48 steps to 12
   EXPECT_LT(error[1], error[0]);
   EXPECT_LT(error[2], error[1]);
-  EXPECT_LT(error[2], 0.02);
+  EXPECT_LT(error[2], 0.01);
 }
 
 // A vertical cut in clay, between 3.776 (Lyamin & Sloan 2002) and 3.778 (Pastor et al. 2000).
