@@ -70,6 +70,10 @@ class Equilibrium {
   /// @return nothing if they cannot be had: `failure` says where
   [[nodiscard]] std::optional<fpm::Field<Dim>> unbalanced(double load, double reduction);
 
+  /// Takes what is borne where the state is into its reactions and the tractions of its faces.
+  /// @return the reaction that is reported; nothing if it cannot be had
+  [[nodiscard]] std::optional<double> reactions_at_rest(double load, double reduction);
+
   const InitialBalance<Dim>& balance() const { return balance_; }
 
   /// On the initial rows, whatever was re-searched since, with the consistency correction.
@@ -119,6 +123,8 @@ class Equilibrium {
   void extend_increment(const Eigen::VectorXd& increment);
   double take_plane_reactions();
   void take_side_reactions();
+  void take_reactions();
+  [[nodiscard]] double reported_reaction() const;
   void take_shares_of_growing_loads(const Eigen::VectorXd& increment, StepForces& forces) const;
   void act(const Eigen::VectorXd& v, double load_change, Eigen::VectorXd& jv);
   void place_particles();

@@ -128,6 +128,43 @@ void Equilibrium<Dim>::take_side_reactions() {
   if (balance_.side_reaction.cols() > 0) state_.side_reaction += balance_.side_reaction;
 }
 
+// Along the measured direction, positive against it; of a loaded plate its load.
+template <int Dim>
+double Equilibrium<Dim>::reported_reaction() const {
+  double reaction = model_.measure.dot(evaluation_.unmasked);
+  for (std::size_t p = 0; p < model_.plane_drive.size(); ++p) {
+    reaction += model_.plane_measure[p].dot(plane_force_[p]);
+  }
+  for (std::size_t i = 0; i < model_.interfaces.size(); ++i) {
+    const model::Interface<Dim>& interface = model_.interfaces[i];
+    reaction += interface.measure.dot(interfaces_.rigid_force()[i]);
+    if (interface.plate && interface.plate->reported) {
+      reaction += step_.load * interface.plate->force.norm() + interface.plate->held_force.norm();
+    }
+  }
+  return reaction;
+}
+
+template <int Dim>
+void Equilibrium<Dim>::take_reactions() {
+  state_.reaction.setZero();
+  for (const Eigen::Index k : given_) state_.reaction.data()[k] = evaluation_.unmasked[k];
+  if (evaluation_.plane_reaction.rows() > 0) state_.reaction += evaluation_.plane_reaction;
+  if (balance_.reaction.rows() > 0) state_.reaction += balance_.reaction;
+  take_side_reactions();
+}
+
+template <int Dim>
+std::optional<double> Equilibrium<Dim>::reactions_at_rest(double load, double reduction) {
+  begin_step(load, 0.0, reduction);
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(model_.unknowns());
+  Eigen::VectorXd residual(nothing.size());
+  if ((*this)(nothing, residual) != jfnk::Evaluation::ok) return std::nullopt;
+  take_reactions();
+  interfaces_.take_tractions(state_);
+  return reported_reaction();
+}
+
 // At collapse soil, control and what is out of balance share the power of the loads.
 template <int Dim>
 void Equilibrium<Dim>::take_shares_of_growing_loads(const Eigen::VectorXd& increment,
@@ -145,21 +182,14 @@ void Equilibrium<Dim>::take_shares_of_growing_loads(const Eigen::VectorXd& incre
 template <int Dim>
 StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
   StepForces forces;
-  forces.reaction = model_.measure.dot(evaluation_.unmasked);
+  forces.reaction = reported_reaction();
   for (std::size_t p = 0; p < model_.plane_drive.size(); ++p) {
-    forces.reaction += model_.plane_measure[p].dot(plane_force_[p]);
     forces.external_work +=
         (step_.load - state_.programme.load) * model_.plane_drive[p].dot(plane_force_[p]);
   }
   for (std::size_t i = 0; i < model_.interfaces.size(); ++i) {
-    const model::Interface<Dim>& interface = model_.interfaces[i];
-    const fpm::Vector<Dim>& held = interfaces_.rigid_force()[i];
-    forces.reaction += interface.measure.dot(held);
-    if (interface.plate && interface.plate->reported) {
-      forces.reaction +=
-          step_.load * interface.plate->force.norm() + interface.plate->held_force.norm();
-    }
-    forces.external_work += (step_.load - state_.programme.load) * interface.drive.dot(held);
+    forces.external_work += (step_.load - state_.programme.load) *
+                            model_.interfaces[i].drive.dot(interfaces_.rigid_force()[i]);
   }
   forces.external_work += interfaces_.work_of_plates(step_.load);
   forces.settlement = interfaces_.settlement();
@@ -170,14 +200,10 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
   if (evaluation_.following.size() > 0) {
     forces.external_work += evaluation_.following.dot(increment);
   }
-  state_.reaction.setZero();
   for (const Eigen::Index k : given_) {
-    state_.reaction.data()[k] = evaluation_.unmasked[k];
     forces.external_work += evaluation_.unmasked[k] * increment[k];
   }
-  if (evaluation_.plane_reaction.rows() > 0) state_.reaction += evaluation_.plane_reaction;
-  if (balance_.reaction.rows() > 0) state_.reaction += balance_.reaction;
-  take_side_reactions();
+  take_reactions();
   const LoopOutcome outcome = loops_.commit(loop_data());
   if (!outcome.ok()) {
     throw std::logic_error("commit at an increment at which particle " +
@@ -196,6 +222,7 @@ StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd& increment) {
 #define EQUILIBRIUM_STEP(Dim)                                                           \
   template void Equilibrium<Dim>::begin_step(double, double, double);                   \
   template std::optional<fpm::Field<Dim>> Equilibrium<Dim>::unbalanced(double, double); \
+  template std::optional<double> Equilibrium<Dim>::reactions_at_rest(double, double);   \
   template StepForces Equilibrium<Dim>::commit(const Eigen::VectorXd&);
 EQUILIBRIUM_STEP(2)
 EQUILIBRIUM_STEP(3)

@@ -1,5 +1,7 @@
 #include "equilibrium/initial_balance.hpp"
 
+#include <cmath>
+
 #include "constitutive/tensor.hpp"
 
 namespace equilibrium {
@@ -87,6 +89,33 @@ void bear_the_whole(const model::Model<Dim>& model, const Eigen::VectorXd& first
   }
 }
 
+// A wall's particles have in them what the approximation leaves of the stress across their side on
+// the next ones, where it is a dead load: with the opposite one on the wall it bears what it
+// should.
+template <int Dim>
+void bear_at_the_wall(const model::Model<Dim>& model, const Eigen::VectorXd& force,
+                      Eigen::Index stride, InitialBalance<Dim>& balance) {
+  if (!model.wall_force) return;
+  const Eigen::Index n = model.size();
+  for (int i = 0; i < Dim; ++i) {
+    double borne = 0.0, shared = 0.0;
+    const auto for_each = [&](auto&& visit) {
+      for (Eigen::Index a = 0; a < n; ++a) {
+        if (model.drive[i * n + a] == 0.0) continue;
+        visit(i * n + a, force[i * stride + a] - model.initial_load[i * n + a]);
+      }
+    };
+    for_each([&](Eigen::Index, double here) {
+      borne += here;
+      shared += std::abs(here);
+    });
+    if (shared == 0.0) continue;
+    const double missing = (*model.wall_force)[i] - borne;
+    for_each(
+        [&](Eigen::Index k, double here) { balance.load[k] = -missing * std::abs(here) / shared; });
+  }
+}
+
 template <int Dim>
 InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
                                            const fpm::MomentOperator<Dim>& op) {
@@ -119,7 +148,9 @@ InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
     for (Eigen::Index a = 0; a < n; ++a) {
       const Eigen::Index k = i * n + a;
       const double difference = force[i * op.stride() + a] - model.initial_load[k];
-      const bool held = model.prescribed[static_cast<std::size_t>(k)] != 0 && model.drive[k] == 0.0;
+      // Of particles that are driven, too, if they are a wall's.
+      const bool held = model.prescribed[static_cast<std::size_t>(k)] != 0 &&
+                        (model.drive[k] == 0.0 || model.wall_bears);
       if (held) {
         borne(a, i) += difference;
       } else {
@@ -127,6 +158,7 @@ InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
       }
     }
   }
+  bear_at_the_wall(model, force, op.stride(), balance);
   bear_the_whole(model, first, op.stride(), borne, balance);
   return balance;
 }

@@ -45,6 +45,8 @@ class InterfaceForces {
 
   /// Takes the latest slips, tractions and motions of plates into the state.
   void commit(model::State<Dim>& state) const;
+  /// Of what was evaluated the tractions alone, in the state.
+  void take_tractions(model::State<Dim>& state) const { state.interface_traction = traction_; }
 
   /// Work [J/m or J] of the loads of plates since the step's start, at a load parameter.
   double work_of_plates(double load) const;

@@ -14,6 +14,7 @@
 #include "limit/footing/scene_case.hpp"
 #include "limit/ground/ground_case.hpp"
 #include "limit/ground/ground_of_scene.hpp"
+#include "limit/ground/regions_of_box.hpp"
 #include "limit/report.hpp"
 #include "program/command_line.hpp"
 #include "program/version.hpp"
@@ -207,6 +208,22 @@ Input input_of_strip(const po::variables_map& values) {
   return input;
 }
 
+/// Of a box: half a footing on ground of one strength and weight to a layer has a mesh of its own;
+/// all else is ground of polygons.
+std::optional<problem::Cases> cases_of_box(const scene::Scene& box, bool tension,
+                                           tables::Diagnosis& diagnosis) {
+  tables::Diagnosis of_footing = diagnosis;
+  if (auto cases = footing::scene_case(box, tension, of_footing)) {
+    diagnosis = std::move(of_footing);
+    return cases;
+  }
+  const auto regions = ground::regions_of_box(box, tension, diagnosis);
+  if (!regions) return std::nullopt;
+  const auto ground = ground::ground_of_scene(*regions, diagnosis);
+  if (!ground) return std::nullopt;
+  return ground::ground_case(*ground, diagnosis);
+}
+
 /// Of polygons or of fpm-run; nothing if the diagnosis or `unreadable` has an error.
 std::optional<Input> input_of_scene(const std::string& text, std::span<const std::string> settings,
                                     bool tension, tables::Diagnosis& diagnosis,
@@ -227,7 +244,7 @@ std::optional<Input> input_of_scene(const std::string& text, std::span<const std
     if (ground) cases = ground::ground_case(*ground, diagnosis);
   } else {
     scene = scene::parse_scene(text, settings, diagnosis, unreadable);
-    if (scene) cases = footing::scene_case(*scene, tension, diagnosis);
+    if (scene) cases = cases_of_box(*scene, tension, diagnosis);
   }
   if (!cases) return std::nullopt;
   return Input{std::move(*cases), std::move(scene)};

@@ -32,13 +32,6 @@ const char* const kind = "initial_stress.kind";
 template <int Dim>
 using Tensor = fpm::Tensor<Dim>;
 
-// In the plane, and in space all of it, it is the same in all materials.
-template <int Dim>
-Tensor<Dim> tensor_of(const scene::Scene& scene) {
-  return constitutive::spatial_part<Dim>(
-      initial_stress_at<Dim>(scene, fpm::Vector<Dim>::Zero(), 0));
-}
-
 template <int Dim>
 std::string text_of(const fpm::Vector<Dim>& place) {
   std::string text = fmt::format("({:.4g}, {:.4g}", place[0], place[1]);
@@ -51,6 +44,7 @@ template <int Dim>
 struct SurfacePlace {
   fpm::Vector<Dim> at, normal;
   int cut = -1, side = -1, face = -1;
+  Tensor<Dim> stress;  // of the ground there
 };
 
 fpm::Vector<2> normal_of(const SurfacePiece<2>& piece) {
@@ -64,14 +58,21 @@ fpm::Vector<3> normal_of(const SurfacePiece<3>& piece) {
 template <int Dim>
 std::vector<SurfacePlace<Dim>> surface_of(const scene::Scene& scene, const Model<Dim>& model) {
   std::vector<SurfacePlace<Dim>> places;
+  const auto stress_at = [&](const fpm::Vector<Dim>& place, std::size_t material) {
+    return constitutive::spatial_part<Dim>(initial_stress_at<Dim>(scene, place, material));
+  };
   for (const SurfacePiece<Dim>& piece : model.surface) {
-    places.push_back({middle_of(piece), normal_of(piece), piece.cut, piece.side, piece.face});
+    const fpm::Vector<Dim> at = middle_of(piece);
+    const auto material = model.material[static_cast<std::size_t>(piece.particle)];
+    places.push_back(
+        {at, normal_of(piece), piece.cut, piece.side, piece.face, stress_at(at, material)});
   }
   for (int f = 0; f < 2 * Dim && model.surface.empty(); ++f) {
     const auto points = side_points(scene, model, static_cast<scene::Side>(f), {}, {}).points;
     for (fpm::Index c = 0; c < points.size(); ++c) {
-      places.push_back(
-          {points.position.row(c).transpose(), points.normal.row(c).transpose(), -1, -1, f});
+      const fpm::Vector<Dim> at = points.position.row(c).transpose();
+      // A uniform one is in the plane, and in space all of it, the same in all materials.
+      places.push_back({at, points.normal.row(c).transpose(), -1, -1, f, stress_at(at, 0)});
     }
   }
   return places;
@@ -86,15 +87,28 @@ fpm::Vector<Dim> traction_of(double pressure, double shear, const fpm::Vector<Di
   return traction;
 }
 
+bool bears_weight(const scene::Scene& scene) {
+  return scene.initial_stress.kind == scene::InitialStressKind::geostatic;
+}
+
+template <int Dim>
+bool is_level_surface(const SurfacePlace<Dim>& place) {
+  constexpr double level = 1.0 - 1e-9;
+  return place.normal[1] >= level;
+}
+
 // What of a stress is not borne at the surface of a body.
 template <int Dim>
 class Bearing {
  public:
-  Bearing(const scene::Scene& scene, const Tensor<Dim>& stress) : scene_(scene), stress_(stress) {}
+  /// @param scale  [Pa] the largest stress
+  Bearing(const scene::Scene& scene, double scale) : scene_(scene), scale_(scale) {}
 
   fpm::Vector<Dim> missing(const SurfacePlace<Dim>& place) const {
-    fpm::Vector<Dim> rest = stress_ * place.normal;
+    fpm::Vector<Dim> rest = place.stress * place.normal;
+    if (bears_weight(scene_) && is_left_alone(place, rest)) return fpm::Vector<Dim>::Zero();
     if (!is_on_mirror(place)) rest -= given(place);
+    if (bears_weight(scene_) && is_pressed_more(place, rest)) return fpm::Vector<Dim>::Zero();
     if (holds_across(place)) rest -= rest.dot(place.normal) * place.normal;
     for (int i = 0; i < Dim; ++i) {
       if (holds_along(place, i)) rest[i] = 0.0;
@@ -106,6 +120,16 @@ class Bearing {
   }
 
  private:
+  // Where geostatic ground bears nothing loads come on top of what is at rest; walls bear it.
+  bool is_left_alone(const SurfacePlace<Dim>& place, const fpm::Vector<Dim>& traction) const {
+    return traction.norm() <= typed * scale_ ||
+           (place.face >= 0 &&
+            is_at_wall<Dim>(scene_, static_cast<scene::Side>(place.face), place.at));
+  }
+  // A level surface may be pressed more than its surcharge does, which settles it.
+  bool is_pressed_more(const SurfacePlace<Dim>& place, const fpm::Vector<Dim>& rest) const {
+    return is_level_surface(place) && rest.dot(place.normal) >= -typed * scale_;
+  }
   const scene::Cutout* cutout(const SurfacePlace<Dim>& place) const {
     return place.cut >= 0 ? &scene_.cutout[static_cast<std::size_t>(place.cut)] : nullptr;
   }
@@ -153,7 +177,7 @@ class Bearing {
     law.friction_tangent = std::tan(contact.friction_angle * std::numbers::pi / 180.0);
     law.adhesion = contact.adhesion;
     law.tension = contact.tension;
-    return is_within(law, traction, normal, stress_.norm());
+    return is_within(law, traction, normal, scale_);
   }
 
  public:
@@ -192,13 +216,13 @@ class Bearing {
       }
     }
     if (is_loaded_by_stress(scene_, place.cut, place.side, place.face)) {
-      sum += stress_ * place.normal;
+      sum += place.stress * place.normal;
     }
     return sum;
   }
 
   const scene::Scene& scene_;
-  const Tensor<Dim> stress_;
+  const double scale_;
 };
 
 template <int Dim>
@@ -223,6 +247,12 @@ std::string advice_on(const scene::Scene& scene, const SurfacePlace<Dim>& place)
     return "initial_stress.loaded_sides names it, by which it is loaded as it must be: give it no "
            "other load that acts from the start";
   }
+  const std::string settle =
+      ", or, as the ground is not level, settle it by kind = \"gravity\"; what is to be dug is a "
+      "[[region]] that a [[stage]] removes";
+  if (bears_weight(scene) && is_level_surface(place)) {
+    return "load it as much from the start, by a [[side]] of kind = \"loaded\"" + settle;
+  }
   const auto face = static_cast<scene::Side>(place.face);
   const bool is_face = place.face >= 0;
   const bool by_penalty =
@@ -240,16 +270,17 @@ std::string advice_on(const scene::Scene& scene, const SurfacePlace<Dim>& place)
   if (by_penalty) advice = "a penalty bears nothing at first: use direct, ghosts or contact";
   if (by_plate) advice = "the plate of a drive bears nothing at first: hold it otherwise";
   if (!by_penalty && !by_plate && elsewhere) advice += " by a support that names its side";
+  if (bears_weight(scene)) return advice + settle;
   return advice +
          ", load it as much, or, if the ground goes on, name it in initial_stress.loaded_sides; "
          "what is to be dug is a [[region]] that a [[stage]] removes";
 }
 
 template <int Dim>
-void check_surface(const scene::Scene& scene, const Model<Dim>& model, const Tensor<Dim>& stress) {
-  const Bearing<Dim> bearing(scene, stress);
+void check_surface(const scene::Scene& scene, const Model<Dim>& model, double scale) {
+  const Bearing<Dim> bearing(scene, scale);
   const SurfacePlace<Dim>* worst = nullptr;
-  double most = typed * stress.norm();
+  double most = typed * scale;
   const auto places = surface_of(scene, model);
   for (const SurfacePlace<Dim>& place : places) {
     const double missing = bearing.missing(place).norm();
@@ -313,15 +344,17 @@ void check_strength(const scene::Scene& scene, const Model<Dim>& model) {
 }  // namespace
 
 template <int Dim>
-void check_uniform_stress(const scene::Scene& scene, const Model<Dim>& model) {
-  if (scene.initial_stress.kind != scene::InitialStressKind::uniform) return;
-  const Tensor<Dim> stress = tensor_of<Dim>(scene);
-  check_surface(scene, model, stress);
-  check_interfaces(model, stress.norm());
-  check_strength(scene, model);
+void check_stress_at_rest(const scene::Scene& scene, const Model<Dim>& model) {
+  const bool uniform = scene.initial_stress.kind == scene::InitialStressKind::uniform;
+  // A box moves at first where nothing bears what its geostatic stress presses with.
+  if (!uniform && (!bears_weight(scene) || scene.region.empty())) return;
+  const double scale = model.initial_stress.colwise().norm().maxCoeff();
+  check_surface(scene, model, scale);
+  check_interfaces(model, scale);
+  if (uniform) check_strength(scene, model);
 }
 
-template void check_uniform_stress<2>(const scene::Scene&, const Model<2>&);
-template void check_uniform_stress<3>(const scene::Scene&, const Model<3>&);
+template void check_stress_at_rest<2>(const scene::Scene&, const Model<2>&);
+template void check_stress_at_rest<3>(const scene::Scene&, const Model<3>&);
 
 }  // namespace model

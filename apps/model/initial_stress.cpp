@@ -30,15 +30,14 @@ bool bears_across(const scene::Scene& scene, scene::Side side) {
          });
 }
 
-// Where the wall that the drive moves is.
+}  // namespace
+
 template <int Dim>
 bool is_at_wall(const scene::Scene& scene, scene::Side side, const fpm::Vector<Dim>& place) {
   const scene::Drive& drive = scene.drive;
   if (!scene::drives_wall(scene) || drive.side != side) return false;
   return is_within_range<Dim>(scene, side, place, drive.range_min, drive.range_max);
 }
-
-}  // namespace
 
 template <int Dim>
 constitutive::StressVector<Dim> geostatic_stress(const scene::Scene& scene,
@@ -97,6 +96,59 @@ void add_loaded_sides(const scene::Scene& scene, Model<Dim>& model) {
 
 }  // namespace
 
+namespace {
+
+// Geostatic stress at a point of a side, of the material within where that ends at an interface.
+template <int Dim>
+fpm::Tensor<Dim> stress_behind(const scene::Scene& scene, const Model<Dim>& model,
+                               const fpm::BoundaryPoints<Dim>& points, fpm::Index c) {
+  const fpm::Vector<Dim> place = points.position.row(c).transpose();
+  const fpm::Vector<Dim> within = place - 0.5 * model.spacing * points.normal.row(c).transpose();
+  return constitutive::spatial_part<Dim>(
+      geostatic_stress<Dim>(scene, place, scene::material_at(scene, {within.data(), Dim})));
+}
+
+// What the geostatic stress presses with on the sides of a box that do not bear it.
+template <int Dim>
+void add_faces(const scene::Scene& scene, const Model<Dim>& model, fpm::Field<Dim>& load) {
+  for (int s = 0; s < 2 * Dim; ++s) {
+    const auto side = static_cast<scene::Side>(s);
+    if (!scene::is_face_by_itself(scene, side) || bears_across(scene, side)) continue;
+    const SurfacePoints<Dim> face = side_points(scene, model, side, {}, {});
+    const int axis = scene::axis_of(side);
+    fpm::Field<Dim> force = fpm::Field<Dim>::Zero(face.points.size(), Dim);
+    for (fpm::Index c = 0; c < face.points.size(); ++c) {
+      const fpm::Vector<Dim> place = face.points.position.row(c).transpose();
+      if (is_at_wall<Dim>(scene, side, place)) continue;
+      // Of the material within, where the face ends at an interface.
+      fpm::Vector<Dim> within = place;
+      within[axis] += (scene::is_upper(side) ? -0.5 : 0.5) * model.spacing;
+      const auto stress =
+          geostatic_stress<Dim>(scene, place, scene::material_at(scene, {within.data(), Dim}));
+      force(c, axis) = face.points.weight[c] * face.points.normal(c, axis) * stress[axis];
+    }
+    face.op.add_transposed_values(force, load);
+  }
+}
+
+// Likewise on the sides of regions that are loaded; of the others those that do not bear it are
+// refused (check_stress_at_rest).
+template <int Dim>
+void add_sides(const scene::Scene& scene, const Model<Dim>& model, fpm::Field<Dim>& load) {
+  for (std::size_t i = 0; i < scene.side.size(); ++i) {
+    if (scene.side[i].kind != scene::OutlineKind::loaded) continue;
+    const auto surface = surface_points(model, SurfacePart::of_side(i));
+    fpm::Field<Dim> traction = fpm::Field<Dim>::Zero(surface.points.size(), Dim);
+    for (fpm::Index c = 0; c < surface.points.size(); ++c) {
+      const fpm::Vector<Dim> normal = surface.points.normal.row(c).transpose();
+      traction.row(c) = (stress_behind<Dim>(scene, model, surface.points, c) * normal).transpose();
+    }
+    fpm::add_traction<Dim>(surface.op, surface.points, traction, load);
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 Eigen::VectorXd constant_loads(const Model<Dim>& model) {
   Eigen::VectorXd loads = model.constant_load;
@@ -122,38 +174,50 @@ void add_initial_stress(const scene::Scene& scene, Model<Dim>& model) {
                                model.material[static_cast<std::size_t>(a)]);
   }
   if (uniform) {
-    // It is borne by what bears it (check_uniform_stress), to the last particle.
+    // It is borne by what bears it (check_stress_at_rest), to the last particle.
     add_loaded_sides(scene, model);
     model.initial_load = constant_loads(model);
     return;
   }
   model.wall_bears = scene::drives_wall(scene);
-  model.initial_load.setZero(model.unknowns());
-  Eigen::Map<fpm::Field<Dim>> load(model.initial_load.data(), n, Dim);
+  fpm::Field<Dim> load = fpm::Field<Dim>::Zero(n, Dim);
   for (std::size_t i = 0; i < scene.gravity.acceleration.size(); ++i) {
     load.col(static_cast<Eigen::Index>(i)) = model.mass * scene.gravity.acceleration[i];
   }
-  if (model.water_load.size() > 0) model.initial_load += model.water_load;
-  for (int s = 0; s < 2 * Dim; ++s) {
-    const auto side = static_cast<scene::Side>(s);
-    if (bears_across(scene, side)) continue;
-    const SurfacePoints<Dim> face = side_points(scene, model, side, {}, {});
-    const int axis = scene::axis_of(side);
-    fpm::Field<Dim> force = fpm::Field<Dim>::Zero(face.points.size(), Dim);
-    for (fpm::Index c = 0; c < face.points.size(); ++c) {
-      const fpm::Vector<Dim> place = face.points.position.row(c).transpose();
-      if (is_at_wall<Dim>(scene, side, place)) continue;
-      // Of the material within, where the face ends at an interface.
-      fpm::Vector<Dim> within = place;
-      within[axis] += (scene::is_upper(side) ? -0.5 : 0.5) * model.spacing;
-      const auto stress =
-          geostatic_stress<Dim>(scene, place, scene::material_at(scene, {within.data(), Dim}));
-      force(c, axis) = face.points.weight[c] * face.points.normal(c, axis) * stress[axis];
-    }
-    face.op.add_transposed_values(force, load);
+  if (model.water_load.size() > 0) {
+    load += Eigen::Map<const fpm::Field<Dim>>(model.water_load.data(), n, Dim);
   }
+  add_faces(scene, model, load);
+  add_sides(scene, model, load);
+  take_wall_force(scene, model);
+  model.initial_load = Eigen::Map<const Eigen::VectorXd>(load.data(), model.unknowns());
 }
 
+template <int Dim>
+void take_wall_force(const scene::Scene& scene, Model<Dim>& model) {
+  model.wall_force.reset();
+  const scene::Drive& drive = scene.drive;
+  if (!model.wall_bears || scene::resolve_drive_method(scene) != scene::DriveMethod::direct) return;
+  const SurfacePoints<Dim> face =
+      side_points(scene, model, drive.side, drive.range_min, drive.range_max);
+  const double outwards = scene::is_upper(drive.side) ? 1.0 : -1.0;
+  fpm::Field<Dim> traction(model.size(), Dim);
+  for (Eigen::Index a = 0; a < model.size(); ++a) {
+    const fpm::Tensor<Dim> stress = constitutive::spatial_part<Dim>(
+        constitutive::StressVector<Dim>(model.initial_stress.col(a)));
+    traction.row(a) = outwards * stress.col(scene::axis_of(drive.side)).transpose();
+  }
+  fpm::Vector<Dim> force = fpm::Vector<Dim>::Zero();
+  for (fpm::Index c = 0; c < face.points.size(); ++c) {
+    force += face.points.weight[c] * face.op.value(c, traction);
+  }
+  model.wall_force = force;
+}
+
+template void take_wall_force<2>(const scene::Scene&, Model<2>&);
+template void take_wall_force<3>(const scene::Scene&, Model<3>&);
+template bool is_at_wall<2>(const scene::Scene&, scene::Side, const fpm::Vector<2>&);
+template bool is_at_wall<3>(const scene::Scene&, scene::Side, const fpm::Vector<3>&);
 template constitutive::StressVector<2> geostatic_stress<2>(const scene::Scene&,
                                                            const fpm::Vector<2>&, std::size_t);
 template constitutive::StressVector<3> geostatic_stress<3>(const scene::Scene&,

@@ -2,6 +2,7 @@
 
 #include "constitutive/tensor.hpp"
 #include "model/model.hpp"
+#include "scene/choices.hpp"
 
 namespace scene {
 struct Scene;
@@ -21,6 +22,15 @@ template <int Dim>
 constitutive::StressVector<Dim> initial_stress_at(const scene::Scene& scene,
                                                   const fpm::Vector<Dim>& place,
                                                   std::size_t material);
+
+/// Whether a place on a side is where the wall that the drive moves is.
+template <int Dim>
+bool is_at_wall(const scene::Scene& scene, scene::Side side, const fpm::Vector<Dim>& place);
+
+/// What the initial stress of particles presses with on a wall whose particles are moved
+/// themselves, in the model: that stress at its face.
+template <int Dim>
+void take_wall_force(const scene::Scene& scene, Model<Dim>& model);
 
 /// [N/m or N] All loads that do not grow, those that follow the boundary as it is at first.
 template <int Dim>

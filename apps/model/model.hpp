@@ -200,7 +200,9 @@ struct Model {
   Eigen::VectorXd initial_load;
   // Of ground that stages change, in place of initial_stress: that of each particle at first.
   Eigen::Matrix<double, constitutive::stress_size<Dim>, Eigen::Dynamic> stress_at_rest;
-  bool wall_bears = false;   // whether what the drive moves bears that stress from the first
+  bool wall_bears = false;  // whether what the drive moves bears that stress from the first
+  // [N/m or N] Of a wall whose particles are moved themselves: what it presses with at first.
+  std::optional<fpm::Vector<Dim>> wall_force;
   fpm::Vector<Dim> box_min;  // [m]
   fpm::Vector<Dim> box_max;  // [m]
   double spacing = 0.0;      // [m] the finest

@@ -39,12 +39,12 @@ Recorder<Dim>::Recorder(const RunRequest& request, const record::RunFolder& fold
 }
 
 template <int Dim>
-void Recorder<Dim>::begin() {
+void Recorder<Dim>::begin(const record::CurveRow& first) {
   if (outputs_.previous) {
     say(fmt::format("results of an earlier run are now in {}", outputs_.previous->string()));
   }
   if (!history_.empty()) return;
-  append({});
+  append(first);
   if (outputs_.frames.due(0)) write_frame();
   write_checkpoint("start of the run");
 }

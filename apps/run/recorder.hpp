@@ -30,7 +30,7 @@ class Recorder {
            std::ostream& out);
 
   /// Begins the record; that of a fresh run with its row, its frame and its checkpoint of step 0.
-  void begin();
+  void begin(const record::CurveRow& first);
 
   /// Gives a branch a checkpoint of its own before its first step: it no longer needs the folder it
   /// comes from. Does nothing for a run that has one.

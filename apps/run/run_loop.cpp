@@ -116,7 +116,9 @@ class Run {
     if (!folder) folder.emplace(request_.directory, system_);
     Recorder<Dim> recorder(request_, *folder, stages_.model(), *measures_, start, start.state,
                            prepare(*folder, scene_, start), out_);
-    recorder.begin();
+    record::CurveRow first;
+    if (start.history.empty()) first = stepper_->at_rest();
+    recorder.begin(first);
     try {
       introduce(start, *folder, recorder);
       if (start.re_search_changed && scene_.re_search.enabled) {

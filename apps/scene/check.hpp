@@ -33,6 +33,7 @@ void check_hourglass(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_boundaries(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_loads(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_initial_stress(const Scene& scene, tables::Diagnosis& diagnosis);
+void check_layers(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_uniform_stress(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_quake(const Scene& scene, tables::Diagnosis& diagnosis);
 void check_water(const Scene& scene, tables::Diagnosis& diagnosis);

@@ -83,8 +83,8 @@ void check_cutouts(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
   if (scene.initial_stress.kind == InitialStressKind::geostatic) {
     diagnosis.error("initial_stress.kind", "found geostatic in a body with cutouts",
-                    "it is the stress under a level surface: under any other it is kind = "
-                    "\"gravity\"");
+                    "it is the stress of ground without a hole: kind = \"gravity\" settles any; "
+                    "what is dug later is a [[region]] that a [[stage]] removes");
   }
   if (scene.limit.check) {
     diagnosis.error("limit.check", "found true for a body with cutouts",

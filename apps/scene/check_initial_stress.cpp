@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "constitutive/parameters.hpp"
 #include "scene/check.hpp"
+#include "scene/course.hpp"
 #include "scene/derived.hpp"
 #include "scene/drives.hpp"
 #include "scene/geostatic.hpp"
+#include "scene/layers.hpp"
 #include "scene/names.hpp"
 #include "scene/places.hpp"
 
@@ -24,13 +27,12 @@ bool ground_is_good(const Scene& scene, const tables::Diagnosis& diagnosis) {
     return false;
   }
   const auto n = static_cast<std::size_t>(scene.geometry.dimension);
-  for (std::size_t i = 1; i < scene.material.size(); ++i) {
+  for (std::size_t i = 1; i < scene.material.size() && scene.region.empty(); ++i) {
     const Material& material = scene.material[i];
     if (material.region_min.size() != n || material.region_max.size() != n) return false;
   }
   constexpr double most_slices = 1e6;
-  const double surface = scene.initial_stress.surface.value_or(scene.geometry.max[1]);
-  return (surface - scene.geometry.min[1]) / scene.geometry.spacing < most_slices;
+  return (surface_level(scene) - scene.geometry.min[1]) / scene.geometry.spacing < most_slices;
 }
 
 /// Whether the tractions that act from the start press on the top as much as the ground above the
@@ -62,10 +64,34 @@ void check_surcharge(const Scene& scene, tables::Diagnosis& diagnosis) {
                                 -pressure));
 }
 
+// The deepest place of a material at first, where the stress is largest.
+std::optional<Point> deepest_of(const Scene& scene, std::size_t index) {
+  const Geometry& geometry = scene.geometry;
+  const Material& material = scene.material[index];
+  Point deepest = geometry.min;
+  for (std::size_t axis = 0; axis < deepest.size(); ++axis) {
+    const double lower = material.region_min.empty()
+                             ? geometry.min[axis]
+                             : std::max(geometry.min[axis], material.region_min[axis]);
+    const double upper = material.region_max.empty()
+                             ? geometry.max[axis]
+                             : std::min(geometry.max[axis], material.region_max[axis]);
+    deepest[axis] = axis == 1 ? lower : 0.5 * (lower + upper);
+  }
+  if (scene.region.empty()) return deepest;
+  bool is_there = false;
+  for (const Region& region : scene.region) {
+    if (region.material != material.name || !region_is_there(scene, 0, region.name)) continue;
+    deepest[1] = is_there ? std::min(deepest[1], region.lowest) : region.lowest;
+    is_there = true;
+  }
+  if (!is_there) return std::nullopt;
+  return deepest;
+}
+
 /// Says where the initial stress is more than the ground can bear (Mohr-Coulomb in the plane).
 void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (!diagnosis.good({"material", "initial_stress.K0", "initial_stress.K0_z"})) return;
-  const Geometry& geometry = scene.geometry;
   const InitialStress& initial = scene.initial_stress;
   for (std::size_t i = 0; i < scene.material.size(); ++i) {
     const Material& material = scene.material[i];
@@ -76,17 +102,9 @@ void check_k0(const Scene& scene, tables::Diagnosis& diagnosis) {
                          table + ".region_min", table + ".region_max", table + ".density"})) {
       continue;
     }
-    // The deepest place of the material, where the stress is largest.
-    Point deepest = geometry.min;
-    for (std::size_t axis = 0; axis < deepest.size(); ++axis) {
-      const double lower = material.region_min.empty()
-                               ? geometry.min[axis]
-                               : std::max(geometry.min[axis], material.region_min[axis]);
-      const double upper = material.region_max.empty()
-                               ? geometry.max[axis]
-                               : std::min(geometry.max[axis], material.region_max[axis]);
-      deepest[axis] = axis == 1 ? lower : 0.5 * (lower + upper);
-    }
+    const auto found = deepest_of(scene, i);
+    if (!found) continue;
+    const Point& deepest = *found;
     const double vertical = -geostatic_stress(scene, deepest);
     if (vertical < 0.0 && scene.water.pore_pressure && diagnosis.good({"water.pore_pressure"})) {
       diagnosis.warning(
@@ -167,15 +185,20 @@ void check_initial_stress(const Scene& scene, tables::Diagnosis& diagnosis) {
       !box_is_good(scene, diagnosis)) {
     return;
   }
-  if (!initial.surface || *initial.surface >= scene.geometry.max[1]) {
-    if (!down || !ground_is_good(scene, diagnosis)) return;
-    check_surcharge(scene, diagnosis);
-    check_k0(scene, diagnosis);
-  } else {
-    diagnosis.error("initial_stress.surface", fmt::format("found {}", *initial.surface),
-                    fmt::format("below the top face, y = {}, the soil above would be in tension",
-                                scene.geometry.max[1]));
+  Scene bare = scene;
+  bare.initial_stress.surface.reset();
+  const double top = surface_level(bare);
+  if (initial.surface && *initial.surface < top) {
+    diagnosis.error(
+        "initial_stress.surface", fmt::format("found {}", *initial.surface),
+        fmt::format("below the top face, y = {}, the soil above would be in tension", top));
+    return;
   }
+  if (!down || !ground_is_good(scene, diagnosis)) return;
+  check_layers(scene, diagnosis);
+  // What nothing carries on the surface of regions is refused once their particles are there.
+  if (scene.region.empty()) check_surcharge(scene, diagnosis);
+  check_k0(scene, diagnosis);
 }
 
 }  // namespace scene

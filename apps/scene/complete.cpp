@@ -130,9 +130,6 @@ bool is_ground(const Scene& scene, tables::Diagnosis& diagnosis) {
          "particles of prisms are equally fine; a solid mesh may grade them");
   refuse(scene.geometry.layout != Layout::cell, "geometry.layout", "found vertex with a [[region]]",
          "particles of regions are those of cells: layout = \"cell\"");
-  refuse(scene.initial_stress.kind == InitialStressKind::geostatic, "initial_stress.kind",
-         "found geostatic in a body of regions",
-         "it is the stress under a level surface: under any other it is kind = \"gravity\"");
   for (std::size_t i = 0; i < scene.material.size(); ++i) {
     const Material& material = scene.material[i];
     refuse(
@@ -227,6 +224,31 @@ void complete_box(Scene& scene, tables::Diagnosis& diagnosis) {
                                 name_of(static_cast<Axis>(i))),
                     "the box holds all regions: leave it out");
     return;
+  }
+}
+
+// From which level to which each region goes.
+void complete_levels(Scene& scene, const std::optional<ElementBody>& elements) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (Region& region : scene.region) {
+    region.lowest = infinity;
+    region.highest = -infinity;
+  }
+  const auto reach = [&](Region& region, double y) {
+    region.lowest = std::min(region.lowest, y);
+    region.highest = std::max(region.highest, y);
+  };
+  if (!is_solid(scene)) {
+    for (Region& region : scene.region) {
+      for (const PlanePoint& place : region.outline) reach(region, place.y());
+    }
+    return;
+  }
+  for (const shape::MeshPart& part : elements->joined.parts) {
+    Region& region = scene.region[static_cast<std::size_t>(part.region)];
+    for (const int node : elements->mesh.elements[static_cast<std::size_t>(part.element)].nodes) {
+      reach(region, elements->mesh.at(node).y());
+    }
   }
 }
 
@@ -399,6 +421,7 @@ void complete(Scene& scene, tables::Diagnosis& diagnosis) {
     complete_box(scene, diagnosis);
   }
   if (!diagnosis.errors().empty()) return;
+  complete_levels(scene, elements);
   const OutlineFaces faces(
       scene, is_solid(scene) ? outer_pieces(scene, *elements) : outer_pieces(scene, outline));
   complete_supports(scene, faces);

@@ -222,10 +222,23 @@ std::optional<ActingDrive> drive_by_images(const Scene& scene) {
   return std::nullopt;
 }
 
+namespace {
+
+// Whether the drive prescribes what its side does across itself, by images or by particles.
+bool is_held_across(const Scene& scene, const Drive& drive) {
+  const DriveMethod method = resolve_drive_method(scene, drive);
+  if (method == DriveMethod::ghosts) return true;
+  const auto across = static_cast<std::size_t>(axis_of(drive.side));
+  return method == DriveMethod::direct &&
+         (drive.lateral == Lateral::fixed || drive.direction[across] != 0.0);
+}
+
+}  // namespace
+
 bool drives_wall(const Scene& scene) {
   const Drive& drive = scene.drive;
   if (drive.kind != DriveKind::displacement || drive.later || drive.level) return false;
-  if (axis_of(drive.side) == 1 || resolve_drive_method(scene) != DriveMethod::ghosts) return false;
+  if (axis_of(drive.side) == 1 || !is_held_across(scene, drive)) return false;
   // Ground without weight settles under its loads alone.
   if (scene.initial_stress.kind == InitialStressKind::gravity && !has_gravity(scene)) return false;
   return !is_pressed_from_the_start(scene, drive.side);

@@ -80,7 +80,8 @@ struct Support;
 [[nodiscard]] std::optional<ActingDrive> drive_by_images(const Scene& scene);
 
 /// Whether the drive's plate is a wall, which from the first bears what ground at rest presses
-/// against it: moved by images, of an upright side, on which no load presses from the start.
+/// against it: of an upright side that it moves across itself, by images or by particles, and on
+/// which no load presses from the start.
 [[nodiscard]] bool drives_wall(const Scene& scene);
 
 /// A name as that of a column of the curve: neither commas nor spaces.

@@ -8,7 +8,7 @@ struct Scene;
 
 /// Vertical stress [Pa] of geostatic ground at a place, effective where there is water: the
 /// surcharge and the weight above, less what water bears of it, in slices of at most a spacing,
-/// each of the material at its middle.
+/// each of the material at its middle; in a body of regions layer by layer (layers.hpp).
 [[nodiscard]] double geostatic_stress(const Scene& scene, std::span<const double> place);
 
 }  // namespace scene

@@ -49,8 +49,10 @@ struct Region {
   std::string material;             // its name
   std::vector<PlanePoint> outline;  // either way around
   std::vector<std::vector<PlanePoint>> holes;
-  std::string group;    // of a mesh, which gives outline and holes; empty once read
-  bool present = true;  // in the stage at hand; no key
+  std::string group;     // of a mesh, which gives outline and holes; empty once read
+  bool present = true;   // in the stage at hand; no key
+  double lowest = 0.0;   // [m] level y of its lowest place, once completed; no key
+  double highest = 0.0;  // [m] likewise
   bool operator==(const Region&) const = default;
 };
 

@@ -118,7 +118,8 @@ SceneTable initial_stress() {
       .key("kind", &InitialStress::kind,
            {.doc =
                 "geostatic: vertical stress from the weight above, horizontal stress K0 times it, "
-                "both effective under a water table, which is level then. "
+                "both effective under a water table, which is level then, as are layers of another "
+                "weight or K0; sides of regions must bear it. "
                 "gravity: what is left when weight and dead loads, or without weight these alone, "
                 "have "
                 "been switched on, of a body of any shape; so with pressures where the ground goes "
@@ -131,7 +132,7 @@ SceneTable initial_stress() {
            {.need = tables::Need::optional,
             .unit = "m",
             .doc = "Level y where the weight above is zero.",
-            .absent = "the top face"})
+            .absent = "the top of the body"})
       .key("K0", &InitialStress::K0,
            {.need = tables::Need::optional,
             .range = tables::at_least(0.0),

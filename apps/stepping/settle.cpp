@@ -160,7 +160,7 @@ model::State<Dim> with_lateral_stress(const scene::Scene& scene, model::Model<Di
 template <int Dim>
 model::Model<Dim> model_at_rest(const scene::Scene& scene) {
   model::Model<Dim> model = model::build_model<Dim>(scene);
-  model::check_uniform_stress(scene, model);
+  model::check_stress_at_rest(scene, model);
   if (scene.initial_stress.kind != scene::InitialStressKind::gravity) return model;
   const scene::Scene ground_scene = settling(scene);
   model::Model<Dim> ground = model::build_model<Dim>(ground_scene);
@@ -174,6 +174,7 @@ model::Model<Dim> model_at_rest(const scene::Scene& scene) {
     rest = with_lateral_stress(scene, ground, rest);
   take_stress(ground, rest, model);
   model.wall_bears = wall_holds(scene);
+  model::take_wall_force(scene, model);
   return model;
 }
 

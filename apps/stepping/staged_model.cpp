@@ -46,12 +46,21 @@ void StagedModel<Dim>::build(std::size_t stage) {
   changed_ = model::build_model<Dim>(scene_);
   model::carry_initial_tractions(first_, *changed_);
   model::keep_consolidation(first_, *changed_);
-  if (first_.initial_stress.size() == 0 || scene::has_new_ground(whole_)) return;
+  take_stress_at_rest();
+}
+
+// Of each particle what it was before the stages, whatever they have changed since; nothing of
+// ground that they put down.
+template <int Dim>
+void StagedModel<Dim>::take_stress_at_rest() {
+  const bool is_told = changed_->initial_stress.size() > 0;
+  if (first_.initial_stress.size() == 0 || (scene::has_new_ground(whole_) && !is_told)) return;
   const auto source = model::same_particles(*changed_, first_);
-  changed_->stress_at_rest.setZero(Eigen::NoChange, changed_->size());
+  auto& stress = is_told ? changed_->initial_stress : changed_->stress_at_rest;
+  stress.setZero(Eigen::NoChange, changed_->size());
   for (Eigen::Index a = 0; a < changed_->size(); ++a) {
     const fpm::Index b = source[static_cast<std::size_t>(a)];
-    if (b >= 0) changed_->stress_at_rest.col(a) = first_.initial_stress.col(b);
+    if (b >= 0) stress.col(a) = first_.initial_stress.col(b);
   }
 }
 

@@ -37,6 +37,7 @@ class StagedModel {
 
  private:
   void build(std::size_t stage);
+  void take_stress_at_rest();
   [[nodiscard]] std::optional<equilibrium::InitialBalance<Dim>> rest() const;
 
   const scene::Scene& whole_;

@@ -88,6 +88,20 @@ bool LoadStepper<Dim>::begin_stage() {
 }
 
 template <int Dim>
+StepRecord LoadStepper<Dim>::at_rest() {
+  StepRecord record;
+  if (scene_.initial_stress.kind == scene::InitialStressKind::none) return record;
+  const scene::Course& course = scene_.course;
+  const auto reaction = equilibrium_->reactions_at_rest(course.load_begin, course.reduction_begin);
+  // Another plate bears nothing at first, but for rounding.
+  if (!reaction || !scene::drives_wall(scene_)) return record;
+  record.reaction = *reaction;
+  const double width = scene_.drive.width.value_or(0.0);
+  if (width > 0.0) record.mean_pressure = record.corrected_pressure = *reaction / width;
+  return record;
+}
+
+template <int Dim>
 bool LoadStepper<Dim>::finished() const {
   return state_.programme.progress >= 1.0;
 }

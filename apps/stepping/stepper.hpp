@@ -77,6 +77,10 @@ class LoadStepper {
   /// @return false if it cannot be evaluated: the ground is not what it was
   [[nodiscard]] bool begin_stage();
 
+  /// What supports and walls bear of an initial stress before the first step, in the state; in the
+  /// record what the wall that the drive moves does.
+  [[nodiscard]] StepRecord at_rest();
+
   /// Whether the scene's stage is at its end.
   bool finished() const;
   /// Tries one step, with smaller increments as need be. The state is the new one if it converged,

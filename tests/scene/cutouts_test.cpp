@@ -84,8 +84,8 @@ TEST(Cutouts, HaveNoGeostaticStress) {
       errors_of(text_of(hole + "[gravity]\nacceleration = [0.0, -9.81]\n"
                                "[initial_stress]\nkind = \"geostatic\"\n")),
       ElementsAre("s.toml:23:8: initial_stress.kind: found geostatic in a body with cutouts; "
-                  "it is the stress under a level surface: under any other it is kind = "
-                  "\"gravity\""));
+                  "it is the stress of ground without a hole: kind = \"gravity\" settles any; "
+                  "what is dug later is a [[region]] that a [[stage]] removes"));
 }
 
 TEST(Cutouts, AreOfPlaneBodiesOfCells) {

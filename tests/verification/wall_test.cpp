@@ -90,6 +90,8 @@ TEST_P(WallBeforeSand, BearsWhatRankineSays) {
 const Settings at_rest{"drive.target=2e-6", "programme.steps=1"};
 const Settings pushed{"drive.direction=[1.0,0.0]", "drive.target=0.15"};
 
+constexpr const char* direct = "drive.method=direct";
+
 Settings with(Settings settings, const char* more) {
   settings.emplace_back(more);
   return settings;
@@ -113,8 +115,37 @@ INSTANTIATE_TEST_SUITE_P(
              0.003,
              {"water.table=[[0,2],[8,2]]", "water.unit_weight=10e3"}},
         Wall{"ThatIsPushed", 3.0, dry, 0.003, pushed},
+        // Whose particles are moved themselves.
+        Wall{"AtRestByParticles", -0.5, dry, 1e-3, with(at_rest, direct)},
+        Wall{"AtRestByParticlesOnceSettled", -0.5, dry, 1e-3,
+             with(with(at_rest, direct), "initial_stress.kind=gravity")},
+        Wall{"ByParticlesThatGivesWay", -1.0 / 3.0, dry, 0.003, {direct}},
+        Wall{"ByParticlesThatGivesWayOnceSettled",
+             -1.0 / 3.0,
+             dry,
+             0.003,
+             {direct, "initial_stress.kind=gravity"}},
+        Wall{"ByParticlesThatGivesWayAsAVertexLattice",
+             -1.0 / 3.0,
+             dry,
+             0.003,
+             {direct, "geometry.layout=vertex"}},
+        Wall{"ByParticlesThatIsPushed", 3.0, dry, 0.003, with(pushed, direct)},
         Wall{"ThatOnlyTouches", -1.0 / 3.0, dry, 0.003, {"drive.method=contact"}}),
     [](const auto& info) { return info.param.name; });
+
+// Before the first step: K0 on the wall, the weight on the base, to round-off.
+TEST(Wall, BearsGroundAtRestInTheFirstRow) {
+  for (const char* method : {"drive.method=ghosts", direct}) {
+    const TestScene scene = scene_of(sand, {method});
+    const model::Model<2> model = stepping::model_at_rest<2>(scene);
+    model::State<2> state = model::initial_state(model);
+    stepping::LoadStepper<2> stepper(scene, model, state);
+    const double found = stepper.at_rest().mean_pressure;
+    EXPECT_NEAR(found, -0.5 * dry * 0.5 * height, 1e-9 * dry * height) << method;
+    EXPECT_NEAR(state.reaction.col(1).sum(), dry * height * 8.0, 1e-9 * dry * height * 8.0);
+  }
+}
 
 // A support that holds along the wall alone leaves it to the wall to bear what presses across: on a
 // smooth base as much as the far side does. The ground is too strong to yield.

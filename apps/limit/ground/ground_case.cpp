@@ -291,7 +291,7 @@ problem::Case case_of(const GroundScene& scene, const GroundOutline& outline,
   return result;
 }
 
-bool weighs_by_table(const GroundMaterial& material) {
+bool weighs_by_samples(const GroundMaterial& material) {
   return material.unit_weight.samples ||
          (material.saturated_unit_weight && material.saturated_unit_weight->samples);
 }
@@ -314,9 +314,12 @@ std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagn
   GroundOutline outline = ground_outline(told, diagnosis);
   if (!diagnosis.errors().empty()) return std::nullopt;
   GroundScene scene = told;
-  const bool has_tables = std::ranges::any_of(scene.materials, weighs_by_table);
-  if (has_tables) cut_along_tables(scene);
-  if (scene.water.is_there() || has_tables) {
+  const bool has_samples = std::ranges::any_of(scene.materials, weighs_by_samples);
+  if (has_samples) {
+    cut_along_tables(scene);
+    cut_between_points(scene);
+  }
+  if (scene.water.is_there() || has_samples) {
     wet(scene, diagnosis);
     if (diagnosis.errors().empty()) outline = ground_outline(scene, diagnosis);
     if (!diagnosis.errors().empty()) return std::nullopt;

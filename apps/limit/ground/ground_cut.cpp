@@ -4,7 +4,10 @@
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
+#include <cmath>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "limit/ground/ground_soils.hpp"
 
@@ -51,11 +54,16 @@ bool is_something(const Polygon& part, const Extent& ground) {
   return boost::geometry::area(part) > nothing * (ground.high - ground.low).squaredNorm();
 }
 
+bool is_table_along(const tables::VaryingNumber& weight, std::size_t axis) {
+  return weight.samples && weight.samples->kind == tables::Samples::Kind::table &&
+         weight.samples->axis == axis;
+}
+
 // The coordinate along one axis of all lines of the tables of a material's weights.
 std::vector<double> lines_of(const GroundMaterial& material, std::size_t axis) {
   std::vector<double> lines;
   const auto add = [&](const tables::VaryingNumber& weight) {
-    if (!weight.samples || weight.samples->axis != axis) return;
+    if (!is_table_along(weight, axis)) return;
     const auto& told = weight.samples->coordinates;
     lines.insert(lines.end(), told.begin(), told.end());
   };
@@ -69,7 +77,7 @@ std::vector<double> lines_of(const GroundMaterial& material, std::size_t axis) {
 // The line through a table's values at both ends of a strip, in which it has no others.
 tables::VaryingNumber between(const tables::VaryingNumber& table, std::size_t axis, double low,
                               double high) {
-  if (!table.samples || table.samples->axis != axis) return table;
+  if (!is_table_along(table, axis)) return table;
   std::array<double, 2> first{}, second{}, gradient{};
   first[axis] = low;
   second[axis] = high;
@@ -164,6 +172,95 @@ std::vector<GroundPart> parts_beyond(const GroundRegion& region,
 
 void cut_along_tables(GroundScene& scene) {
   for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) cut_along(scene, axis);
+}
+
+namespace {
+
+bool is_of_points(const tables::VaryingNumber& weight) {
+  return weight.samples && weight.samples->kind == tables::Samples::Kind::points;
+}
+
+// The part of a convex polygon that is no nearer to another place than to one.
+std::vector<mesh::Point> part_nearer(const std::vector<mesh::Point>& polygon,
+                                     const mesh::Point& one, const mesh::Point& other) {
+  const mesh::Point way = other - one, middle = (one + other) / 2.0;
+  std::vector<mesh::Point> part;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const mesh::Point &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    const double here = way.dot(middle - a), there = way.dot(middle - b);
+    if (here >= 0.0) part.push_back(a);
+    if ((here > 0.0 && there < 0.0) || (here < 0.0 && there > 0.0)) {
+      part.push_back(a + here / (here - there) * (b - a));
+    }
+  }
+  return part;
+}
+
+// Of each point the polygon, within a box, of what is nearer to it than to all others.
+std::vector<std::vector<mesh::Point>> nearest_places(const tables::Samples& points,
+                                                     const mesh::Point& low,
+                                                     const mesh::Point& high) {
+  const auto place = [&](std::size_t i) {
+    const auto at = points.place(i);
+    return mesh::Point(at[0], at[1]);
+  };
+  std::vector<std::size_t> others(points.values.size());
+  std::vector<std::vector<mesh::Point>> cells;
+  for (std::size_t i = 0; i < points.values.size(); ++i) {
+    const mesh::Point here = place(i);
+    std::iota(others.begin(), others.end(), std::size_t{0});
+    const auto distance = [&](std::size_t j) { return (place(j) - here).squaredNorm(); };
+    std::ranges::sort(others, {}, distance);
+    std::vector<mesh::Point> cell{low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+    for (const std::size_t j : others) {
+      if (j == i || cell.empty()) continue;
+      double reach = 0.0;
+      for (const mesh::Point& corner : cell) reach = std::max(reach, (corner - here).norm());
+      if (std::sqrt(distance(j)) > 2.0 * reach) break;
+      cell = part_nearer(cell, here, place(j));
+    }
+    cells.push_back(std::move(cell));
+  }
+  return cells;
+}
+
+// Cuts the regions whose weight, or that which `of` finds, is of points.
+template <class Of>
+void cut_between_points(GroundScene& scene, Of&& of) {
+  const Extent ground = extent_of(scene);
+  const mesh::Point margin = ground.high - ground.low;
+  std::vector<GroundRegion> regions;
+  for (GroundRegion& whole : scene.regions) {
+    const tables::VaryingNumber* told = of(scene.materials[whole.material]);
+    if (told == nullptr || !is_of_points(*told)) {
+      regions.push_back(whole);
+      continue;
+    }
+    const tables::Samples points = *told->samples;
+    const auto cells = nearest_places(points, ground.low - margin, ground.high + margin);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (cells[i].empty()) continue;
+      for (GroundPart& part : parts_within(whole, cells[i], ground)) {
+        GroundMaterial material = scene.materials[whole.material];
+        *of(material) = tables::VaryingNumber(points.values[i]);
+        recentre(part.centre, material.soil);
+        if (!material.unit_weight.samples) take_weight(material.unit_weight, material.soil);
+        scene.materials.push_back(std::move(material));
+        part.region.material = scene.materials.size() - 1;
+        regions.push_back(std::move(part.region));
+      }
+    }
+  }
+  scene.regions = std::move(regions);
+}
+
+}  // namespace
+
+void cut_between_points(GroundScene& scene) {
+  cut_between_points(scene, [](auto& material) { return &material.unit_weight; });
+  cut_between_points(scene, [](auto& material) {
+    return material.saturated_unit_weight ? &*material.saturated_unit_weight : nullptr;
+  });
 }
 
 }  // namespace limit::ground

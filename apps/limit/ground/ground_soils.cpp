@@ -83,14 +83,24 @@ bool check_number(const tables::VaryingNumber& number, const std::vector<Corner>
   return false;
 }
 
-// Whether a weight is linear, or by a table and will be cut into what is linear.
+// Whether a weight is linear, or will be cut into what is.
 bool check_weight(const tables::VaryingNumber& weight, const std::vector<Corner>& corners,
                   const std::string& key, tables::Diagnosis& diagnosis) {
-  if (weight.samples && weight.samples->kind != tables::Samples::Kind::table) {
-    diagnosis.error(
-        key,
-        weight.samples->kind == tables::Samples::Kind::raster ? "found a raster" : "found points",
-        "fpm-limit balances a weight exactly: allowed is a number, one that is linear, or a table");
+  using Kind = tables::Samples::Kind;
+  if (weight.samples && weight.samples->kind == Kind::raster) {
+    diagnosis.error(key, "found a raster",
+                    "fpm-limit balances a weight exactly, and between the middles of four cells a "
+                    "raster is not linear: allowed is a number, one that is linear, a table, or "
+                    "points, of which the nearest counts");
+    return false;
+  }
+  constexpr std::size_t most = 1000;
+  if (weight.samples && weight.samples->kind == Kind::points &&
+      weight.samples->values.size() > most) {
+    diagnosis.error(key, fmt::format("found {} points", weight.samples->values.size()),
+                    fmt::format("the mesh has sides between what is nearest to each: allowed are "
+                                "{} points",
+                                most));
     return false;
   }
   return check_number(weight, corners, key, "a weight", infinity, diagnosis);

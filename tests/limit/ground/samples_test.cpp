@@ -223,6 +223,44 @@ TEST(ABlockBetweenPlatens, OfWeightThatGrowsWithDepthBearsWhatItsFibresDo) {
   EXPECT_LE(found.gap(), 0.01);
 }
 
+// By the nearest of four points, as two columns of two weights, 200 below 100 and 400 below 300
+// kN/m3, beside the cohesion that they want, with which all of it spreads at once.
+TEST(ABlockBetweenPlatens, OfWeightByPointsBearsWhatItsFibresDo) {
+  const auto column = [](const char* name, double left, double kink, double below) {
+    return fmt::format(
+        "[[material]]\nname = \"{0}\"\nfriction_angle = 0\nunit_weight = {{ points = "
+        "[[0.0125, 0.03, 2e5], [0.0125, 0.09, 1e5], [0.0375, 0.03, 4e5], [0.0375, 0.09, 3e5]] }}\n"
+        "cohesion = {{ along = \"y\", table = [[0, {3}], [0.06, {2}], [0.1, 15e3]] }}\n"
+        "[[region]]\nmaterial = \"{0}\"\n"
+        "outline = [[{1}, 0], [{4}, 0], [{4}, 0.1], [{1}, 0.1]]\n",
+        name, left, kink, below, left + 0.025);
+  };
+  const auto cases =
+      case_of("[load]\nsought = \"footing\"\n" + column("left", 0.0, 17e3, 23e3) +
+              column("right", 0.025, 21e3, 33e3) +
+              "[[side]]\nname = \"platen\"\nkind = \"footing\"\nalong = [[0, 0.1], [0.05, 0.1]]\n"
+              "base = \"smooth\"\n[[side]]\nname = \"free side\"\nkind = \"free\"\n"
+              "along = [[0.05, 0], [0.05, 0.1]]\n[[side]]\nname = \"axes\"\nkind = \"symmetry\"\n"
+              "along = [[0, 0.1], [0, 0], [0.05, 0]]\n");
+  ASSERT_TRUE(cases);
+  expect_bracketed(solved(*cases, 0.01), 30e3, 0.01);
+}
+
+// Wherever they are: a cut of one weight, by points of which all have it.
+TEST(AVerticalCut, OfAWeightByPointsThatAreAllAlikeFailsAsOneOfOneWeightDoes) {
+  const auto even = case_of(cut);
+  const auto points = case_of(
+      cut, {"material.0.unit_weight={ points = [[-0.3, 0.2, 1], [0.4, 0.9, 1], [-1, -0.6, 1], "
+            "[0.7, -0.2, 1], [-0.9, 0.8, 1]] }"});
+  ASSERT_TRUE(even && points);
+  EXPECT_GE(points->associated.lower.soils.size(), 5U);
+  const auto one = solved(*even, 0.05), many = solved(*points, 0.05);
+  ASSERT_TRUE(one.lower && one.upper && many.lower && many.upper);
+  EXPECT_LE(*many.lower, *one.upper);
+  EXPECT_LE(*one.lower, *many.upper);
+  EXPECT_LE(many.gap(), 0.05);
+}
+
 // Between smooth platens each fibre bears 2 c tan(45 + phi / 2) by itself, and spreads by itself:
 // the mean over phi from one to other of the tangent is -2 ln(cos(u)) / (other - one) between both
 // u = 45 + phi / 2. Bounds of a friction angle close in proportion to the triangles.
@@ -295,7 +333,11 @@ TEST(SamplesOfTheGround, ThatDoNotDoAreRefusedByTheirKey) {
   EXPECT_THAT(
       complaint({"material.0.unit_weight={ raster = [[1, 2]], lower = [0, 0], step = [9, 9] }"}),
       AllOf(HasSubstr("material.0.unit_weight: found a raster"),
-            HasSubstr("a number, one that is linear, or a table")));
+            HasSubstr("a number, one that is linear, a table, or points, of which the nearest")));
+  std::string many;
+  for (int i = 0; i <= 1000; ++i) many += fmt::format("{}[0, {}, 1]", i == 0 ? "" : ", ", i);
+  EXPECT_THAT(complaint({"material.0.unit_weight={ points = [" + many + "] }"}),
+              HasSubstr("material.0.unit_weight: found 1001 points"));
   EXPECT_THAT(complaint({"material.1.cohesion={ along = \"y\", table = [[-2, 1], [-1.5, 2]] }"}),
               AllOf(HasSubstr("material.1.cohesion: found values from y = -2 to -1.5"),
                     HasSubstr("region soft reaches")));
