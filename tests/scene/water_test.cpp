@@ -253,8 +253,9 @@ TEST(PoreWater, ThatIsNoneIsRefusedInWords) {
   EXPECT_THAT(errors(box, {"water.r_u=1.0"}),
               ElementsAre(HasSubstr("water.r_u: found 1.0; allowed is a number 0 <= value < 1")));
   EXPECT_THAT(errors(box + table("[[0, 0], [4, 0]]"), {"gravity.acceleration=[0.0, 0.0]"}),
-              ElementsAre(HasSubstr("water.table: found in ground without weight along -y; give materials a "
-                                    "unit_weight, or gravity.acceleration downwards")));
+              ElementsAre(HasSubstr(
+                  "water.table: found in ground without weight along -y; give materials a "
+                  "unit_weight, or gravity.acceleration downwards")));
   std::string weightless = box;
   weightless.erase(weightless.find("unit_weight = 17e3\n"), 19);
   EXPECT_THAT(
