@@ -89,6 +89,20 @@ void bear_the_whole(const model::Model<Dim>& model, const Eigen::VectorXd& first
   }
 }
 
+// Whether the ground presses along this axis on a wall that is driven by its particles.
+template <int Dim>
+bool is_across_wall(const model::Model<Dim>& model, int axis) {
+  return model.wall_force && (*model.wall_force)[axis] != 0.0;
+}
+
+template <int Dim>
+bool is_driven(const model::Model<Dim>& model, Eigen::Index a) {
+  for (int i = 0; i < Dim; ++i) {
+    if (model.drive[i * model.size() + a] != 0.0) return true;
+  }
+  return false;
+}
+
 // A wall's particles have in them what the approximation leaves of the stress across their side on
 // the next ones, where it is a dead load: with the opposite one on the wall it bears what it
 // should.
@@ -98,10 +112,13 @@ void bear_at_the_wall(const model::Model<Dim>& model, const Eigen::VectorXd& for
   if (!model.wall_force) return;
   const Eigen::Index n = model.size();
   for (int i = 0; i < Dim; ++i) {
+    if (!is_across_wall(model, i)) continue;
     double borne = 0.0, shared = 0.0;
     const auto for_each = [&](auto&& visit) {
       for (Eigen::Index a = 0; a < n; ++a) {
-        if (model.drive[i * n + a] == 0.0) continue;
+        if (!is_driven(model, a) || model.prescribed[static_cast<std::size_t>(i * n + a)] == 0) {
+          continue;
+        }
         visit(i * n + a, force[i * stride + a] - model.initial_load[i * n + a]);
       }
     };
@@ -148,9 +165,9 @@ InitialBalance<Dim> balance_initial_stress(const model::Model<Dim>& model,
     for (Eigen::Index a = 0; a < n; ++a) {
       const Eigen::Index k = i * n + a;
       const double difference = force[i * op.stride() + a] - model.initial_load[k];
-      // Of particles that are driven, too, if they are a wall's.
+      // Of particles that are driven, too, across a wall of theirs.
       const bool held = model.prescribed[static_cast<std::size_t>(k)] != 0 &&
-                        (model.drive[k] == 0.0 || model.wall_bears);
+                        (model.drive[k] == 0.0 || is_across_wall(model, i));
       if (held) {
         borne(a, i) += difference;
       } else {

@@ -145,8 +145,9 @@ void say_bounds(std::string& text, const bracket::Solution& solution, const std:
   if (solution.lower) {
     fmt::format_to(out, "  lower bound {:>14.7g}{}\n", *solution.lower, unit);
   } else {
-    fmt::format_to(out, "  lower bound           none{}, no stress field could be certified\n",
-                   unit);
+    fmt::format_to(
+        out, "  lower bound           none{}, {}\n", unit,
+        solution.upper == 0.0 ? "none is sought above 0" : "no stress field could be certified");
   }
   if (solution.upper) {
     fmt::format_to(out, "  upper bound {:>14.7g}{}\n", *solution.upper, unit);

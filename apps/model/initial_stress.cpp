@@ -1,6 +1,7 @@
 #include "model/initial_stress.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "fpm/boundary_loads.hpp"
 #include "model/side_points.hpp"
@@ -8,6 +9,7 @@
 #include "scene/derived.hpp"
 #include "scene/element_body.hpp"
 #include "scene/geostatic.hpp"
+#include "scene/layers.hpp"
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
 
@@ -30,6 +32,19 @@ bool bears_across(const scene::Scene& scene, scene::Side side) {
          });
 }
 
+template <int Dim>
+constitutive::StressVector<Dim> stress_in_layers(const scene::Scene& scene,
+                                                 std::span<const scene::Layer> layers,
+                                                 const fpm::Vector<Dim>& place,
+                                                 std::size_t material) {
+  const double vertical = scene::geostatic_stress(scene, layers, {place.data(), Dim});
+  constitutive::StressVector<Dim> stress = constitutive::StressVector<Dim>::Zero();
+  stress[0] = scene::resolve_k0(scene, scene.material[material]) * vertical;
+  stress[up] = vertical;
+  stress[2] = scene::resolve_k0_z(scene, scene.material[material]) * vertical;
+  return stress;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -43,12 +58,7 @@ template <int Dim>
 constitutive::StressVector<Dim> geostatic_stress(const scene::Scene& scene,
                                                  const fpm::Vector<Dim>& place,
                                                  std::size_t material) {
-  const double vertical = scene::geostatic_stress(scene, {place.data(), Dim});
-  constitutive::StressVector<Dim> stress = constitutive::StressVector<Dim>::Zero();
-  stress[0] = scene::resolve_k0(scene, scene.material[material]) * vertical;
-  stress[up] = vertical;
-  stress[2] = scene::resolve_k0_z(scene, scene.material[material]) * vertical;
-  return stress;
+  return stress_in_layers<Dim>(scene, scene::layers_of(scene), place, material);
 }
 
 template <int Dim>
@@ -93,10 +103,6 @@ void add_loaded_sides(const scene::Scene& scene, Model<Dim>& model) {
     }
   }
 }
-
-}  // namespace
-
-namespace {
 
 // Geostatic stress at a point of a side, of the material within where that ends at an interface.
 template <int Dim>
@@ -168,10 +174,12 @@ void add_initial_stress(const scene::Scene& scene, Model<Dim>& model) {
   if (!uniform && scene.initial_stress.kind != scene::InitialStressKind::geostatic) return;
   const Eigen::Index n = model.size();
   model.initial_stress.resize(constitutive::stress_size<Dim>, n);
+  const auto layers = scene::layers_of(scene);
   for (Eigen::Index a = 0; a < n; ++a) {
-    model.initial_stress.col(a) =
-        initial_stress_at<Dim>(scene, model.particles.position.row(a).transpose(),
-                               model.material[static_cast<std::size_t>(a)]);
+    const fpm::Vector<Dim> place = model.particles.position.row(a).transpose();
+    const std::size_t material = model.material[static_cast<std::size_t>(a)];
+    model.initial_stress.col(a) = uniform ? initial_stress_at<Dim>(scene, place, material)
+                                          : stress_in_layers<Dim>(scene, layers, place, material);
   }
   if (uniform) {
     // It is borne by what bears it (check_stress_at_rest), to the last particle.
@@ -207,9 +215,11 @@ void take_wall_force(const scene::Scene& scene, Model<Dim>& model) {
         constitutive::StressVector<Dim>(model.initial_stress.col(a)));
     traction.row(a) = outwards * stress.col(scene::axis_of(drive.side)).transpose();
   }
+  // What acts along it is borne as by any drive.
+  const int across = scene::axis_of(drive.side);
   fpm::Vector<Dim> force = fpm::Vector<Dim>::Zero();
   for (fpm::Index c = 0; c < face.points.size(); ++c) {
-    force += face.points.weight[c] * face.op.value(c, traction);
+    force[across] += face.points.weight[c] * face.op.value(c, traction)[across];
   }
   model.wall_force = force;
 }

@@ -95,9 +95,13 @@ std::vector<char> mirrors(const scene::Scene& scene, const Model<Dim>& model) {
   std::vector<char> result;
   // A side that a later stage holds has moved before.
   const bool is_first = scene.course.stage == 0;
-  const bool has_driven = !model.plane_drive.empty();
+  const scene::Point& gravity = scene.gravity.acceleration;
   for (const fpm::GhostPlane<Dim>& plane : model.ghosts.planes()) {
-    bool slides = is_first && !plane.has_range() && !(has_driven && result.size() == driven_plane);
+    const bool is_driven = !model.plane_drive.empty() && result.size() == driven_plane;
+    // Weight across it would have to turn its way.
+    const bool is_pressed =
+        !gravity.empty() && gravity[static_cast<std::size_t>(plane.axis)] != 0.0;
+    bool slides = is_first && !plane.has_range() && !is_driven && !is_pressed;
     for (int i = 0; i < Dim; ++i) {
       slides = slides && plane.held[static_cast<std::size_t>(i)] == (i == plane.axis);
     }

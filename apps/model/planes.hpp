@@ -30,7 +30,7 @@ std::vector<scene::Side> sides_of_planes(const scene::Scene& scene, const Model<
 inline constexpr std::size_t driven_plane = 0;
 
 /// For each plane, whether the body goes on behind it as its images do, from the beginning on: of
-/// symmetry, or one along which it slides freely and that does not move.
+/// symmetry, or one along which it slides freely, that does not move and that no weight presses on.
 template <int Dim>
 [[nodiscard]] std::vector<char> mirrors(const scene::Scene& scene, const Model<Dim>& model);
 

@@ -33,8 +33,8 @@ fpm::Vector<Dim> traction_of(double pressure, double shear, const fpm::Vector<Di
 }
 
 template <int Dim>
-bool is_mirror(const scene::Scene& scene, const Model<Dim>& model, const fpm::Face& face) {
-  const std::vector<char> are_mirrors = mirrors(scene, model);
+bool is_mirror(const Model<Dim>& model, const std::vector<char>& are_mirrors,
+               const fpm::Face& face) {
   const auto& planes = model.ghosts.planes();
   for (std::size_t p = 0; p < planes.size(); ++p) {
     const double middle = 0.5 * (model.box_min[face.axis] + model.box_max[face.axis]);
@@ -113,10 +113,11 @@ void for_each_point(const Model<3>& /*model*/, const SurfacePiece<3>& piece, Add
 }
 
 template <int Dim>
-void add_piece(const scene::Scene& scene, const Model<Dim>& model, const SurfacePiece<Dim>& piece,
+void add_piece(const scene::Scene& scene, const Model<Dim>& model,
+               const std::vector<char>& are_mirrors, const SurfacePiece<Dim>& piece,
                std::vector<WallPoint<Dim>>& points) {
   const fpm::Face face{piece.face / 2, piece.face % 2 == 1};
-  if (piece.face >= 0 && is_mirror(scene, model, face)) return;
+  if (piece.face >= 0 && is_mirror(model, are_mirrors, face)) return;
   for_each_point(model, piece,
                  [&](const fpm::Vector<Dim>& place, const fpm::Vector<Dim>& outward, double area) {
                    WallPoint<Dim> point;
@@ -152,15 +153,15 @@ void add_meetings(const Model<Dim>& model, std::vector<WallPoint<Dim>>& points) 
 
 // What the images behind mirrors have.
 template <int Dim>
-void add_images(const scene::Scene& scene, const Model<Dim>& model,
+void add_images(const Model<Dim>& model, const std::vector<char>& are_mirrors,
                 std::vector<WallPoint<Dim>>& points) {
-  const std::vector<char> are_mirrors = mirrors(scene, model);
   for (std::size_t p = 0; p < are_mirrors.size(); ++p) {
     const fpm::GhostPlane<Dim>& plane = model.ghosts.planes()[p];
     if (are_mirrors[p] == 0) continue;
     const std::size_t count = points.size();
     for (std::size_t k = 0; k < count; ++k) {
       WallPoint<Dim> image = points[k];
+      image.is_image = true;
       image.position[plane.axis] = 2.0 * plane.position - image.position[plane.axis];
       for (auto* vector : {&image.normal, &image.constant, &image.growing}) {
         (*vector)[plane.axis] *= -1.0;
@@ -176,9 +177,12 @@ template <int Dim>
 std::vector<WallPoint<Dim>> wall_points(const scene::Scene& scene, const Model<Dim>& model) {
   std::vector<WallPoint<Dim>> points;
   if (scene.geometry.layout == scene::Layout::vertex) return points;
-  for (const SurfacePiece<Dim>& piece : model.surface) add_piece(scene, model, piece, points);
+  const std::vector<char> are_mirrors = mirrors(scene, model);
+  for (const SurfacePiece<Dim>& piece : model.surface) {
+    add_piece(scene, model, are_mirrors, piece, points);
+  }
   for (const fpm::Face& face : fpm::all_faces<Dim>()) {
-    if (!model.surface.empty() || is_mirror(scene, model, face)) continue;
+    if (!model.surface.empty() || is_mirror(model, are_mirrors, face)) continue;
     const auto quadrature = fpm::boundary_quadrature(model.cells, face);
     for (Eigen::Index c = 0; c < quadrature.size(); ++c) {
       WallPoint<Dim> point;
@@ -191,7 +195,7 @@ std::vector<WallPoint<Dim>> wall_points(const scene::Scene& scene, const Model<D
     }
   }
   add_meetings(model, points);
-  add_images(scene, model, points);
+  add_images(model, are_mirrors, points);
   return points;
 }
 

@@ -23,6 +23,7 @@ struct WallPoint {
   fpm::Vector<Dim> constant = fpm::Vector<Dim>::Zero();
   fpm::Vector<Dim> growing = fpm::Vector<Dim>::Zero();
   bool is_known = false;
+  bool is_image = false;  // behind a mirror
 };
 
 /// The surface of all bodies, at least two points to a spacing, but for mirrors, behind which it

@@ -172,7 +172,8 @@ bool WallStress<Dim>::take_walls(const std::vector<WallPoint<Dim>>& walls,
     area_ += wall.area;
     const double weight = std::sqrt(wall_weight * weight_at(r) * wall.area / piece) / modulus_;
     if (walls_.empty() || offset.norm() < on[nearest_].norm()) nearest_ = walls_.size();
-    walls_.push_back({wall.normal, wall.constant, wall.growing, Stress::Zero(), weight});
+    const bool is_beside = offset.norm() < beside * spacing_;
+    walls_.push_back({wall.normal, wall.constant, wall.growing, Stress::Zero(), weight, is_beside});
     on.push_back(offset);
   }
   return !walls_.empty();
@@ -192,7 +193,8 @@ void WallStress<Dim>::take_thickness(const std::vector<WallPoint<Dim>>& walls,
     const fpm::Vector<Dim> offset = wall.position - foot.place;
     const double depth = -offset.dot(foot.normal);
     const double aside = (offset + depth * foot.normal).norm();
-    if (depth <= 0.0 || depth >= least || aside > spacing_ || !wall.is_known) continue;
+    if (depth <= 0.0 || depth >= least || aside > spacing_) continue;
+    if (!wall.is_known || wall.is_image) continue;
     if (wall.normal.dot(foot.normal) > -0.5) continue;
     least = depth;
     across = &wall;
@@ -275,15 +277,18 @@ double WallStress<Dim>::unbalanced(const State<Dim>& state, const Stress& stress
 template <int Dim>
 double WallStress<Dim>::share(const State<Dim>& state, const Stress& stress,
                               const Eigen::VectorXd& coefficients) const {
-  double share = fits_;
-  if (state.plastic_strain.size() > 0) {
-    double most = 0.0;
-    for (const Served& one : served_) most = std::max(most, state.plastic_strain[one.particle]);
-    constexpr double all_of = 20.0;  // from a twentieth of the elastic strain on none is left
-    const double elastic = stress.norm() / modulus_;
-    share = std::min(share, most > 0.0 ? std::max(0.0, 1.0 - all_of * most / elastic) : 1.0);
-  }
-  return std::min(share, small(state, coefficients));
+  return std::min({fits_, 1.0 - yielded(state, stress), small(state, coefficients)});
+}
+
+// How much of the strain around is plastic: all from a twentieth of the elastic strain on.
+template <int Dim>
+double WallStress<Dim>::yielded(const State<Dim>& state, const Stress& stress) const {
+  if (state.plastic_strain.size() == 0) return 0.0;
+  double most = 0.0;
+  for (const Served& one : served_) most = std::max(most, state.plastic_strain[one.particle]);
+  constexpr double all_of = 20.0;
+  const double elastic = stress.norm() / modulus_;
+  return most > 0.0 ? std::min(1.0, all_of * most / elastic) : 0.0;
 }
 
 // How much of a stress counts that bears the walls where they were in the beginning.
@@ -369,6 +374,20 @@ Eigen::VectorXd WallStress<Dim>::wanted(const State<Dim>& state, double left_ove
   return right;
 }
 
+// By how much what presses on the wall differs next to the point.
+template <int Dim>
+double WallStress<Dim>::jump_of_pressure(const State<Dim>& state) const {
+  const auto pressing = [&](const Wall& wall) {
+    return wall.normal.dot(borne_by(wall, state.programme.load, 0.0));
+  };
+  double most = 0.0;
+  for (const Wall& wall : walls_) {
+    if (wall.is_beside)
+      most = std::max(most, std::abs(pressing(wall) - pressing(walls_[nearest_])));
+  }
+  return most;
+}
+
 // Where the ground is yielding its strength says what the strain no longer does.
 // @param here  the particles' stress on the wall, and the plastic strains there
 template <int Dim>
@@ -378,20 +397,22 @@ constitutive::StressVector<Dim> WallStress<Dim>::yielding(const State<Dim>& stat
                                                           const Stress& stress,
                                                           double known) const {
   const auto& law = model_->laws[model_->law[static_cast<std::size_t>(own_)]];
-  constexpr double none = 0.9, all = 0.98;  // of its strength
-  double yielding = 0.0;                    // share of the particles next to the point
-  here.stress.setZero();                    // one's may be far from its neighbours': their mean
+  constexpr double none = 0.95, all = 0.99;  // of its strength
+  double yielding = 0.0;                     // share of the particles next to the point
+  here.stress.setZero();                     // one's may be far from its neighbours': their mean
   for (const auto& [k, share] : beside_) {
     const auto& [a, sign, weight] = served_[k];
     const Stress there = state.stress.col(a);
     const double used = constitutive::utilisation<Dim>(law, there, state.plastic_volume_strain[a],
                                                        state.plastic_strain[a]);
-    yielding += share * std::clamp((used - none) / (all - none), 0.0, 1.0);
+    if (state.plastic_strain[a] > 0.0) {
+      yielding += share * std::clamp((used - none) / (all - none), 0.0, 1.0);
+    }
     here.stress += share * behind_mirror<Dim>(there, sign);
   }
-  constexpr double few = 0.25, most = 0.75;
+  constexpr double few = 0.25, most = 0.75, one_load = 0.1;
   const double part = known * std::clamp((yielding - few) / (most - few), 0.0, 1.0);
-  if (part == 0.0) return stress;
+  if (part == 0.0 || jump_of_pressure(state) > one_load * here.stress.norm()) return stress;
   const auto yields = yielding_on_wall<Dim>(law, here, normal_, bears);
   return yields ? Stress(stress + part * (*yields - stress)) : stress;
 }
@@ -419,7 +440,7 @@ constitutive::StressVector<Dim> WallStress<Dim>::of(const State<Dim>& state,
               explained(state, right) * (fitted - interpolated);
     if (plastic) {
       stress = yielding(state, here, borne_by(walls_[nearest_], state.programme.load, left_over),
-                        stress, known * small(state, coefficients));
+                        stress, known * yielded(state, interpolated) * small(state, coefficients));
     }
   }
   if (!plastic) return stress;

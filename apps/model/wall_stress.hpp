@@ -69,12 +69,15 @@ class WallStress {
     fpm::Vector<Dim> normal, constant, growing;
     Stress initial;
     double weight;
+    bool is_beside;  // next to the point
   };
   [[nodiscard]] fpm::Vector<Dim> borne_by(const Wall& wall, double load, double left_over) const;
   [[nodiscard]] Eigen::VectorXd wanted(const State<Dim>& state, double left_over) const;
   [[nodiscard]] Stress yielding(const State<Dim>& state, constitutive::PointState<Dim> here,
                                 const fpm::Vector<Dim>& bears, const Stress& stress,
                                 double known) const;
+  [[nodiscard]] double jump_of_pressure(const State<Dim>& state) const;
+  [[nodiscard]] double yielded(const State<Dim>& state, const Stress& stress) const;
   [[nodiscard]] double small(const State<Dim>& state, const Eigen::VectorXd& coefficients) const;
   [[nodiscard]] double unbalanced(const State<Dim>& state, const Stress& stress) const;
   [[nodiscard]] double share(const State<Dim>& state, const Stress& stress,

@@ -14,7 +14,8 @@ namespace model {
 /// that keeps its volume.
 /// @param stress  [Pa] the particles' at the wall, whose plastic strains these are
 /// @param normal  unit  @param bears  [Pa] traction
-/// @return nothing, if the traction alone is beyond yield, or nothing along the wall is
+/// A tension cut-off does not count.
+/// @return nothing, if the traction alone is beyond yield, or four times the difference is not
 template <int Dim>
 std::optional<constitutive::StressVector<Dim>> yielding_on_wall(
     const constitutive::Material& law, const constitutive::PointState<Dim>& point,

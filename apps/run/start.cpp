@@ -93,7 +93,7 @@ void resume(const std::filesystem::path& checkpoint, const scene::Scene& scene,
   start.refusals = refusals_among(start.changes);
   if (!start.refusals.empty()) return;
   start.state = model::read_state(file, model, notes.schema);
-  const std::string of_wall = note_on_wall(notes.schema, scene);
+  const std::string of_wall = note_on_wall(notes.schema, scene, notes.history);
   if (!of_wall.empty()) start.warnings.push_back(of_wall);
   start.lineage = lineage_from(checkpoint, notes, start.changes);
   start.history = std::move(notes.history);
@@ -108,18 +108,22 @@ void resume(const std::filesystem::path& checkpoint, const scene::Scene& scene,
 
 }  // namespace
 
-std::string note_on_wall(std::int64_t schema, const scene::Scene& scene) {
+std::string note_on_wall(std::int64_t schema, const scene::Scene& scene,
+                         const std::vector<record::CurveRow>& history) {
   // Before schema 4 nothing kept the initial stress at rest, nor does anything on resume.
   constexpr std::int64_t schema_of_balance = 4, schema_of_walls = 9;
   const scene::InitialStressKind kind = scene.initial_stress.kind;
   const bool is_at_rest =
       kind == scene::InitialStressKind::geostatic || kind == scene::InitialStressKind::gravity;
-  if (schema < schema_of_balance || schema >= schema_of_walls) return "";
-  if (!is_at_rest || !scene::drives_wall(scene)) return "";
+  if (schema < schema_of_balance || !is_at_rest || !scene::drives_wall(scene)) return "";
+  // The first programs of that schema left out walls whose particles are moved themselves.
+  const bool is_direct = scene::resolve_drive_method(scene) == scene::DriveMethod::direct;
+  const bool bore_nothing = is_direct && !history.empty() && history.front().reaction == 0.0;
+  if (schema >= schema_of_walls && !bore_nothing) return "";
   return fmt::format(
       "the checkpoint is of schema {}: what the drive moves bore nothing of the initial stress "
-      "when "
-      "the run began, and bears it from now on, so that its reaction jumps: begin the run anew",
+      "when the run began, and bears it from now on, so that its reaction jumps: begin the run "
+      "anew",
       schema);
 }
 

@@ -42,7 +42,9 @@ struct InForce {
 InForce scene_in_force(const RunRequest& request);
 
 /// What to say of a wall that bore nothing when an older program began the run; nothing: "".
-[[nodiscard]] std::string note_on_wall(std::int64_t schema, const scene::Scene& scene);
+/// @param history  the run's curve so far
+[[nodiscard]] std::string note_on_wall(std::int64_t schema, const scene::Scene& scene,
+                                       const std::vector<record::CurveRow>& history);
 
 /// The start of a run: the scene's initial state, or the state of the checkpoint that the request
 /// names or, if it names none, of the newest usable one in the output folder.

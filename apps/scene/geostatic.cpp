@@ -31,10 +31,6 @@ double wet_share(const tables::VaryingNumber& told, const Point& middle, double 
   return below ? low : 1.0 - low;
 }
 
-}  // namespace
-
-namespace {
-
 constexpr std::size_t up = 1;
 
 // Adds what a slice around `middle`, `thick` down, does to the stress below it, effective where
@@ -76,7 +72,14 @@ void add_between(const Scene& scene, double from, double to, Point at,
 }  // namespace
 
 double geostatic_stress(const Scene& scene, std::span<const double> place) {
-  const double surface = surface_level(scene);
+  return geostatic_stress(scene, layers_of(scene), place);
+}
+
+double geostatic_stress(const Scene& scene, std::span<const Layer> layers,
+                        std::span<const double> place) {
+  const bool has_regions = !scene.region.empty() && !layers.empty();
+  const double highest = has_regions ? layers.front().top : scene.geometry.max[up];
+  const double surface = scene.initial_stress.surface.value_or(highest);
   Point at(place.begin(), place.end());
   double vertical = -scene.initial_stress.surcharge;
   const auto& told = scene.water.pore_pressure;
@@ -89,7 +92,7 @@ double geostatic_stress(const Scene& scene, std::span<const double> place) {
     add_between(scene, surface, place[up], at, material, vertical);
     return vertical;
   }
-  for (const Layer& layer : layers_of(scene)) {
+  for (const Layer& layer : layers) {
     const double from = std::min(layer.top, surface), to = std::max(layer.bottom, place[up]);
     if (from <= to) continue;
     const auto material = [&](const Point&) { return layer.material; };

@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "scene/layers.hpp"
+
 namespace scene {
 
 struct Scene;
@@ -10,5 +12,9 @@ struct Scene;
 /// surcharge and the weight above, less what water bears of it, in slices of at most a spacing,
 /// each of the material at its middle; in a body of regions layer by layer (layers.hpp).
 [[nodiscard]] double geostatic_stress(const Scene& scene, std::span<const double> place);
+/// The same at one of many places.
+/// @param layers  `layers_of` the scene, if it has regions
+[[nodiscard]] double geostatic_stress(const Scene& scene, std::span<const Layer> layers,
+                                      std::span<const double> place);
 
 }  // namespace scene

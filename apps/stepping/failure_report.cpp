@@ -169,7 +169,13 @@ std::string where(const model::Model<Dim>& model, const model::State<Dim>& state
 // Where more load than the ground bears may have seemed to be borne.
 std::string energy_corrected(const scene::Scene& scene, bool plastic, const StepResult& result,
                              double load) {
-  if (!result.corrected_load || !plastic || scene.drive.kind != scene::DriveKind::load) return "";
+  const scene::Course& course = scene.course;
+  const bool only_load_grows = scene.drive.kind == scene::DriveKind::load &&
+                               course.load_end > course.load_begin &&
+                               course.reduction_begin == course.reduction_end;
+  // The work of the paper's viscosity is not counted.
+  const bool is_counted = scene::resolve_control(scene) != scene::HourglassControl::viscosity;
+  if (!result.corrected_load || !plastic || !only_load_grows || !is_counted) return "";
   return fmt::format(
       "\n  energy-corrected: {:.4g} of the load, without {:.2g} % that the hourglass control bears "
       "and the tolerance leaves unbalanced in the last step.",

@@ -70,12 +70,14 @@ class Runs {
     }
     const double tolerance = scene::resolve_solver(*plain).tolerance * fineness.tolerance;
     settings.push_back(fmt::format("solver.tolerance={}", tolerance));
-    // A tighter tolerance takes more of them, and must not be stopped by a limit made for less.
+    // A tighter tolerance takes more of them, and must not be stopped by a limit made for less; how
+    // far a failure is followed depends on the limit, which is one for all runs, then.
     constexpr std::int64_t more = 10;
     constexpr std::int64_t largest = std::numeric_limits<int>::max();
+    const bool raises = fineness.tolerance != 1.0 || is_of_a_failure(quantity_);
     const std::int64_t most = std::min<std::int64_t>(
-        largest, (fineness.tolerance != 1.0 ? more : 1) * plain->solver.max_evaluations_per_step);
-    if (fineness.tolerance != 1.0) {
+        largest, (raises ? more : 1) * plain->solver.max_evaluations_per_step);
+    if (raises) {
       settings.push_back(fmt::format("solver.max_evaluations_per_step={}", most));
     }
     // Steps that are halved where they are hard, and grow again, would differ from run to run, and

@@ -133,7 +133,8 @@ void Segmenter::add_own(const WeightedRows& rows, Index first, Index count) {
 
 // A segment as it is in another layout. Of a stencil that is shared there one copy is kept.
 void Segmenter::add_copy(const SegmentedRows& before, SegmentedRows::Segment segment) {
-  const bool shared = segment.kind == SegmentedRows::Kind::shared;
+  // An empty one begins where the next one does.
+  const bool shared = segment.kind == SegmentedRows::Kind::shared && segment.width > 0;
   const auto width = static_cast<std::size_t>(segment.width);
   const std::size_t ids = segment.kind == SegmentedRows::Kind::own ? lanes * width : width;
   const std::size_t weights = (shared ? 1 : lanes) * width * static_cast<std::size_t>(channels_);

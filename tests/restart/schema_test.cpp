@@ -130,7 +130,8 @@ TEST(SchemaOfThePast, OfLoadsHasItsControl) {
 
 // Walls that a drive moves bore nothing at first.
 TEST(SchemaOfThePast, OfAWallIsWarnedOf) {
-  const auto note = [](std::int64_t schema, const std::string& side) {
+  const auto note = [](std::int64_t schema, const std::string& side,
+                       const std::vector<record::CurveRow>& history = {}) {
     const auto reading = scene::parse_scene(
         "[geometry]\nmin = [0.0, 0.0]\nmax = [1.0, 1.0]\nspacing = 0.25\n"
         "[[material]]\nname = \"soil\"\nmodel = \"elastic\"\nyoungs_modulus = 1e6\n"
@@ -141,12 +142,19 @@ TEST(SchemaOfThePast, OfAWallIsWarnedOf) {
             side,
         "s.toml");
     EXPECT_TRUE(reading.scene) << reading.errors.front().text();
-    return reading.scene ? run::note_on_wall(schema, *reading.scene) : "";
+    return reading.scene ? run::note_on_wall(schema, *reading.scene, history) : "";
   };
   const std::string wall = "side = \"left\"\ndirection = [-1, 0]\n";
   EXPECT_THAT(note(8, wall), HasSubstr("its reaction jumps"));
   EXPECT_EQ(note(3, wall), "");
   EXPECT_EQ(note(9, wall), "");
+  // By its particles it is moved only since.
+  std::vector<record::CurveRow> history(1);
+  EXPECT_EQ(note(9, wall, history), "");
+  const std::string by_particles = wall + "method = \"direct\"\n";
+  EXPECT_THAT(note(9, by_particles, history), HasSubstr("its reaction jumps"));
+  history.front().reaction = 10e3;
+  EXPECT_EQ(note(9, by_particles, history), "");
   EXPECT_EQ(note(8, "side = \"top\"\ndirection = [0, -1]\n"), "");
 }
 

@@ -53,6 +53,12 @@ class Reader {
       require(reaches, "drive.range_min",
               "the footing does not reach from the mirror to a place on the top");
     }
+    require(drive.contact.friction_angle == 0.0 && drive.contact.adhesion == 0.0, "drive",
+            "its plate has a friction or adhesion of its own");
+    require(scene_.approximation.interfaces != scene::InterfaceKind::contact &&
+                std::ranges::count(scene_.interface, scene::InterfaceKind::contact,
+                                   &scene::Interface::kind) == 0,
+            "interface", "bodies slide on each other");
     require(scene_.cutout.empty(), "cutout", "the body has cutouts");
     require(scene_.initial_stress.loaded_sides.empty(), "initial_stress.loaded_sides",
             "the initial stress loads sides, in ground without weight");
@@ -63,7 +69,9 @@ class Reader {
     take_tractions(drive.range_max[0]);
     found_.axis_at_surface = mesh::Point(left, top);
     found_.strip.half_width = drive.range_max[0] - left;
-    found_.strip.rough = drive.lateral == scene::Lateral::fixed;
+    // Without friction contact holds nothing along its face.
+    found_.strip.rough =
+        drive.lateral == scene::Lateral::fixed && drive.method != scene::DriveMethod::contact;
     found_.box = {(geometry.max[0] - left) / found_.strip.half_width,
                   (top - geometry.min[1]) / found_.strip.half_width};
     const double gravity = downwards();

@@ -45,6 +45,16 @@ class Reader {
            "fpm-limit knows the loads of [[side]]s: give them as pressure and shear");
     refuse(!scene_.stage.empty(), "stage", "the ground changes in stages",
            "fpm-limit bounds one ground: give it what is there at the stage in question");
+    refuse(
+        scene_.approximation.interfaces == scene::InterfaceKind::contact,
+        "approximation.interfaces", "bodies slide on each other",
+        "fpm-limit knows ground that holds together: give a joint a thin region of its strength");
+    for (std::size_t i = 0; i < scene_.interface.size(); ++i) {
+      refuse(scene_.interface[i].kind == scene::InterfaceKind::contact,
+             fmt::format("interface.{}.kind", i), "bodies slide on each other",
+             "fpm-limit knows ground that holds together: give a joint a thin region of its "
+             "strength");
+    }
     refuse(!scene_.drive.weakened.empty(), "drive.weakened", "only some materials are weakened",
            "fpm-limit divides the strength of all");
     refuse(!scene_.drive.loads.empty(), "drive.loads", "only some loads grow",
@@ -99,10 +109,14 @@ class Reader {
     load.sought = what.value_or(load.sought);
     load.inclination = scene_.load.inclination * degree;
     load.eccentricity = scene_.load.eccentricity;
-    // A plate that is moved and has no point to turn about keeps its place and direction.
-    const bool is_moved = scene_.drive.kind == scene::DriveKind::displacement;
+    // A plate that keeps its place and has no point to turn about keeps its direction as well.
+    const scene::Drive& drive = scene_.drive;
+    const bool is_pushed = scene::loads_plate(drive) && drive.lateral == scene::Lateral::fixed &&
+                           load.inclination == 0.0 && load.eccentricity == 0.0;
     load.guided = scene_.load.guided;
-    if (!load.guided && is_moved) load.guided = scene_.drive.at.empty();
+    if (!load.guided && (drive.kind == scene::DriveKind::displacement || is_pushed)) {
+      load.guided = drive.at.empty();
+    }
     load.kv = scene_.load.kv;
     load.kh = scene_.load.kh;
     const scene::Point& gravity = scene_.gravity.acceleration;

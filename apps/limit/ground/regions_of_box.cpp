@@ -122,6 +122,23 @@ class Sides {
     if (drive->contact.friction_angle != 0.0 || drive->contact.adhesion != 0.0) {
       refuse("drive", "its plate has a friction or adhesion of its own");
     }
+    const bool may_slide = scene::loads_plate(*drive) && drive->lateral == scene::Lateral::free;
+    if (may_slide && drive->at.empty() && !box_.load.guided) {
+      diagnosis_.error("drive.lateral", "its plate moves along the ground and does not turn",
+                       "to fpm-limit a plate moves along its normal alone, load.guided = true, or "
+                       "turns as well, false");
+    }
+    if (drive->at.empty() || box_.load.eccentricity != 0.0) return;
+    const std::size_t along = 1 - across;
+    const bool is_whole = drive->range_min.empty();
+    const double from = is_whole ? box_.geometry.min[along] : drive->range_min[0];
+    const double to = is_whole ? box_.geometry.max[along] : drive->range_max[0];
+    if (std::abs(drive->at[0] - 0.5 * (from + to)) > scene::same_place(box_.geometry)) {
+      diagnosis_.error("drive.at",
+                       fmt::format("its plate, from {:.6g} to {:.6g}, is pushed at {:.6g}", from,
+                                   to, drive->at[0]),
+                       "to fpm-limit load.eccentricity says how far from its middle");
+    }
   }
 
   // Whether a range along a face, empty for all of it, holds a place.
@@ -167,24 +184,33 @@ class Sides {
                                     is_held ? "support" : "traction", scene::name_of(face)));
       }
       side.kind = scene::OutlineKind::footing;
-      side.base =
-          drive->lateral == scene::Lateral::fixed ? scene::Base::rough : scene::Base::smooth;
-      const bool touches = drive->method == scene::DriveMethod::contact && !drive->contact.tension;
-      side.tension = tension_ && !touches;
+      // Without friction contact holds nothing along its face.
+      const bool touches = drive->method == scene::DriveMethod::contact;
+      const bool is_rough = drive->lateral == scene::Lateral::fixed && !touches;
+      side.base = is_rough ? scene::Base::rough : scene::Base::smooth;
+      side.tension = tension_ && !(touches && !drive->contact.tension);
     }
     sides_.push_back(std::move(side));
   }
 
   bool hold(scene::Side face, scene::OutlineSide& side) {
     const int across = scene::axis_of(face);
+    std::array<bool, 2> held{};
+    for (std::size_t i = 0; i < box_.support.size(); ++i) {
+      const scene::Support& support = box_.support[i];
+      if (support.side != face) continue;
+      if (support.method == scene::SupportMethod::contact) {
+        refuse(fmt::format("support.{}", i), "the ground lies against it by contact");
+      }
+      for (const scene::Axis axis : support.directions) held[static_cast<std::size_t>(axis)] = true;
+    }
     if (scene::is_mirror(box_, face)) {
+      if (held[index(1 - across)]) {
+        refuse("support",
+               fmt::format("the {} is a mirror, and held along itself", scene::name_of(face)));
+      }
       side.kind = scene::OutlineKind::symmetry;
       return true;
-    }
-    std::array<bool, 2> held{};
-    for (const scene::Support& support : box_.support) {
-      if (support.side != face) continue;
-      for (const scene::Axis axis : support.directions) held[static_cast<std::size_t>(axis)] = true;
     }
     if (!held[0] && !held[1]) return false;
     if (!held[index(across)]) {
