@@ -189,6 +189,12 @@ TEST(FailureReport, SaysWhatALoadIsWithoutControlAndToleranceIfItKnows) {
   EXPECT_THAT(says(loaded), HasSubstr("energy-corrected: 0.49 of the load, without 2 % that the "
                                       "hourglass control bears"));
   EXPECT_THAT(says(run.scene), Not(HasSubstr("energy-corrected")));
+  // Of a load that stays while strength is divided nothing grows.
+  loaded.course.reduction_end = 2.0;
+  EXPECT_THAT(says(loaded), Not(HasSubstr("energy-corrected")));
+  loaded.course.reduction_end = loaded.course.reduction_begin;
+  loaded.course.load_end = loaded.course.load_begin;
+  EXPECT_THAT(says(loaded), Not(HasSubstr("energy-corrected")));
 }
 
 // What control and unbalanced forces do on a step's motion, over what a load of one does on it.

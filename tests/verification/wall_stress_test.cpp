@@ -373,5 +373,51 @@ TEST(WallStress, OfAWallThatYieldsIsItsStrength) {
   }
 }
 
+// A stress that is the same all over, at 0.96 of the strength, is no other on the wall.
+TEST(WallStress, OfGroundNextToYieldIsThatWhichItHas) {
+  const double n = 3.0, q = 20e3;
+  const double limit = n * q + 2.0 * 1e3 * std::sqrt(n);  // across, of c = 1 kPa and phi = 30
+  // 0.96 of c cos phi - p sin phi in half the difference.
+  const double half = 0.96 * (1e3 * std::cos(std::numbers::pi / 6) + 0.5 * q) / (1.0 - 0.96 * 0.5);
+  const double across = q + 2.0 * half;
+  ASSERT_LT(across, limit);
+  verification::Run<2> run(scene_of(
+      box(2.0, 2.0, 0.1) +
+      "[approximation]\nkinematics = \"small_strain\"\n[programme]\nsteps = 1\n[drive]\n"
+      "kind = \"load\"\nscales = [\"traction\"]\n[solver]\ntolerance = 1e-8\n"
+      "max_evaluations_per_step = 20000\n[[material]]\nname = \"m\"\nmodel = \"mohr_coulomb\"\n"
+      "youngs_modulus = 1e6\npoissons_ratio = 0.3\ncohesion = 1e3\nfriction_angle = 30\n"
+      "dilation_angle = 0\n"
+      "[[support]]\nname = \"left\"\nside = \"left\"\ndirections = [\"x\"]\n"
+      "[[support]]\nname = \"base\"\nside = \"bottom\"\ndirections = [\"y\"]\n" +
+      fmt::format("[[traction]]\nname = \"top\"\nside = \"top\"\nvalue = [0.0, {}]\n", -across) +
+      fmt::format("[[traction]]\nname = \"right\"\nside = \"right\"\nvalue = [{}, 0.0]\n", -q) +
+      stress_at(0, 2.0, 1.0)));
+  run.complete();
+  EXPECT_EQ(run.state.plastic_strain.maxCoeff(), 0.0);
+  EXPECT_NEAR(stresses_of<2>(run.scene, run.model, run.state)[1], -across, 1e-6 * across);
+}
+
+// A strip on clay that yields. Beside its edge, where no stress follows from what presses, it stays
+// between what the ground can bear.
+TEST(WallStress, BesideTheEdgeOfALoadThatYieldsIsNotTurnedRound) {
+  verification::Run<2> run(scene_of(
+      box(5.0, 3.0, 0.1) +
+      "[approximation]\nkinematics = \"small_strain\"\n[programme]\nsteps = 10\n[drive]\n"
+      "kind = \"load\"\nscales = [\"traction\"]\n[[material]]\nname = \"m\"\n"
+      "model = \"mohr_coulomb\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3\ncohesion = 1e3\n"
+      "friction_angle = 0\ndilation_angle = 0\n[[symmetry]]\naxis = \"x\"\nposition = 0.0\n"
+      "[[support]]\nname = \"base\"\nside = \"bottom\"\ndirections = [\"x\", \"y\"]\n"
+      "[[support]]\nname = \"r\"\nside = \"right\"\ndirections = [\"x\"]\n"
+      "[[traction]]\nname = \"t\"\nside = \"top\"\nrange_min = [0.0]\nrange_max = [1.0]\n"
+      "value = [0.0, -4.8e3]\n" +
+      stress_at(0, 0.5, 3.0) + stress_at(1, 1.01, 3.0)));
+  run.complete();
+  const auto measured = stresses_of<2>(run.scene, run.model, run.state);
+  EXPECT_NEAR(measured[0], -4.8e3 + 2e3, 1.0);  // under it all of 2 c is used
+  EXPECT_NEAR(measured[1], -4.8e3, 1.0);
+  EXPECT_LT(measured[4], 0.0);  // pressed along the surface, as the ground next to it
+}
+
 }  // namespace
 }  // namespace verification

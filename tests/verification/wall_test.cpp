@@ -147,6 +147,27 @@ TEST(Wall, BearsGroundAtRestInTheFirstRow) {
   }
 }
 
+// Of a wall that slides along the ground, and is held across, by its particles as by its images.
+TEST(Wall, ThatMovesAlongItselfIsPressedByGroundAtRest) {
+  const auto pressed = [](const std::string& method) {
+    const TestScene scene =
+        scene_of(sand + "[[measure]]\nname = \"wall\"\nkind = \"resultant\"\nside = \"left\"\n",
+                 {method, "drive.direction=[0,-1]", "drive.lateral=fixed", "drive.target=1e-4",
+                  "drive.range_min=[0.25]", "drive.range_max=[2]", "drive.width=1.75",
+                  "material.0.cohesion=1e6"});
+    const model::Model<2> model = stepping::model_at_rest<2>(scene);
+    model::State<2> state = model::initial_state(model);
+    stepping::LoadStepper<2> stepper(scene, model, state);
+    EXPECT_EQ(stepper.advance().outcome, stepping::StepOutcome::converged);
+    const model::Measures<2> measures(scene, model);
+    EXPECT_EQ(measures.columns().front(), "wall_Fx_N_per_m");
+    return measures.of(state).front();
+  };
+  const double by_particles = pressed(direct), by_images = pressed("drive.method=ghosts");
+  report("over_images", by_particles / by_images);
+  EXPECT_NEAR(by_particles, by_images, 0.1 * by_images);  // they end half a spacing apart
+}
+
 // A support that holds along the wall alone leaves it to the wall to bear what presses across: on a
 // smooth base as much as the far side does. The ground is too strong to yield.
 TEST(Wall, ThatIsRoughBearsSandThatHasSettled) {

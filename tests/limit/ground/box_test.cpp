@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "limit/bracket/bracket.hpp"
@@ -251,6 +253,32 @@ TEST(Box, IsRefusedWhereSidesCannotSayWhatIsOnIt) {
       IsEmpty());
   EXPECT_THAT(take(strip_on_box + pressed, {"traction.0.side=right"}).errors,
               HasSubstr("traction.0: it acts where a support or mirror holds"));
+}
+
+// A plate that lies on the ground by contact alone is smooth, whatever holds it aside.
+TEST(Box, HasAPlateAsTheRunHasIt) {
+  const auto base = [](const std::vector<std::string>& settings) {
+    const Taken taken = take(strip_on_box, settings);
+    EXPECT_EQ(taken.errors, "");
+    const auto footing = std::ranges::find(taken.regions.value().side, scene::OutlineKind::footing,
+                                           &scene::OutlineSide::kind);
+    return std::pair(footing->base, footing->tension);
+  };
+  EXPECT_EQ(base({}), std::pair(scene::Base::rough, true));
+  EXPECT_EQ(base({"drive.method=contact"}), std::pair(scene::Base::smooth, false));
+  std::string whole = strip_on_box;
+  const std::string mirror = "[[symmetry]]\naxis = \"x\"\nposition = 0\n";
+  whole.replace(whole.find(mirror), mirror.size(),
+                "[[support]]\nname = \"left\"\nside = \"left\"\ndirections = [\"x\"]\n");
+  EXPECT_THAT(take(whole, {"drive.method=contact", "drive.range_min=1", "drive.range_max=2",
+                           "drive.at=[1.75]"})
+                  .errors,
+              HasSubstr("to fpm-limit load.eccentricity says how far from its middle"));
+  EXPECT_THAT(
+      take(strip_on_box, {"support.0.method=contact", "support.0.directions=[\"y\"]"}).errors,
+      HasSubstr("the ground lies against it by contact"));
+  EXPECT_THAT(take(strip_on_box, {"approximation.interfaces=contact"}).errors,
+              HasSubstr("approximation.interfaces: bodies slide on each other"));
 }
 
 // Half a footing on ground of one strength keeps its own mesh.
