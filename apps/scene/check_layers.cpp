@@ -48,8 +48,7 @@ std::vector<double> faces_along(const Scene& scene, std::size_t axis) {
     }
   }
   std::ranges::sort(faces);
-  const auto doubled = std::ranges::unique(faces);
-  faces.erase(doubled.begin(), doubled.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   return faces;
 }
 

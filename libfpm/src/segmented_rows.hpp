@@ -57,6 +57,8 @@ struct Columns {
 
   bool operator()(Index b) const { return b >= first && b < last && is_wanted(b); }
 };
+template <class Predicate>
+Columns(Index, Index, Predicate) -> Columns<Predicate>;
 
 /// Rows of the transposed operator: those of the wanted columns, and nothing for the others. If it
 /// is a row of the operator as well, each starts from its own entry: minus the sum of that row's
