@@ -148,6 +148,9 @@ void check_water(const Scene& scene, tables::Diagnosis& diagnosis) {
   } else if (scene.gravity.acceleration.size() < 2 || scene.gravity.acceleration[1] >= 0.0) {
     diagnosis.error(key, "found in ground without weight along -y",
                     "give materials a unit_weight, or gravity.acceleration downwards");
+  } else if (scene.gravity.acceleration.size() == 3 && scene.gravity.acceleration[2] != 0.0) {
+    diagnosis.error(key, "found in ground whose weight acts along z as well",
+                    "water is the same along z: gravity.acceleration = [0, -g, 0]");
   } else if (told) {
     check_told(scene, *told, diagnosis);
   } else if (scene.water.r_u) {

@@ -93,7 +93,7 @@ StepRecord LoadStepper<Dim>::at_rest() {
   if (scene_.initial_stress.kind == scene::InitialStressKind::none) return record;
   const scene::Course& course = scene_.course;
   const auto reaction = equilibrium_->reactions_at_rest(course.load_begin, course.reduction_begin);
-  // Another plate bears nothing at first, but for rounding.
+  // Another plate bears nothing at first.
   if (!reaction || !scene::drives_wall(scene_)) return record;
   record.reaction = *reaction;
   const double width = scene_.drive.width.value_or(0.0);

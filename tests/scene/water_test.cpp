@@ -256,6 +256,15 @@ TEST(PoreWater, ThatIsNoneIsRefusedInWords) {
               ElementsAre(HasSubstr(
                   "water.table: found in ground without weight along -y; give materials a "
                   "unit_weight, or gravity.acceleration downwards")));
+  std::string solid = box + table("[[0, 0], [4, 0]]");
+  for (const auto& [plane, space] : {std::pair("dimension = 2", "dimension = 3"),
+                                     std::pair("min = [0.0, -2.0]", "min = [0.0, -2.0, 0.0]"),
+                                     std::pair("max = [4.0, 0.0]", "max = [4.0, 0.0, 1.0]")}) {
+    ASSERT_NE(solid.find(plane), std::string::npos) << plane;
+    solid.replace(solid.find(plane), std::string_view(plane).size(), space);
+  }
+  EXPECT_THAT(errors(solid, {"gravity.acceleration=[0.0, -9.81, 1.0]"}),
+              ElementsAre(HasSubstr("water.table: found in ground whose weight acts along z")));
   std::string weightless = box;
   weightless.erase(weightless.find("unit_weight = 17e3\n"), 19);
   EXPECT_THAT(
