@@ -126,12 +126,8 @@ void add_faces(const scene::Scene& scene, const Model<Dim>& model, fpm::Field<Di
     for (fpm::Index c = 0; c < face.points.size(); ++c) {
       const fpm::Vector<Dim> place = face.points.position.row(c).transpose();
       if (is_at_wall<Dim>(scene, side, place)) continue;
-      // Of the material within, where the face ends at an interface.
-      fpm::Vector<Dim> within = place;
-      within[axis] += (scene::is_upper(side) ? -0.5 : 0.5) * model.spacing;
-      const auto stress =
-          geostatic_stress<Dim>(scene, place, scene::material_at(scene, {within.data(), Dim}));
-      force(c, axis) = face.points.weight[c] * face.points.normal(c, axis) * stress[axis];
+      const fpm::Tensor<Dim> stress = stress_behind<Dim>(scene, model, face.points, c);
+      force(c, axis) = face.points.weight[c] * face.points.normal(c, axis) * stress(axis, axis);
     }
     face.op.add_transposed_values(force, load);
   }

@@ -185,9 +185,7 @@ void check_initial_stress(const Scene& scene, tables::Diagnosis& diagnosis) {
       !box_is_good(scene, diagnosis)) {
     return;
   }
-  Scene bare = scene;
-  bare.initial_stress.surface.reset();
-  const double top = surface_level(bare);
+  const double top = highest_level(scene);
   if (initial.surface && *initial.surface < top) {
     diagnosis.error(
         "initial_stress.surface", fmt::format("found {}", *initial.surface),

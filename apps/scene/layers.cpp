@@ -62,7 +62,10 @@ std::vector<Layer> layers_of(const Scene& scene) {
 }
 
 double surface_level(const Scene& scene) {
-  if (scene.initial_stress.surface) return *scene.initial_stress.surface;
+  return scene.initial_stress.surface.value_or(highest_level(scene));
+}
+
+double highest_level(const Scene& scene) {
   if (scene.region.empty()) return scene.geometry.max[1];
   double highest = -std::numeric_limits<double>::infinity();
   for (const Region& region : scene.region) {

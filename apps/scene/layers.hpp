@@ -19,6 +19,9 @@ struct Layer {
 /// level it is the first.
 [[nodiscard]] std::vector<Layer> layers_of(const Scene& scene);
 
+/// The body's highest level [m] before the first stage.
+[[nodiscard]] double highest_level(const Scene& scene);
+
 /// Level of the ground's surface [m]: that of the initial stress, or else the body's highest.
 [[nodiscard]] double surface_level(const Scene& scene);
 

@@ -9,6 +9,7 @@
 
 #include "measure.hpp"
 #include "run.hpp"
+#include "solid_column.hpp"
 #include "staged_run.hpp"
 #include "stepping/settle.hpp"
 
@@ -134,49 +135,8 @@ TEST(SolidGroundUnderWater, IsAtRestOnceItHasSettled) {
   }
 }
 
-// A column between smooth walls, under water to its top.
-const std::string column = R"([geometry]
-dimension = 3
-depth = [0, 1]
-spacing = 0.25
-[approximation]
-kinematics = "small_strain"
-[[material]]
-name = "m"
-model = "elastic"
-youngs_modulus = 1e7
-poissons_ratio = 0.25
-unit_weight = 20e3
-[[region]]
-name = "all"
-material = "m"
-outline = [[0, 0], [1, 0], [1, 6], [0, 6]]
-[[side]]
-name = "top"
-kind = "free"
-along = [[1, 6], [0, 6]]
-[[side]]
-name = "left"
-kind = "roller"
-along = [[0, 6], [0, 0]]
-[[side]]
-name = "base"
-kind = "roller"
-along = [[0, 0], [1, 0]]
-[[side]]
-name = "right"
-kind = "roller"
-along = [[1, 0], [1, 6]]
-[[support]]
-name = "front"
-side = "front"
-directions = ["z"]
-[[support]]
-name = "back"
-side = "back"
-directions = ["z"]
-[initial_stress]
-kind = "gravity"
+// Under water to its top.
+const std::string column = solid_column::scene + R"(
 [water]
 unit_weight = 10e3
 table = [[0, 6], [1, 6]]
@@ -192,8 +152,8 @@ steps = 2
 // gamma_w (h^2 - (h - y)^2) / (2 E_oed). Lumps of weight are so to second order (of them no
 // more than half a cell's is missing anywhere).
 TEST(SolidGroundUnderWater, SettlesByTheWeightThatItNoLongerDisplaces) {
-  constexpr double oedometric = 1e7 * 0.75 / (1.25 * 0.5), water = 10e3, h = 6.0;
-  constexpr double most = water * h * h / (2.0 * oedometric);
+  constexpr double water = 10e3, h = 6.0;
+  constexpr double most = water * h * h / (2.0 * solid_column::oedometric);
   std::vector<double> errors;
   for (const double spacing : {0.25, 0.125}) {
     StagedRunIn<3> run(scene_of(column, {fmt::format("geometry.spacing={}", spacing)}));
@@ -201,14 +161,14 @@ TEST(SolidGroundUnderWater, SettlesByTheWeightThatItNoLongerDisplaces) {
     double displacement = 0.0, stress = 0.0;
     for (Eigen::Index a = 0; a < run.state.displacement.rows(); ++a) {
       const double left = h - run.stages.model().particles.position(a, 1);
-      const double exact = -water * (h * h - left * left) / (2.0 * oedometric);
+      const double exact = -water * (h * h - left * left) / (2.0 * solid_column::oedometric);
       displacement = std::max(displacement, std::abs(run.state.displacement(a, 1) - exact));
-      stress = std::max(stress, std::abs(run.state.stress(1, a) + 20e3 * left));
+      stress = std::max(stress, std::abs(run.state.stress(1, a) + solid_column::weight * left));
     }
     errors.push_back(displacement / most);
     report(fmt::format("error_over_settlement_at_{}", spacing), errors.back());
     EXPECT_LT(errors.back(), 0.5 * spacing / h);
-    EXPECT_LT(stress, 0.5 * spacing * 20e3);
+    EXPECT_LT(stress, 0.5 * spacing * solid_column::weight);
   }
   EXPECT_LT(errors[1], 0.3 * errors[0]);
 }
