@@ -9,6 +9,7 @@
 #include "equilibrium/box_mesh.hpp"
 #include "equilibrium/elastic_block.hpp"
 #include "equilibrium/tree_mesh.hpp"
+#include "fpm/threads.hpp"
 
 namespace equilibrium {
 namespace {
@@ -232,8 +233,8 @@ template <int Dim>
 void BackgroundGrid<Dim>::restrict_loads(const Eigen::VectorXd& r) {
   const Eigen::Index n = corner_.cols();
   const auto nodes = static_cast<fpm::Index>(begin_.size()) - 1;
-#pragma omp parallel for schedule(static)
-  for (fpm::Index node = 0; node < nodes; ++node) {
+  constexpr fpm::Index per_block = 32;
+  fpm::for_each_row(nodes, per_block, [&](fpm::Index node) {
     fpm::Vector<Dim> sum = fpm::Vector<Dim>::Zero();
     const auto end = begin_[static_cast<std::size_t>(node) + 1];
     for (auto k = begin_[static_cast<std::size_t>(node)]; k < end; ++k) {
@@ -245,7 +246,7 @@ void BackgroundGrid<Dim>::restrict_loads(const Eigen::VectorXd& r) {
       }
     }
     coarse_.template segment<Dim>(node * Dim) = sum;
-  }
+  });
 }
 
 template <int Dim>

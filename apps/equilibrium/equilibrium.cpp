@@ -8,6 +8,7 @@
 #include "equilibrium/local_response.hpp"
 #include "equilibrium/tangent_layout.hpp"
 #include "fpm/consistency.hpp"
+#include "fpm/threads.hpp"
 #include "model/penalty_targets.hpp"
 
 namespace equilibrium {
@@ -150,8 +151,8 @@ void Equilibrium<Dim>::assemble(const double* field, double* force, const double
   const auto stride = operator_.stride();
   const double* const sum = evaluation_.force.data();
   const double* const own = model_.channels.pair ? evaluation_.own_force.data() : nullptr;
-#pragma omp parallel for schedule(static)
-  for (Eigen::Index a = 0; a < n; ++a) {
+  constexpr Eigen::Index per_block = 512;
+  fpm::for_each_row(n, per_block, [&](Eigen::Index a) {
     for (int i = 0; i < Dim; ++i) {
       const Eigen::Index k = i * n + a;
       double component = sum[i * stride + a];
@@ -160,7 +161,7 @@ void Equilibrium<Dim>::assemble(const double* field, double* force, const double
       force[k] = component;
       if (copy != nullptr) copy[k] = component;
     }
-  }
+  });
 }
 
 template <int Dim>

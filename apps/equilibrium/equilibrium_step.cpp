@@ -1,5 +1,6 @@
 // The beginning and the end of a step: what stays the same in it, and what it leaves.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -8,6 +9,7 @@
 #include "equilibrium/equilibrium.hpp"
 #include "equilibrium/hourglass_work.hpp"
 #include "fpm/hourglass.hpp"
+#include "fpm/threads.hpp"
 
 namespace equilibrium {
 
@@ -48,26 +50,23 @@ void Equilibrium<Dim>::begin_step(double load, double faded, double reduction) {
 
   const int m = operator_.channel_count();
   const int second_moment = Dim * model_.channels.second_gradient(Dim);
-#pragma omp parallel
-  {
-    Eigen::VectorXd moments(m * Dim * fpm::MomentOperator<Dim>::block_stride);
+  fpm::for_each_block(operator_.block_count(), [&](fpm::Index block) {
+    std::array<double, fpm::most_channels<Dim> * Dim * fpm::MomentOperator<Dim>::block_stride>
+        moments;
     Eigen::VectorXd row(m * Dim);
-#pragma omp for schedule(static)
-    for (fpm::Index block = 0; block < operator_.block_count(); ++block) {
-      operator_.gather(block, step_.position.data(), moments.data());
-      for (fpm::Index r = 0; r < operator_.block_size(block); ++r) {
-        const Eigen::Index a = operator_.block_first(block) + r;
-        for (int e = 0; e < m * Dim; ++e) {
-          row[e] = moments[e * fpm::MomentOperator<Dim>::block_stride + r];
-        }
-        if (model_.channels.second) {
-          step_.second_gradient.col(a) =
-              row.template segment<StepArrays<Dim>::second_size>(second_moment);
-        }
-        if (model_.channels.pair) remember_pairs(a, row);
+    operator_.gather(block, step_.position.data(), moments.data());
+    for (fpm::Index r = 0; r < operator_.block_size(block); ++r) {
+      const Eigen::Index a = operator_.block_first(block) + r;
+      for (int e = 0; e < m * Dim; ++e) {
+        row[e] = moments[static_cast<std::size_t>(e * fpm::MomentOperator<Dim>::block_stride + r)];
       }
+      if (model_.channels.second) {
+        step_.second_gradient.col(a) =
+            row.template segment<StepArrays<Dim>::second_size>(second_moment);
+      }
+      if (model_.channels.pair) remember_pairs(a, row);
     }
-  }
+  });
 }
 
 // What is summed over pairs are differences of these positions, whose round-off is that of their

@@ -1,6 +1,7 @@
 #include "equilibrium/hourglass_work.hpp"
 
 #include "constitutive/objective.hpp"
+#include "fpm/threads.hpp"
 
 namespace equilibrium {
 namespace {
@@ -33,8 +34,8 @@ double hourglass_work(const LoopData<Dim>& data) {
   };
   // Added up in the order of the rows, whatever the threads.
   Eigen::VectorXd work_of(op.size());
-#pragma omp parallel for schedule(static)
-  for (fpm::Index a = 0; a < op.size(); ++a) {
+  constexpr fpm::Index per_block = 32;
+  fpm::for_each_row(op.size(), per_block, [&](fpm::Index a) {
     Tensor gradient = Tensor::Zero();
     op.for_each_entry(a, [&](fpm::Index b, const double* w) {
       gradient += difference(increment, a, b) * Eigen::Map<const Eigen::Matrix<double, 1, Dim>>(w);
@@ -54,7 +55,7 @@ double hourglass_work(const LoopData<Dim>& data) {
       row += kappa * (change + defect * memory).dot(change);
     });
     work_of[a] = data.step.pair_stiffness[a] * row;
-  }
+  });
   double work = 0.0;
   for (const double each : work_of) work += each;
   return work;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <concepts>
 #include <limits>
 #include <variant>
 
 #include "equilibrium/instruction_sets.hpp"
 #include "equilibrium/row_data.hpp"
+#include "fpm/threads.hpp"
 
 namespace equilibrium {
 
@@ -114,24 +116,24 @@ struct RowLoop {
   template <class Work>
   static LoopOutcome for_each_row(const LoopData<Dim>& data) {
     const auto& op = data.op;
-    fpm::Index failed = none;
-#pragma omp parallel reduction(min : failed)
-    {
+    std::atomic<fpm::Index> failed = none;
+    fpm::for_each_block(op.block_count(), [&](fpm::Index block) {
       alignas(64) double
           moments[fpm::most_channels<Dim> * Dim * fpm::MomentOperator<Dim>::block_stride];
-#pragma omp for schedule(static)
-      for (fpm::Index block = 0; block < op.block_count(); ++block) {
-        op.gather(block, data.evaluation.extended.data(), moments);
-        const fpm::Index first = op.block_first(block);
-        const fpm::Index end = first + op.block_size(block);
-        if constexpr (Work::by_material) {
-          failed = std::min(failed, material_runs<Work>(data, first, end, moments));
-        } else {
-          failed = std::min(failed, rows<Work>(data, first, end, moments, std::monostate{}));
-        }
+      op.gather(block, data.evaluation.extended.data(), moments);
+      const fpm::Index first = op.block_first(block);
+      const fpm::Index end = first + op.block_size(block);
+      fpm::Index lowest = none;
+      if constexpr (Work::by_material) {
+        lowest = material_runs<Work>(data, first, end, moments);
+      } else {
+        lowest = rows<Work>(data, first, end, moments, std::monostate{});
       }
-    }
-    return {failed == none ? -1 : failed};
+      for (fpm::Index known = failed; lowest < known;) {
+        if (failed.compare_exchange_weak(known, lowest)) break;
+      }
+    });
+    return {failed == none ? -1 : failed.load()};
   }
 };
 

@@ -1,6 +1,8 @@
 #include "equilibrium/share_out.hpp"
 
-#include <omp.h>
+#include <algorithm>
+
+#include "fpm/threads.hpp"
 
 namespace equilibrium {
 
@@ -12,18 +14,13 @@ void share_out(Eigen::Index n, Eigen::Index numbers, Eigen::Index particles, jfn
     for (Eigen::Index block = 0; block < blocks; ++block) work(block);
     return;
   }
-  // Each block on the thread that the particles of its middle are worked on elsewhere: what one
-  // processor has written another reads at many times the cost.
-#pragma omp parallel
-  {
-    const Eigen::Index threads = omp_get_num_threads();
-    const Eigen::Index own = omp_get_thread_num();
-    for (Eigen::Index block = 0; block < blocks; ++block) {
-      const jfnk::Rows rows = jfnk::rows_of(block, n);
-      const Eigen::Index middle = rows.begin + rows.count / 2;
-      if (middle % particles * threads / particles == own) work(block);
-    }
-  }
+  // In the order of the particles, as all other loops: what one processor has written another reads
+  // at many times the cost. Blocks beyond those of whole components come last.
+  const Eigen::Index components = std::max<Eigen::Index>(n / particles, 1);
+  const Eigen::Index of_each = blocks / components;
+  fpm::for_each_block(blocks, [&](Eigen::Index k) {
+    work(k < of_each * components ? k % components * of_each + k / components : k);
+  });
 }
 
 }  // namespace equilibrium

@@ -5,6 +5,7 @@
 #include "equilibrium/elastic_block.hpp"
 #include "equilibrium/given_unknowns.hpp"
 #include "fpm/subpoints.hpp"
+#include "fpm/threads.hpp"
 
 namespace equilibrium {
 
@@ -125,11 +126,11 @@ void TwoLevelPreconditioner<Dim>::apply(const Eigen::VectorXd& r, Eigen::VectorX
   const bool with_grid = !grid_.empty();
   const bool with_springs = !springs_.empty();
   if (with_grid) grid_.solve(r);
-#pragma omp parallel for schedule(static)
-  for (Eigen::Index a = 0; a < size_; ++a) {
+  constexpr Eigen::Index per_block = 128;
+  fpm::for_each_row(size_, per_block, [&](Eigen::Index a) {
     apply_block(a, r, z);
     if (with_grid && !with_springs) grid_.add_solution(a, z);
-  }
+  });
   if (with_springs) {
     springs_.correct(z);
     for (Eigen::Index a = 0; with_grid && a < size_; ++a) grid_.add_solution(a, z);

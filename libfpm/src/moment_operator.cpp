@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "consistency_system.hpp"
+#include "fpm/threads.hpp"
 #include "operator_kernels.hpp"
 #include "segmented_rows.hpp"
 
@@ -37,6 +38,60 @@ struct Moments {
   Eigen::VectorXd& second;
 };
 
+// What a row's weights are made of, and where they go.
+template <int Dim>
+struct Weighing {
+  const Rows<Dim>& rows;
+  const Ghosts<Dim>& ghosts;
+  Channels channels;
+  const ConsistencyCorrection<Dim>& correction;
+  detail::WeightedRows& weighted;
+  Moments<Dim> moments;
+};
+
+template <int Dim>
+void set_weights(const Weighing<Dim>& to, Index a, const RowGeometry<Dim>& geometry,
+                 RowWeights<Dim>& weights) {
+  compute_weights(geometry, to.rows.options().kernel, to.channels.second, weights);
+  if (const auto carried = to.rows.correction(a); !carried.empty()) {
+    weights.gradient += Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>>(
+        carried.data(), Dim, geometry.size());
+  } else if (to.correction.corrects(a) && !to.rows.searched(a)) {
+    add_consistency(to.ghosts, to.correction.potential, a, to.rows.neighbours(a), geometry,
+                    weights);
+  }
+}
+
+template <int Dim>
+void store_row(const Weighing<Dim>& to, Index a, const RowGeometry<Dim>& geometry,
+               const RowWeights<Dim>& weights) {
+  const auto begin = to.weighted.begin(a);
+  std::ranges::copy(to.rows.neighbours(a),
+                    to.weighted.id.begin() + static_cast<std::ptrdiff_t>(begin));
+  if (to.channels.pair) {
+    to.moments.first.row(a).setZero();
+    to.moments.second.template segment<Dim * Dim>(a * Dim * Dim).setZero();
+  }
+  double* at = to.weighted.weight.data() + begin * static_cast<std::size_t>(to.weighted.channels);
+  const auto append = [&](const auto& column) {
+    at = std::copy_n(column.data(), column.size(), at);
+  };
+  for (Eigen::Index k = 0; k < geometry.size(); ++k) {
+    append(Vector<Dim>(weights.gradient.col(k)));
+    if (to.channels.pair) {
+      const Vector<Dim> kappa_x = weights.kappa[k] * geometry.offset.col(k);
+      *at++ = weights.kappa[k];
+      append(kappa_x);
+      to.moments.first.row(a) += kappa_x.transpose();
+      Eigen::Map<Tensor<Dim>>(to.moments.second.data() + a * Dim * Dim) +=
+          kappa_x * geometry.offset.col(k).transpose();
+    }
+    if (to.channels.second) {
+      append(Eigen::Matrix<double, second_gradient_size<Dim>, 1>(weights.second.col(k)));
+    }
+  }
+}
+
 // Of the wanted rows in [first, last). Rows do not see each other: each on some thread.
 template <int Dim, class Predicate>
 detail::WeightedRows weigh(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Channels channels,
@@ -52,48 +107,19 @@ detail::WeightedRows weigh(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Cha
   }
   weighted.id.resize(weighted.offset.back());
   weighted.weight.resize(weighted.offset.back() * static_cast<std::size_t>(weighted.channels));
-#pragma omp parallel
-  {
+  const Weighing<Dim> to{rows, ghosts, channels, correction, weighted, moments};
+  constexpr Index per_block = 32;
+  for_each_block((last - first + per_block - 1) / per_block, [&](Index block) {
     RowGeometry<Dim> geometry;
     RowWeights<Dim> weights;
-#pragma omp for schedule(static)
-    for (Index a = first; a < last; ++a) {
+    const Index begin = first + block * per_block;
+    for (Index a = begin; a < std::min(begin + per_block, last); ++a) {
       if (!is_wanted(a)) continue;
-      const auto neighbours = rows.neighbours(a);
       rows.geometry(a, geometry);
-      compute_weights(geometry, rows.options().kernel, channels.second, weights);
-      if (const auto carried = rows.correction(a); !carried.empty()) {
-        weights.gradient += Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>>(
-            carried.data(), Dim, geometry.size());
-      } else if (correction.corrects(a) && !rows.searched(a)) {
-        add_consistency(ghosts, correction.potential, a, neighbours, geometry, weights);
-      }
-      const auto begin = weighted.begin(a);
-      std::ranges::copy(neighbours, weighted.id.begin() + static_cast<std::ptrdiff_t>(begin));
-      if (channels.pair) {
-        moments.first.row(a).setZero();
-        moments.second.template segment<Dim * Dim>(a * Dim * Dim).setZero();
-      }
-      double* at = weighted.weight.data() + begin * static_cast<std::size_t>(weighted.channels);
-      const auto append = [&](const auto& column) {
-        at = std::copy_n(column.data(), column.size(), at);
-      };
-      for (Eigen::Index k = 0; k < geometry.size(); ++k) {
-        append(Vector<Dim>(weights.gradient.col(k)));
-        if (channels.pair) {
-          const Vector<Dim> kappa_x = weights.kappa[k] * geometry.offset.col(k);
-          *at++ = weights.kappa[k];
-          append(kappa_x);
-          moments.first.row(a) += kappa_x.transpose();
-          Eigen::Map<Tensor<Dim>>(moments.second.data() + a * Dim * Dim) +=
-              kappa_x * geometry.offset.col(k).transpose();
-        }
-        if (channels.second) {
-          append(Eigen::Matrix<double, second_gradient_size<Dim>, 1>(weights.second.col(k)));
-        }
-      }
+      set_weights(to, a, geometry, weights);
+      store_row(to, a, geometry, weights);
     }
-  }
+  });
   return weighted;
 }
 
@@ -253,14 +279,13 @@ void MomentOperator<Dim>::scatter(const double* stress, const double* v, const d
   const auto kernel = detail::kernels<Dim>(channels_).scatter;
   const auto* segments = transposed_.segments.data();
   const auto blocks = static_cast<Index>(transposed_.block_begin.size()) - 1;
-#pragma omp parallel for schedule(static)
-  for (Index block = 0; block < blocks; ++block) {
+  for_each_block(blocks, [&](Index block) {
     const auto b = static_cast<std::size_t>(block);
     const detail::KernelRows rows{segments + transposed_.block_begin[b],
                                   segments + transposed_.block_begin[b + 1], transposed_.ids.data(),
                                   transposed_.weights.data()};
     kernel(rows, stress, v, x, stride(), force);
-  }
+  });
   ghosts_.fold_forces(force, size_, stride());
 }
 

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "fpm/threads.hpp"
+
 namespace fpm {
 namespace {
 
@@ -191,10 +193,10 @@ Eigen::VectorXd recover(const ParticleSet<Dim>& particles,
   const auto members = members_of(particles, field, planes, radius.maxCoeff());
   const Grid<Dim> grid(members, options.radius);
   Eigen::VectorXd recovered(particles.size());
-#pragma omp parallel for schedule(static)
-  for (Index a = 0; a < particles.size(); ++a) {
+  constexpr Index per_block = 32;
+  for_each_row(particles.size(), per_block, [&](Index a) {
     recovered[a] = fitted(grid, members[static_cast<std::size_t>(a)], options.kernel, radius[a]);
-  }
+  });
   return recovered;
 }
 

@@ -1,6 +1,13 @@
 #include "fpm/viscosity.hpp"
 
+#include "fpm/threads.hpp"
+
 namespace fpm {
+namespace {
+
+constexpr Index per_block = 128;  // rows that a thread takes at once
+
+}  // namespace
 
 std::vector<std::string> validate(const ViscosityOptions& options) {
   if (options.theta >= 0.0) return {};
@@ -78,8 +85,7 @@ void PairViscosity<Dim>::compute_pairs(double theta, const FieldView<Dim * Dim>&
   const bool deformed = inverse_transposed.rows() > 0;
   if (deformed) require_size("inverse gradients", inverse_transposed.rows(), size_);
   require_size("volumes", volume.size(), size_);
-#pragma omp parallel for schedule(static)
-  for (Index a = 0; a < size_; ++a) {
+  for_each_row(size_, per_block, [&](Index a) {
     Tensor<Dim> push = volume[a] * Tensor<Dim>::Identity();
     if (deformed) {
       for (int k = 0; k < Dim * Dim; ++k) push(k % Dim, k / Dim) = inverse_transposed(a, k);
@@ -95,14 +101,13 @@ void PairViscosity<Dim>::compute_pairs(double theta, const FieldView<Dim * Dim>&
       const double pi = theta * modulus * approach / (x.squaredNorm() + core * core);
       pair_force_[k] = pi * (push * gradient_[k]);
     }
-  }
+  });
 }
 
 template <int Dim>
 void PairViscosity<Dim>::sum_pairs(FieldTarget<Dim> force) {
   const auto nodes = static_cast<Index>(node_force_.rows());
-#pragma omp parallel for schedule(static)
-  for (Index b = 0; b < nodes; ++b) {
+  for_each_row(nodes, per_block, [&](Index b) {
     const auto node = static_cast<std::size_t>(b);
     Vector<Dim> sum = Vector<Dim>::Zero();
     for (std::size_t k = node_begin_[node]; k < node_begin_[node + 1]; ++k) {
@@ -112,7 +117,7 @@ void PairViscosity<Dim>::sum_pairs(FieldTarget<Dim> force) {
       for (std::size_t k = row_begin_[node]; k < row_begin_[node + 1]; ++k) sum -= pair_force_[k];
     }
     node_force_.row(b) = sum.transpose();
-  }
+  });
   ghosts_.fold_forces(node_force_.data(), size_, node_force_.rows());
   force += node_force_.topRows(size_);
 }

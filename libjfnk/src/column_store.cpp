@@ -26,24 +26,35 @@ void ColumnStore::resize(std::size_t slots, Eigen::Index n, bool single_precisio
   fit(singles_, is_single_ ? slots : 0, n);
 }
 
+void ColumnStore::reserve(std::size_t slot, Eigen::Index n) {
+  is_single_ ? singles_[slot].resize(n) : doubles_[slot].resize(n);
+}
+
+void ColumnStore::assign_rows(std::size_t slot, double factor, const Vector& v, Rows rows) {
+  if (is_single_) {
+    rows.of(singles_[slot]) = (factor * rows.of(v)).cast<float>();
+  } else {
+    rows.of(doubles_[slot]) = factor * rows.of(v);
+  }
+}
+
+void ColumnStore::copy_rows(std::size_t slot, Rows rows, Vector& kept) const {
+  if (is_single_) {
+    rows.of(kept) = rows.of(singles_[slot]).cast<double>();
+  } else {
+    rows.of(kept) = rows.of(doubles_[slot]);
+  }
+}
+
 void ColumnStore::assign(std::size_t slot, double factor, const Vector& v,
                          const InnerProductRef& product) {
-  const auto put = [&](auto& to) {
-    using Scalar = typename std::remove_reference_t<decltype(to)>::Scalar;
-    to.resize(v.size());
-    product.pass(v.size(), 2,
-                 [&](Rows rows) { rows.of(to) = (factor * rows.of(v)).template cast<Scalar>(); });
-  };
-  is_single_ ? put(singles_[slot]) : put(doubles_[slot]);
+  reserve(slot, v.size());
+  product.pass(v.size(), 2, [&](Rows rows) { assign_rows(slot, factor, v, rows); });
 }
 
 void ColumnStore::copy_to(std::size_t slot, Vector& v, const InnerProductRef& product) const {
-  const auto take = [&](const auto& from) {
-    v.resize(from.size());
-    product.pass(v.size(), 2,
-                 [&](Rows rows) { rows.of(v) = rows.of(from).template cast<double>(); });
-  };
-  is_single_ ? take(singles_[slot]) : take(doubles_[slot]);
+  v.resize(is_single_ ? singles_[slot].size() : doubles_[slot].size());
+  product.pass(v.size(), 2, [&](Rows rows) { copy_rows(slot, rows, v); });
 }
 
 void ColumnStore::rotate(std::size_t i, double c, double s, const InnerProductRef& product) {
@@ -83,8 +94,13 @@ void ColumnList::add(const ColumnStore& store, std::size_t slot) {
 }
 
 void ColumnList::dots(const InnerProductRef& product, const Vector& w, double* sums) const {
-  if (!doubles_.empty()) product.dots(Vectors(doubles_), w, {sums, doubles_.size()});
-  if (!singles_.empty()) product.dots(SingleVectors(singles_), w, {sums, singles_.size()});
+  const Products one{&w, {sums, size()}};
+  dots(product, {&one, 1});
+}
+
+void ColumnList::dots(const InnerProductRef& product, std::span<const Products> products) const {
+  if (!doubles_.empty()) product.dots(Vectors(doubles_), products);
+  if (!singles_.empty()) product.dots(SingleVectors(singles_), products);
 }
 
 void ColumnList::combine(const InnerProductRef& product, double own, const double* factors,
@@ -93,6 +109,14 @@ void ColumnList::combine(const InnerProductRef& product, double own, const doubl
     product.combine(own, SingleVectors(singles_), {factors, singles_.size()}, w);
   } else {
     product.combine(own, Vectors(doubles_), {factors, doubles_.size()}, w);
+  }
+}
+
+void ColumnList::combine_rows(Rows rows, double own, const double* factors, Vector& w) const {
+  if (!singles_.empty()) {
+    jfnk::combine_rows(rows, own, SingleVectors(singles_), {factors, singles_.size()}, w);
+  } else {
+    jfnk::combine_rows(rows, own, Vectors(doubles_), {factors, doubles_.size()}, w);
   }
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -48,6 +49,7 @@ bool keeps_preconditioned(const Solve& solve) {
 void forget_base(Solve& solve) {
   solve.course.multisecant.inverted = false;
   solve.course.multisecant.preconditioned = false;
+  solve.work.secants.forget_next();
 }
 
 /// P F at work.base into work.preconditioned, unless it is there.
@@ -59,24 +61,25 @@ void precondition_base(Solve& solve) {
 }
 
 /// H F = dU gamma + mixing P (F - dF gamma) at work.base, gamma = argmin ||F - dF gamma||, or of P
-/// times that.
-void invert_by_least_squares(Solve& solve, Vector& z) {
+/// times that; `sign` times H F.
+void invert_by_least_squares(Solve& solve, double sign, Vector& z) {
   Workspace& work = solve.work;
   const Vector& r = work.base.r;
   const double mixing = solve.course.multisecant.mixing;
   const InnerProductRef& product = solve.evaluator.product();
   if (in_preconditioned_norm(solve)) {
-    work.secants.invert(work.preconditioned, work.preconditioned, mixing, z, product);
+    work.secants.invert(work.preconditioned, work.preconditioned, mixing, sign, z, product);
   } else if (keeps_images(solve)) {
-    work.secants.invert(r, work.preconditioned, mixing, z, product);
+    work.secants.invert(r, work.preconditioned, mixing, sign, z, product);
   } else if (solve.evaluator.preconditioner().is_identity()) {
-    work.secants.invert(r, r, mixing, z, product);
+    work.secants.invert(r, r, mixing, sign, z, product);
   } else {
     Vector& remainder = work.evaluator.probe;
     work.secants.project(r, z, remainder, product);
     solve.evaluator.precondition(remainder, work.direction);
-    product.pass(z.size(), 3,
-                 [&](Rows rows) { rows.of(z) = mixing * rows.of(work.direction) - rows.of(z); });
+    product.pass(z.size(), 3, [&](Rows rows) {
+      rows.of(z) = sign * mixing * rows.of(work.direction) - sign * rows.of(z);
+    });
   }
 }
 
@@ -107,11 +110,9 @@ void find_step(Solve& solve) {
   }
   if (keeps_preconditioned(solve)) precondition_base(solve);
   if (!has_broyden(solve)) {
-    invert_by_least_squares(solve, work.step);
-    solve.evaluator.product().pass(work.step.size(), 2,
-                                   [&](Rows rows) { rows.of(work.step) *= -1.0; });
+    invert_by_least_squares(solve, -1.0, work.step);
   } else {
-    invert_by_least_squares(solve, work.by_least_squares);
+    invert_by_least_squares(solve, 1.0, work.by_least_squares);
     if (!solve.course.multisecant.inverted) invert_by_broyden(solve, work.by_broyden);
     work.step = trusts_broyden(solve) ? -work.by_broyden : -work.by_least_squares;
   }
@@ -152,7 +153,7 @@ void compare_models(Solve& solve) {
                ? std::clamp(relative, std::numeric_limits<double>::epsilon(), hopeless)
                : hopeless;
   };
-  invert_by_least_squares(solve, work.image);
+  invert_by_least_squares(solve, 1.0, work.image);
   work.by_least_squares = work.image - work.by_least_squares;
   const double by_least_squares = error(work.by_least_squares);
   invert_by_broyden(solve, work.image);
@@ -171,19 +172,38 @@ void compare_models(Solve& solve) {
   work.broyden.improve_by_last(work.by_broyden, product);
 }
 
+/// What led from work.trial to work.base, and the change of F; returns the latter's norm.
+double find_changes(Solve& solve, Vector& step, Vector& difference, double& step_norm) {
+  const Iterate& from = solve.work.trial;
+  const Iterate& to = solve.work.base;
+  const Eigen::Index n = to.u.size();
+  step.resize(n);
+  difference.resize(n);
+  const std::array<const Vector*, 2> both{&step, &difference};
+  std::array<double, 2> norms{};
+  solve.evaluator.product().pass(
+      n, 6,
+      [&](Rows rows) {
+        rows.of(step) = rows.of(to.u) - rows.of(from.u);
+        rows.of(difference) = rows.of(to.r) - rows.of(from.r);
+      },
+      both, norms);
+  step_norm = norms[0];
+  return norms[1];
+}
+
 /// Stores the pair (trial - base) and makes the trial the base; returns the change of F.
 double move(Solve& solve, Iteration& line) {
   Workspace& work = solve.work;
   const InnerProductRef& product = solve.evaluator.product();
-  add(product, work.step, work.trial.u, -1.0, work.base.u);
-  line.step_norm = product.norm(work.step);
   std::swap(work.base, work.trial);
+  work.secants.forget_next();
   Vector& difference = work.evaluator.probe;
+  const double change = find_changes(solve, work.step, difference, line.step_norm);
   // Nothing has to be learnt for where all is done.
   if (solve.evaluator.converged(work.base, line.step_norm)) {
     forget_base(solve);
-    add(product, difference, work.base.r, -1.0, work.trial.r);
-    return product.norm(difference);
+    return change;
   }
   // P F was, and becomes its change.
   Vector& image = work.preconditioned_before;
@@ -192,12 +212,18 @@ double move(Solve& solve, Iteration& line) {
     solve.course.multisecant.preconditioned = false;
     precondition_base(solve);
   }
-  if (has_broyden(solve)) compare_models(solve);
+  if (has_broyden(solve)) {
+    compare_models(solve);
+    add(product, difference, work.base.r, -1.0, work.trial.r);  // it had other use for the memory
+  }
   if (keeps_preconditioned(solve)) image = work.preconditioned - image;
-  add(product, difference, work.base.r, -1.0, work.trial.r);
-  const double change = product.norm(difference);
-  work.secants.add(work.step, in_preconditioned_norm(solve) ? image : difference,
-                   solve.options.multisecant.max_condition, product, &image);
+  const bool of_images = in_preconditioned_norm(solve);
+  work.secants.add({.du = work.step,
+                    .dr = of_images ? image : difference,
+                    .length = of_images ? product.norm(image) : change,
+                    .image = &image,
+                    .next = of_images ? &work.preconditioned : &work.base.r},
+                   solve.options.multisecant.max_condition, product);
   return change;
 }
 
@@ -218,7 +244,8 @@ Ending measure_mixing(Solve& solve) {
   solve.course.multisecant.mixing *= along / length / length;
   solve.course.multisecant.expected_change =
       std::abs(solve.course.multisecant.mixing) * length * work.base.norm;
-  work.secants.add(work.step, work.direction, solve.options.multisecant.max_condition, product);
+  work.secants.add({work.step, work.direction, length}, solve.options.multisecant.max_condition,
+                   product);
   return Ending::go_on;
 }
 

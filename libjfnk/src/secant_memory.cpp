@@ -1,9 +1,9 @@
 #include "secant_memory.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "passes.hpp"
+#include <span>
 
 namespace jfnk::detail {
 
@@ -17,7 +17,9 @@ void SecantMemory::resize(Eigen::Index n, int capacity, bool single_precision) {
   work_.resize(n);
   factors_.resize(2 * capacity_);
   gamma_.resize(capacity_);
+  next_.resize(capacity_);
   list_.reserve(2 * slots);
+  steps_.reserve(slots);
   clear();
 }
 
@@ -25,24 +27,39 @@ void SecantMemory::clear(bool with_images) {
   size_ = 0;
   first_ = 0;
   given_ = 0;
+  next_known_ = false;
   with_images_ = with_images;
   images_are_old_ = false;
 }
 
-void SecantMemory::add(const Vector& du, const Vector& dr, double max_condition,
-                       const InnerProductRef& product, const Vector* image) {
-  const double length = product.norm(dr);
-  if (!(length > 0.0) || !std::isfinite(length)) return;
+// Into a slot, and into work_ y as it is kept, so that the Gram matrix is one whatever the
+// rounding.
+void SecantMemory::store(const Pair& pair, std::size_t at, const InnerProductRef& product) {
+  const bool with_image = with_images_ && !images_are_old_;
+  du_.reserve(at, n_);
+  y_.reserve(at, n_);
+  if (with_image) image_.reserve(at, n_);
+  const double factor = 1.0 / pair.length;
+  product.pass(n_, with_image ? 7 : 5, [&](Rows rows) {
+    du_.assign_rows(at, factor, pair.du, rows);
+    y_.assign_rows(at, factor, pair.dr, rows);
+    if (with_image) image_.assign_rows(at, factor, *pair.image, rows);
+    y_.copy_rows(at, rows, work_);
+  });
+}
+
+void SecantMemory::add(const Pair& pair, double max_condition, const InnerProductRef& product) {
+  next_known_ = false;
+  if (!(pair.length > 0.0) || !std::isfinite(pair.length)) return;
   const bool is_full = size_ == capacity_;
   if (is_full) drop_oldest();
-  const std::size_t at = slot(size_);
-  du_.assign(at, 1.0 / length, du, product);
-  y_.assign(at, 1.0 / length, dr, product);
-  if (image == nullptr) images_are_old_ = true;
-  if (with_images_ && !images_are_old_) image_.assign(at, 1.0 / length, *image, product);
-  // As it is kept, so that the Gram matrix is one whatever the rounding.
-  y_.copy_to(at, work_, product);
-  columns(y_, size_ + 1).dots(product, work_, gram_.col(size_).data());
+  if (pair.image == nullptr) images_are_old_ = true;
+  store(pair, slot(size_), product);
+  const auto count = static_cast<std::size_t>(size_) + 1;
+  const std::array<Products, 2> products{
+      {{&work_, {gram_.col(size_).data(), count}}, {pair.next, {next_.data(), count}}}};
+  next_known_ = pair.next != nullptr;
+  columns(y_, size_ + 1).dots(product, std::span(products).first(next_known_ ? 2 : 1));
   bool fits = is_full ? factorise(size_ + 1, max_condition) : extend_factor(size_, max_condition);
   ++size_;
   while (!fits) {
@@ -56,6 +73,7 @@ bool SecantMemory::append(const Vector& du, const ColumnList& q,
                           const InnerProductRef& product) {
   const double length = column.norm();
   if (size_ == capacity_ || !(length > 0.0) || !std::isfinite(length)) return false;
+  next_known_ = false;
   r_.col(size_).head(size_ + 1) = column / length;
   if (!well_conditioned(size_ + 1, max_condition)) return false;
   gram_.col(size_).head(size_ + 1).noalias() =
@@ -82,7 +100,7 @@ void SecantMemory::begin_with(const Eigen::MatrixXf& du, const Eigen::MatrixXf& 
   for (Eigen::Index j = std::max<Eigen::Index>(du.cols() - capacity_, 0); j < du.cols(); ++j) {
     step = du.col(j).cast<double>();
     change = dr.col(j).cast<double>();
-    add(step, change, max_condition, product);
+    add({step, change, product.norm(change)}, max_condition, product);
   }
   given_ = size_;
 }
@@ -101,9 +119,13 @@ void SecantMemory::copy_latest(int count, Eigen::MatrixXf& du, Eigen::MatrixXf& 
 }
 
 // The first `count` columns of a store, oldest first.
+void SecantMemory::list_columns(const ColumnStore& store, int count, ColumnList& list) const {
+  list.clear();
+  for (int j = 0; j < count; ++j) list.add(store, slot(j));
+}
+
 const ColumnList& SecantMemory::columns(const ColumnStore& store, int count) {
-  list_.clear();
-  for (int j = 0; j < count; ++j) list_.add(store, slot(j));
+  list_columns(store, count, list_);
   return list_;
 }
 
@@ -136,6 +158,7 @@ void SecantMemory::drop_oldest() {
   first_ = (first_ + 1) % capacity_;
   for (int j = 0; j < size_; ++j) {
     for (int i = 0; i <= j; ++i) gram_(i, j) = gram_(i + 1, j + 1);
+    next_[j] = next_[j + 1];
   }
 }
 
@@ -146,28 +169,44 @@ void SecantMemory::find_gamma() {
   triangle.solveInPlace(gamma_.head(size_));
 }
 
-void SecantMemory::project(const Vector& r, Vector& step, Vector& remainder,
-                           const InnerProductRef& product) {
-  const ColumnList& ys = columns(y_, size_);
-  ys.dots(product, r, gamma_.data());
-  find_gamma();
-  factors_.head(size_) = -gamma_.head(size_);
-  assign(product, remainder, r);
-  ys.combine(product, 1.0, factors_.data(), remainder);
-  step.resize(n_);
-  columns(du_, size_).combine(product, 0.0, factors_.data(), step);
+// gamma_ = Y^T r.
+void SecantMemory::find_products(const Vector& r, const InnerProductRef& product) {
+  if (next_known_) {
+    gamma_.head(size_) = next_.head(size_);
+  } else {
+    columns(y_, size_).dots(product, r, gamma_.data());
+  }
 }
 
-void SecantMemory::invert(const Vector& r, const Vector& image, double mixing, Vector& z,
-                          const InnerProductRef& product) {
-  columns(y_, size_).dots(product, r, gamma_.data());
+void SecantMemory::project(const Vector& r, Vector& step, Vector& remainder,
+                           const InnerProductRef& product) {
+  find_products(r, product);
   find_gamma();
-  factors_.head(size_) = -mixing * gamma_.head(size_);
-  factors_.segment(size_, size_) = gamma_.head(size_);
-  (void)columns(with_images_ ? image_ : y_, size_);
+  factors_.head(size_) = -gamma_.head(size_);
+  list_columns(y_, size_, list_);
+  list_columns(du_, size_, steps_);
+  remainder.resize(n_);
+  step.resize(n_);
+  product.pass(n_, 2 * size_ + 3, [&](Rows rows) {
+    rows.of(remainder) = rows.of(r);
+    list_.combine_rows(rows, 1.0, factors_.data(), remainder);
+    steps_.combine_rows(rows, 0.0, factors_.data(), step);
+  });
+}
+
+void SecantMemory::invert(const Vector& r, const Vector& image, double mixing, double sign,
+                          Vector& z, const InnerProductRef& product) {
+  find_products(r, product);
+  find_gamma();
+  factors_.head(size_) = -sign * mixing * gamma_.head(size_);
+  factors_.segment(size_, size_) = sign * gamma_.head(size_);
+  list_columns(with_images_ ? image_ : y_, size_, list_);
   for (int j = 0; j < size_; ++j) list_.add(du_, slot(j));
-  assign(product, z, image);
-  list_.combine(product, mixing, factors_.data(), z);
+  z.resize(n_);
+  product.pass(n_, 2 * size_ + 2, [&](Rows rows) {
+    rows.of(z) = rows.of(image);
+    list_.combine_rows(rows, sign * mixing, factors_.data(), z);
+  });
 }
 
 }  // namespace jfnk::detail

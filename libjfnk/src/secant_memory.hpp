@@ -42,12 +42,22 @@ class SecantMemory {
     images_are_old_ = false;
   }
 
+  /// A pair to be added.
+  struct Pair {
+    const Vector& du;
+    const Vector& dr;
+    double length;                  ///< ||dr||
+    const Vector* image = nullptr;  ///< P dr, if images are kept; without it they are to be renewed
+    /// What `project` is asked for next: its products with the columns are found on the way.
+    const Vector* next = nullptr;
+  };
   /// Adds a pair, dropping the oldest ones for room and until max |R_ii| / min |R_ii| is at most
   /// `max_condition`. A pair with dr = 0 or a NaN is ignored.
-  /// Cost: 2 n size() flops, one sum of inner products. Allocates if so many pairs were never held.
-  /// @param image  P dr, if images are kept; without it they are to be renewed
-  void add(const Vector& du, const Vector& dr, double max_condition, const InnerProductRef& product,
-           const Vector* image = nullptr);
+  /// Cost: 2 n size() flops, twice that with `next`; each column read once. Allocates if so many
+  /// pairs were never held.
+  void add(const Pair& pair, double max_condition, const InnerProductRef& product);
+  /// Tells that `next` of the last pair is another vector by now.
+  void forget_next() { next_known_ = false; }
 
   /// Begins anew with pairs whose factors are known: clear, then `append` oldest first.
   /// @param du  change of u
@@ -74,10 +84,11 @@ class SecantMemory {
   /// Cost: 6 n size() flops. No allocation.
   void project(const Vector& r, Vector& step, Vector& remainder, const InnerProductRef& product);
 
-  /// z = dU gamma + mixing P (r - Y gamma) without applying P, by the images; with P = 1 if there
-  /// are none. Cost: 6 n size() flops, each column read once. No allocation.
+  /// z = sign (dU gamma + mixing P (r - Y gamma)) without applying P, by the images; with P = 1 if
+  /// there are none. Cost: 6 n size() flops, each column read once. No allocation.
   /// @param image  P r; r if there are no images
-  void invert(const Vector& r, const Vector& image, double mixing, Vector& z,
+  /// @param sign  1 or -1
+  void invert(const Vector& r, const Vector& image, double mixing, double sign, Vector& z,
               const InnerProductRef& product);
 
   /// Calls `walk` on every number that decides what follows, for saving and loading; `resize` must
@@ -127,7 +138,10 @@ class SecantMemory {
   bool factorise(int size, double max_condition);
   [[nodiscard]] bool well_conditioned(int size, double max_condition) const;
   void drop_oldest();
+  void list_columns(const ColumnStore& store, int count, ColumnList& list) const;
   const ColumnList& columns(const ColumnStore& store, int count);
+  void store(const Pair& pair, std::size_t at, const InnerProductRef& product);
+  void find_products(const Vector& r, const InnerProductRef& product);
   void find_gamma();
 
   Eigen::Index n_ = 0;
@@ -146,7 +160,10 @@ class SecantMemory {
   Vector image_work_;  // while images are renewed
   Eigen::VectorXd factors_;
   Eigen::VectorXd gamma_;
+  bool next_known_ = false;
+  Eigen::VectorXd next_;  // Y^T `next`
   ColumnList list_;
+  ColumnList steps_;
 };
 
 }  // namespace jfnk::detail

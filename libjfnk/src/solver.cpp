@@ -30,8 +30,11 @@ Ending Solve::accept_base(const Iteration& line) const {
   // The reference norm may vary, so that a point which meets the tolerance need not have the lowest
   // norm.
   if (converged || work.base.norm < work.best.norm) {
-    assign(evaluator.product(), work.best.u, work.base.u);
-    assign(evaluator.product(), work.best.r, work.base.r);
+    work.best.resize(work.base.u.size());
+    evaluator.product().pass(work.base.u.size(), 4, [&](Rows rows) {
+      rows.of(work.best.u) = rows.of(work.base.u);
+      rows.of(work.best.r) = rows.of(work.base.r);
+    });
     work.best.norm = work.base.norm;
     work.best.reference = work.base.reference;
   }

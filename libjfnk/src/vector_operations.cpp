@@ -31,7 +31,7 @@ void dots_of_rows(Rows rows, Columns columns, const Vector& w, std::span<double>
 }
 
 template <class Columns>
-void combine_rows(Rows rows, double own, Columns columns, std::span<const double> factors,
+void combine_some(Rows rows, double own, Columns columns, std::span<const double> factors,
                   Vector& w) {
   double* const to = w.data() + rows.begin;
   if (own == 0.0) {
@@ -52,19 +52,34 @@ void combine_rows(Rows rows, double own, Columns columns, std::span<const double
 
 // Sums of one thread, without memory.
 template <class Columns>
-void dots_here(Columns columns, const Vector& w, std::span<double> sums) {
-  std::fill_n(sums.begin(), columns.size(), 0.0);
+void dots_here(Columns columns, const Products& products) {
+  const Vector& w = *products.with;
+  std::fill_n(products.sums.begin(), columns.size(), 0.0);
   std::array<double, strip> part{};
   for (std::size_t begin = 0; begin < columns.size(); begin += strip) {
     const std::size_t count = std::min(strip, columns.size() - begin);
     for (Eigen::Index block = 0; block < blocks_of(w.size()); ++block) {
       dots_of_rows(rows_of(block, w.size()), columns.subspan(begin, count), w, part);
-      for (std::size_t j = 0; j < count; ++j) sums[begin + j] += part[j];
+      for (std::size_t j = 0; j < count; ++j) products.sums[begin + j] += part[j];
     }
   }
 }
 
+double square_of_rows(Rows rows, const Vector& v) {
+  return detail::dot_one(rows.count, v.data() + rows.begin, v.data() + rows.begin);
+}
+
 }  // namespace
+
+void combine_rows(Rows rows, double own, Vectors columns, std::span<const double> factors,
+                  Vector& w) {
+  combine_some(rows, own, columns, factors, w);
+}
+
+void combine_rows(Rows rows, double own, SingleVectors columns, std::span<const double> factors,
+                  Vector& w) {
+  combine_some(rows, own, columns, factors, w);
+}
 
 bool InnerProductRef::is_safe_square(double square) {
   // Squares of entries beyond these bounds overflow or lose digits to underflow.
@@ -80,12 +95,39 @@ double InnerProductRef::dot(const Vector& a, const Vector& b) const {
   return sum;
 }
 
-double InnerProductRef::norm(const Vector& a) const {
-  const double square = dot(a, a);
+double InnerProductRef::norm_of(const Vector& a, double square) const {
   // Eigen's stableNorm may step over a NaN.
   if (std::isnan(square)) return square;
   if (dot_ == nullptr && !is_safe_square(square)) return a.stableNorm();
   return std::sqrt(square);
+}
+
+double InnerProductRef::norm(const Vector& a) const {
+  return norm_of(a, dot(a, a));
+}
+
+void InnerProductRef::work_and_norms(Eigen::Index n, Eigen::Index numbers_per_row, BlockWork work,
+                                     Vectors vectors, std::span<double> norms) const {
+  if (dot_ != nullptr) {
+    share_out(n, numbers_per_row * n, work);
+    for (std::size_t j = 0; j < vectors.size(); ++j) norms[j] = norm(*vectors[j]);
+    return;
+  }
+  const auto blocks = static_cast<std::size_t>(blocks_of(n));
+  const std::span<double> squares = sums_of_blocks(blocks * vectors.size());
+  const auto work_and_squares = [&](Eigen::Index block) {
+    work(block);
+    for (std::size_t j = 0; j < vectors.size(); ++j) {
+      squares[j * blocks + static_cast<std::size_t>(block)] =
+          square_of_rows(rows_of(block, n), *vectors[j]);
+    }
+  };
+  share_out(n, numbers_per_row * n, BlockWork(work_and_squares));
+  for (std::size_t j = 0; j < vectors.size(); ++j) {
+    double square = 0.0;
+    for (const double part : squares.subspan(j * blocks, blocks)) square += part;
+    norms[j] = norm_of(*vectors[j], square);
+  }
 }
 
 void InnerProductRef::share_out(Eigen::Index n, Eigen::Index numbers, BlockWork work) const {
@@ -93,28 +135,42 @@ void InnerProductRef::share_out(Eigen::Index n, Eigen::Index numbers, BlockWork 
   for (Eigen::Index block = 0; block < blocks_of(n); ++block) work(block);
 }
 
+std::span<double> InnerProductRef::sums_of_blocks(std::size_t count) const {
+  if (block_sums_.size() < count) block_sums_.resize(count);
+  return {block_sums_.data(), count};
+}
+
 // Sums of the blocks, whoever made them, are added up in the blocks' order.
 template <class Columns>
-void InnerProductRef::dots_by_blocks(Columns columns, const Vector& w,
-                                     std::span<double> sums) const {
-  const Eigen::Index n = w.size();
-  if (share_out_ == nullptr) return dots_here(columns, w, sums);
+void InnerProductRef::dots_by_blocks(Columns columns, std::span<const Products> products) const {
+  if (share_out_ == nullptr) {
+    for (const Products& each : products) dots_here(columns, each);
+    return;
+  }
+  const Eigen::Index n = products.front().with->size();
   const auto blocks = static_cast<std::size_t>(blocks_of(n));
-  if (block_sums_.size() < blocks * strip) block_sums_.resize(blocks * strip);
+  const std::size_t of_block = strip * products.size();
+  const std::span<double> all = sums_of_blocks(blocks * of_block);
   for (std::size_t begin = 0; begin < columns.size(); begin += strip) {
     const std::size_t count = std::min(strip, columns.size() - begin);
     const Columns some = columns.subspan(begin, count);
-    const auto part = [&](std::size_t block) {
-      return std::span<double>(block_sums_).subspan(block * strip, count);
+    const auto part = [&](std::size_t block, std::size_t k) {
+      return all.subspan(block * of_block + k * strip, count);
     };
     const auto work = [&](Eigen::Index block) {
-      dots_of_rows(rows_of(block, n), some, w, part(static_cast<std::size_t>(block)));
+      for (std::size_t k = 0; k < products.size(); ++k) {
+        dots_of_rows(rows_of(block, n), some, *products[k].with,
+                     part(static_cast<std::size_t>(block), k));
+      }
     };
-    share_out(n, static_cast<Eigen::Index>(count + 1) * n, BlockWork(work));
-    const std::span<double> total = sums.subspan(begin, count);
-    std::fill(total.begin(), total.end(), 0.0);
-    for (std::size_t block = 0; block < blocks; ++block) {
-      for (std::size_t j = 0; j < count; ++j) total[j] += part(block)[j];
+    const auto vectors = static_cast<Eigen::Index>(count + products.size());
+    share_out(n, vectors * n, BlockWork(work));
+    for (std::size_t k = 0; k < products.size(); ++k) {
+      const std::span<double> total = products[k].sums.subspan(begin, count);
+      std::fill(total.begin(), total.end(), 0.0);
+      for (std::size_t block = 0; block < blocks; ++block) {
+        for (std::size_t j = 0; j < count; ++j) total[j] += part(block, k)[j];
+      }
     }
   }
 }
@@ -123,20 +179,40 @@ template <class Columns>
 void InnerProductRef::combine_by_blocks(double own, Columns columns,
                                         std::span<const double> factors, Vector& w) const {
   pass(w.size(), static_cast<Eigen::Index>(columns.size()) + 1,
-       [&](Rows rows) { combine_rows(rows, own, columns, factors, w); });
+       [&](Rows rows) { combine_some(rows, own, columns, factors, w); });
 }
 
 void InnerProductRef::dots(Vectors columns, const Vector& w, std::span<double> sums) const {
-  if (dots_ != nullptr) return dots_(object_, columns, w, sums);
-  if (dot_ == nullptr) return dots_by_blocks(columns, w, sums);
-  for (std::size_t j = 0; j < columns.size(); ++j) sums[j] = dot_(object_, *columns[j], w);
+  const Products one{&w, sums};
+  dots(columns, {&one, 1});
 }
 
 void InnerProductRef::dots(SingleVectors columns, const Vector& w, std::span<double> sums) const {
-  if (single_dots_ != nullptr) return single_dots_(object_, columns, w, sums);
-  if (dot_ == nullptr) return dots_by_blocks(columns, w, sums);
-  for (std::size_t j = 0; j < columns.size(); ++j) {
-    sums[j] = dot_(object_, columns[j]->cast<double>(), w);
+  const Products one{&w, sums};
+  dots(columns, {&one, 1});
+}
+
+void InnerProductRef::dots(Vectors columns, std::span<const Products> products) const {
+  if (dot_ == nullptr) return dots_by_blocks(columns, products);
+  for (const auto& [w, sums] : products) {
+    if (dots_ != nullptr) {
+      dots_(object_, columns, *w, sums);
+      continue;
+    }
+    for (std::size_t j = 0; j < columns.size(); ++j) sums[j] = dot_(object_, *columns[j], *w);
+  }
+}
+
+void InnerProductRef::dots(SingleVectors columns, std::span<const Products> products) const {
+  if (dot_ == nullptr) return dots_by_blocks(columns, products);
+  for (const auto& [w, sums] : products) {
+    if (single_dots_ != nullptr) {
+      single_dots_(object_, columns, *w, sums);
+      continue;
+    }
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      sums[j] = dot_(object_, columns[j]->cast<double>(), *w);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <array>
 #include <random>
 
 #include "equilibrium/equilibrium.hpp"
@@ -65,6 +66,17 @@ std::vector<Vector> everything(const InnerProductRef& operations, Eigen::Index n
   results.push_back(sums);
   operations.combine(-0.7, set.single_columns, set.weights(), w);
   results.push_back(w);
+  Vector others(static_cast<Eigen::Index>(count));
+  const std::array<jfnk::Products, 2> both{
+      {{&set.w, {sums.data(), count}}, {&w, {others.data(), count}}}};
+  operations.dots(set.columns, both);
+  results.push_back(sums);
+  results.push_back(others);
+  Vector norms(2);
+  const std::array<const Vector*, 2> measured{&w, &set.w};
+  operations.pass(n, 2, [&](jfnk::Rows rows) { rows.of(w) *= 3.0; }, measured, {norms.data(), 2});
+  results.push_back(w);
+  results.push_back(norms);
   return results;
 }
 

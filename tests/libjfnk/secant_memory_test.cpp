@@ -30,6 +30,10 @@ class Randoms {
   std::normal_distribution<double> normal_;
 };
 
+void add(SecantMemory& memory, const Vector& du, const Vector& dr, const Vector* image = nullptr) {
+  memory.add({du, dr, euclidean.norm(dr), image}, loose_condition, euclidean);
+}
+
 /// The columns that a memory holds.
 Eigen::MatrixXd columns_of(const SecantMemory& memory, int n) {
   Eigen::MatrixXd Y(n, memory.size());
@@ -52,7 +56,7 @@ TEST(SecantMemory, ProjectionIsTheLeastSquaresSolutionOfTheLastPairs) {
   for (int k = 0; k < 25; ++k) {
     dus.push_back(random.vector(n));
     drs.push_back(std::pow(10.0, -k) * random.vector(n));
-    memory.add(dus.back(), drs.back(), loose_condition, euclidean);
+    add(memory, dus.back(), drs.back());
     const int kept = std::min(k + 1, capacity);
     ASSERT_EQ(memory.size(), kept);
     Eigen::MatrixXd dU(n, kept);
@@ -85,7 +89,7 @@ TEST(SecantMemory, KnowsHowManyOfThoseGivenAreLeft) {
   }
   memory.begin_with(du, dr, loose_condition, euclidean);
   for (int added = 1; added <= 7; ++added) {
-    memory.add(random.vector(n), random.vector(n), loose_condition, euclidean);
+    add(memory, random.vector(n), random.vector(n));
     EXPECT_EQ(memory.given(), std::clamp(capacity - added, 0, given)) << added;
   }
 }
@@ -100,7 +104,7 @@ TEST(SecantMemory, IsAsGoodAfterAThousandUpdatesAsItsConditionAllows) {
     Vector drift = random.vector(n);
     for (int k = 0; k < updates; ++k) {
       drift += 0.05 * random.vector(n);  // successive columns nearly parallel
-      memory.add(drift, drift, loose_condition, euclidean);
+      add(memory, drift, drift);
     }
     ASSERT_EQ(memory.size(), 10);
     const Eigen::MatrixXd Y = columns_of(memory, n);
@@ -130,8 +134,8 @@ TEST(SecantMemory, RoundsPairsToSinglePrecisionAndNothingElse) {
   for (int k = 0; k < 20; ++k) {
     const Vector du = random.vector(n);
     const Vector dr = random.vector(n);
-    exact.add(du, dr, loose_condition, euclidean);
-    rounded.add(du, dr, loose_condition, euclidean);
+    add(exact, du, dr);
+    add(rounded, du, dr);
   }
   const Eigen::MatrixXd Y = columns_of(exact, n);
   const Eigen::MatrixXd rounded_Y = columns_of(rounded, n);
@@ -202,10 +206,10 @@ TEST(SecantMemory, DropsOldPairsThatMakeTheColumnsDependent) {
   memory.resize(20, 5);
   const Vector first = random.vector(20);
   const Vector second = random.vector(20);
-  memory.add(first, first, loose_condition, euclidean);
-  memory.add(second, second, loose_condition, euclidean);
+  add(memory, first, first);
+  add(memory, second, second);
   const Vector repeated = second + 1e-12 * first;
-  memory.add(repeated, 2.0 * repeated, loose_condition, euclidean);
+  add(memory, repeated, 2.0 * repeated);
   EXPECT_EQ(memory.size(), 1);
   Vector step(20);
   Vector remainder(20);
@@ -216,9 +220,8 @@ TEST(SecantMemory, DropsOldPairsThatMakeTheColumnsDependent) {
 TEST(SecantMemory, IgnoresPairsWithoutADifference) {
   SecantMemory memory;
   memory.resize(4, 3);
-  memory.add(Vector::Ones(4), Vector::Zero(4), loose_condition, euclidean);
-  memory.add(Vector::Ones(4), Vector::Constant(4, std::numeric_limits<double>::quiet_NaN()),
-             loose_condition, euclidean);
+  add(memory, Vector::Ones(4), Vector::Zero(4));
+  add(memory, Vector::Ones(4), Vector::Constant(4, std::numeric_limits<double>::quiet_NaN()));
   EXPECT_EQ(memory.size(), 0);
 }
 
@@ -227,7 +230,7 @@ TEST(SecantMemory, HoldsNoMorePairsThanUnknowns) {
   SecantMemory memory;
   memory.resize(3, 20);
   for (int k = 0; k < 10; ++k) {
-    memory.add(random.vector(3), random.vector(3), loose_condition, euclidean);
+    add(memory, random.vector(3), random.vector(3));
   }
   EXPECT_LE(memory.size(), 3);
   const Vector r = random.vector(3);
@@ -252,7 +255,7 @@ TEST(SecantMemory, ImagesAreThoseOfTheColumnsThroughAHundredPairs) {
     Vector z(n);
     Vector step(n);
     Vector remainder(n);
-    memory.invert(r, P * r, mixing, z, euclidean);
+    memory.invert(r, P * r, mixing, 1.0, z, euclidean);
     memory.project(r, step, remainder, euclidean);
     const Vector expected = mixing * (P * remainder) - step;
     EXPECT_LE((z - expected).norm(), tolerance * (P.norm() * r.norm() + step.norm())) << k;
@@ -260,15 +263,51 @@ TEST(SecantMemory, ImagesAreThoseOfTheColumnsThroughAHundredPairs) {
   for (int k = 0; k < 100; ++k) {
     const Vector dr = random.vector(n);
     const Vector image = P * dr;
-    memory.add(random.vector(n), dr, loose_condition, euclidean, &image);
+    add(memory, random.vector(n), dr, &image);
     expect_projection(k);
   }
   P = Eigen::MatrixXd::Random(n, n);
   memory.forget_images();
   ASSERT_TRUE(memory.images_are_old());
-  memory.add(random.vector(n), random.vector(n), loose_condition, euclidean);
+  add(memory, random.vector(n), random.vector(n));
   memory.renew_images([&](const Vector& y, Vector& z) { z = P * y; });
   expect_projection(100);
+}
+
+/// Of two memories given the same pairs, one is told beforehand what it will be asked for.
+TEST(SecantMemory, ProductsFoundOnTheWayAreThoseFoundWhenAsked) {
+  constexpr int n = 40;
+  Randoms random;
+  SecantMemory told;
+  SecantMemory asked;
+  for (SecantMemory* memory : {&told, &asked}) memory->resize(n, 6, true);
+  const auto project = [](SecantMemory& memory, const Vector& r) {
+    Vector step;
+    Vector remainder;
+    memory.project(r, step, remainder, euclidean);
+    return step;
+  };
+  const auto add_to_both = [&](const Vector& dr, const Vector& next) {
+    const Vector du = random.vector(n);
+    told.add({.du = du, .dr = dr, .length = dr.norm(), .next = &next}, loose_condition, euclidean);
+    asked.add({.du = du, .dr = dr, .length = dr.norm()}, loose_condition, euclidean);
+  };
+  const Vector drift = random.vector(n);
+  for (int k = 0; k < 30; ++k) {
+    // Some that hardly differ from the one before, which makes older ones go.
+    const Vector dr = k % 4 == 3 ? Vector(drift + 1e-7 * random.vector(n)) : random.vector(n);
+    const Vector next = random.vector(n);
+    add_to_both(dr, next);
+    ASSERT_EQ(told.size(), asked.size());
+    EXPECT_EQ(project(told, next), project(asked, next)) << k;
+  }
+  const Vector another = random.vector(n);
+  add_to_both(random.vector(n), random.vector(n));
+  told.forget_next();
+  EXPECT_EQ(project(told, another), project(asked, another));
+  add_to_both(random.vector(n), random.vector(n));
+  add_to_both(Vector::Zero(n), another);  // no pair
+  EXPECT_EQ(project(told, another), project(asked, another));
 }
 
 TEST(SecantMemory, WithoutImagesInvertsByTheIdentity) {
@@ -277,13 +316,16 @@ TEST(SecantMemory, WithoutImagesInvertsByTheIdentity) {
   SecantMemory memory;
   memory.resize(n, 5);
   for (int k = 0; k < 5; ++k) {
-    memory.add(random.vector(n), random.vector(n), loose_condition, euclidean);
+    add(memory, random.vector(n), random.vector(n));
   }
   const Vector r = random.vector(n);
   Vector z(n);
   Vector step(n);
   Vector remainder(n);
-  memory.invert(r, r, 0.5, z, euclidean);
+  memory.invert(r, r, 0.5, 1.0, z, euclidean);
+  Vector negative(n);
+  memory.invert(r, r, 0.5, -1.0, negative, euclidean);
+  EXPECT_EQ(negative, -z);
   memory.project(r, step, remainder, euclidean);
   EXPECT_LE((z - (0.5 * remainder - step)).norm(), 1e4 * rounding_unit * (r.norm() + step.norm()));
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <random>
 #include <thread>
@@ -56,6 +57,41 @@ TEST(VectorOperations, SumsAreInnerProductsHoweverManyAtOnce) {
         EXPECT_EQ(sums[j], product.dot(column, set.w)) << n << " rows, column " << j;
       }
     }
+  }
+}
+
+TEST(VectorOperations, SeveralVectorsHaveTheProductsOfEach) {
+  constexpr int n = 2500;
+  const Set set(n, 35);
+  const Vector other = 2.0 * set.w + set.vectors.front();
+  Vector first(35), second(35), expected(35);
+  const std::array<jfnk::Products, 2> both{
+      {{&set.w, {first.data(), 35}}, {&other, {second.data(), 35}}}};
+  InnerProductRef().dots(set.columns, both);
+  InnerProductRef().dots(set.columns, set.w, {expected.data(), 35});
+  EXPECT_EQ(first, expected);
+  InnerProductRef().dots(set.columns, other, {expected.data(), 35});
+  EXPECT_EQ(second, expected);
+}
+
+TEST(VectorOperations, NormsAfterAPassAreThoseOfWhatItLeft) {
+  constexpr int n = 2500;
+  const Set set(n, 1);
+  const InnerProductRef operations;
+  // The squares of the last two overflow or vanish.
+  std::array<Vector, 3> to{Vector(n), Vector(n), Vector(n)};
+  const std::array<double, 3> factor{1.0, 1e200, 1e-200};
+  std::array<double, 3> norms{};
+  const std::array<const Vector*, 3> measured{&to[0], &to[1], &to[2]};
+  operations.pass(
+      n, 4,
+      [&](jfnk::Rows rows) {
+        for (std::size_t k = 0; k < to.size(); ++k) rows.of(to[k]) = factor[k] * rows.of(set.w);
+      },
+      measured, norms);
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    EXPECT_EQ(norms[k], operations.norm(to[k])) << k;
+    EXPECT_NEAR(norms[k] / factor[k], set.w.norm(), 1e-13 * set.w.norm()) << k;
   }
 }
 

@@ -18,5 +18,6 @@
 #include "fpm/rows.hpp"
 #include "fpm/stencil.hpp"
 #include "fpm/subpoints.hpp"
+#include "fpm/threads.hpp"
 #include "fpm/types.hpp"
 #include "fpm/viscosity.hpp"

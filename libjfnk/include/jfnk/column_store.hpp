@@ -16,6 +16,12 @@ class ColumnStore {
   /// Slot = factor v, rounded to the precision it is kept in.
   void assign(std::size_t slot, double factor, const Vector& v,
               const InnerProductRef& product = {});
+  /// Slot = factor v, and `kept` what it then holds, both of some rows: to be called for all of
+  /// them, from whichever threads, after `reserve`.
+  void assign_rows(std::size_t slot, double factor, const Vector& v, Rows rows);
+  void copy_rows(std::size_t slot, Rows rows, Vector& kept) const;
+  /// Allocates a slot for n numbers.
+  void reserve(std::size_t slot, Eigen::Index n);
   /// Turns slots i, i + 1: (a, b) becomes (c a + s b, c b - s a).
   void rotate(std::size_t i, double c, double s, const InnerProductRef& product = {});
   /// What is in a slot. @param[out] v  resized
@@ -52,8 +58,12 @@ class ColumnList {
   [[nodiscard]] std::size_t size() const { return doubles_.size() + singles_.size(); }
   /// sums[j] = <column j, w>.
   void dots(const InnerProductRef& product, const Vector& w, double* sums) const;
+  /// The same with several vectors.
+  void dots(const InnerProductRef& product, std::span<const Products> products) const;
   /// w = own w + sum_j factors[j] column j; w is not read if own = 0.
   void combine(const InnerProductRef& product, double own, const double* factors, Vector& w) const;
+  /// Some rows of that.
+  void combine_rows(Rows rows, double own, const double* factors, Vector& w) const;
 
  private:
   std::vector<const Vector*> doubles_;

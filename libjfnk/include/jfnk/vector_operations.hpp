@@ -66,6 +66,12 @@ class BlockWork {
   void (*work_)(const void*, Eigen::Index);
 };
 
+/// A vector, and where its products with some columns go.
+struct Products {
+  const Vector* with;
+  std::span<double> sums;
+};
+
 /// A residual with its own inner product, as vectors spread over processes need.
 template <class F>
 concept HasInnerProduct = requires(const F& f, const Vector& a, const Vector& b) {
@@ -94,6 +100,12 @@ template <class F>
 concept HasShareOut = requires(const F& f, Eigen::Index n, BlockWork work) {
   f.share_out(n, n, work);
 };
+
+/// w = own w + sum_j factors[j] columns[j], of some rows; w is not read if own = 0.
+void combine_rows(Rows rows, double own, Vectors columns, std::span<const double> factors,
+                  Vector& w);
+void combine_rows(Rows rows, double own, SingleVectors columns, std::span<const double> factors,
+                  Vector& w);
 
 /// Non-owning view of an inner product and of what else is done with vectors; the Euclidean one on
 /// one thread when default constructed. One thread at a time may use it.
@@ -133,10 +145,13 @@ class InnerProductRef {
   /// sums[j] = <columns[j], w>. Cost: one pass over each. No allocation, but with `share_out` once
   /// for the sums of blocks.
   void dots(Vectors columns, const Vector& w, std::span<double> sums) const;
+  /// The same with several vectors, each column being read once.
+  void dots(Vectors columns, std::span<const Products> products) const;
   /// w = own w + sum_j factors[j] columns[j]; w is not read if own = 0. Cost: one pass over each.
   void combine(double own, Vectors columns, std::span<const double> factors, Vector& w) const;
-  /// Both of vectors in single precision.
+  /// All of them of columns in single precision.
   void dots(SingleVectors columns, const Vector& w, std::span<double> sums) const;
+  void dots(SingleVectors columns, std::span<const Products> products) const;
   void combine(double own, SingleVectors columns, std::span<const double> factors, Vector& w) const;
 
   /// Calls work(rows) for all blocks of n rows, on the residual's threads if it has any.
@@ -147,13 +162,26 @@ class InnerProductRef {
     share_out(n, vectors * n, BlockWork(of_block));
   }
 
+  /// The same, and then norms[j] = `norm` of vectors[j], of which each block is read when the work
+  /// on it is done.
+  template <class Work>
+  void pass(Eigen::Index n, Eigen::Index numbers_per_row, const Work& work, Vectors vectors,
+            std::span<double> norms) const {
+    const auto of_block = [&](Eigen::Index block) { work(rows_of(block, n)); };
+    work_and_norms(n, numbers_per_row, BlockWork(of_block), vectors, norms);
+  }
+
   /// Whether a sum of squares is one of which the root is the norm, free of overflow and underflow.
   [[nodiscard]] static bool is_safe_square(double square);
 
  private:
   void share_out(Eigen::Index n, Eigen::Index numbers, BlockWork work) const;
+  void work_and_norms(Eigen::Index n, Eigen::Index numbers_per_row, BlockWork work, Vectors vectors,
+                      std::span<double> norms) const;
+  [[nodiscard]] double norm_of(const Vector& a, double square) const;
   template <class Columns>
-  void dots_by_blocks(Columns columns, const Vector& w, std::span<double> sums) const;
+  void dots_by_blocks(Columns columns, std::span<const Products> products) const;
+  std::span<double> sums_of_blocks(std::size_t count) const;
   template <class Columns>
   void combine_by_blocks(double own, Columns columns, std::span<const double> factors,
                          Vector& w) const;
