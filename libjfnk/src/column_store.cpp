@@ -46,6 +46,14 @@ void ColumnStore::copy_rows(std::size_t slot, Rows rows, Vector& kept) const {
   }
 }
 
+void ColumnStore::copy_rows(std::size_t slot, Rows rows, Eigen::Ref<SingleVector> kept) const {
+  if (is_single_) {
+    kept = rows.of(singles_[slot]);
+  } else {
+    kept = rows.of(doubles_[slot]).cast<float>();
+  }
+}
+
 void ColumnStore::assign(std::size_t slot, double factor, const Vector& v,
                          const InnerProductRef& product) {
   reserve(slot, v.size());

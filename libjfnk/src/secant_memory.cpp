@@ -96,26 +96,34 @@ bool SecantMemory::append(const Vector& du, const ColumnList& q,
 void SecantMemory::begin_with(const Eigen::MatrixXf& du, const Eigen::MatrixXf& dr,
                               double max_condition, const InnerProductRef& product) {
   clear(with_images_);
-  Vector step, change;
+  Vector step(n_), change(n_);
+  const Vector* const measured = &change;
   for (Eigen::Index j = std::max<Eigen::Index>(du.cols() - capacity_, 0); j < du.cols(); ++j) {
-    step = du.col(j).cast<double>();
-    change = dr.col(j).cast<double>();
-    add({step, change, product.norm(change)}, max_condition, product);
+    double length = 0.0;
+    product.pass(
+        n_, 3,
+        [&](Rows rows) {
+          rows.of(step) = du.col(j).segment(rows.begin, rows.count).cast<double>();
+          rows.of(change) = dr.col(j).segment(rows.begin, rows.count).cast<double>();
+        },
+        {&measured, 1}, {&length, 1});
+    add({step, change, length}, max_condition, product);
   }
   given_ = size_;
 }
 
-void SecantMemory::copy_latest(int count, Eigen::MatrixXf& du, Eigen::MatrixXf& dr) const {
+void SecantMemory::copy_latest(int count, Eigen::MatrixXf& du, Eigen::MatrixXf& dr,
+                               const InnerProductRef& product) const {
   const int kept = std::clamp(count, 0, size_);
   du.resize(n_, kept);
   dr.resize(n_, kept);
-  Vector column;
-  for (int j = 0; j < kept; ++j) {
-    du_.copy_to(slot(size_ - kept + j), column);
-    du.col(j) = column.cast<float>();
-    y_.copy_to(slot(size_ - kept + j), column);
-    dr.col(j) = column.cast<float>();
-  }
+  product.pass(n_, 2 * kept, [&](Rows rows) {
+    for (int j = 0; j < kept; ++j) {
+      const std::size_t at = slot(size_ - kept + j);
+      du_.copy_rows(at, rows, du.col(j).segment(rows.begin, rows.count));
+      y_.copy_rows(at, rows, dr.col(j).segment(rows.begin, rows.count));
+    }
+  });
 }
 
 // The first `count` columns of a store, oldest first.

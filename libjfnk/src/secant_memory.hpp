@@ -78,7 +78,8 @@ class SecantMemory {
   [[nodiscard]] int given() const { return given_; }
   /// The latest pairs, oldest first, as they are kept.
   /// @param[out] du, dr  resized
-  void copy_latest(int count, Eigen::MatrixXf& du, Eigen::MatrixXf& dr) const;
+  void copy_latest(int count, Eigen::MatrixXf& du, Eigen::MatrixXf& dr,
+                   const InnerProductRef& product = {}) const;
 
   /// gamma = argmin ||r - Y gamma||; step = -dU gamma, remainder = r - Y gamma.
   /// Cost: 6 n size() flops. No allocation.

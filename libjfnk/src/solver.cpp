@@ -314,6 +314,15 @@ bool unless_thrown(Course& course, Report& report, Call&& call) {
 }  // namespace
 }  // namespace detail
 
+namespace {
+
+/// Eigen's allFinite, a register's width at a time.
+bool is_finite(const Eigen::MatrixXf& m) {
+  return (m - m).sum() == 0.0F;
+}
+
+}  // namespace
+
 Solver::Solver(const Options& options) : memory_(std::make_unique<Memory>()) {
   set_options(options);
 }
@@ -336,7 +345,7 @@ void Solver::set_options(const Options& options) {
 void Solver::begin_with(SecantPairs pairs) {
   const bool fit =
       pairs.step.rows() == pairs.change.rows() && pairs.step.cols() == pairs.change.cols();
-  if (!fit || !pairs.step.allFinite() || !pairs.change.allFinite()) {
+  if (!fit || !is_finite(pairs.step) || !is_finite(pairs.change)) {
     throw std::invalid_argument(
         fit ? "jfnk::Solver::begin_with: the pairs are not finite"
             : "jfnk::Solver::begin_with: steps and changes differ in size or number");
@@ -349,7 +358,7 @@ void Solver::pairs(int count, SecantPairs& pairs) const {
   const bool of_residual = memory_->hands_out && !work.evaluator_state.learnt;
   work.secants.copy_latest(of_residual ? count : 0, pairs.step, pairs.change);
   // Steps may be too long for single precision, in units of their own.
-  if (!pairs.step.allFinite()) work.secants.copy_latest(0, pairs.step, pairs.change);
+  if (!is_finite(pairs.step)) work.secants.copy_latest(0, pairs.step, pairs.change);
 }
 
 const Report& Solver::report() const {

@@ -20,6 +20,8 @@ class ColumnStore {
   /// them, from whichever threads, after `reserve`.
   void assign_rows(std::size_t slot, double factor, const Vector& v, Rows rows);
   void copy_rows(std::size_t slot, Rows rows, Vector& kept) const;
+  /// The same in single precision. @param[out] kept  those rows alone
+  void copy_rows(std::size_t slot, Rows rows, Eigen::Ref<SingleVector> kept) const;
   /// Allocates a slot for n numbers.
   void reserve(std::size_t slot, Eigen::Index n);
   /// Turns slots i, i + 1: (a, b) becomes (c a + s b, c b - s a).
