@@ -77,8 +77,7 @@ Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>&
       interfaces_(model) {
   if (model_.consistency) {
     // The correction belongs to the initial configuration, whatever was re-searched since.
-    const fpm::Rows<Dim> initial(model_.particles, model_.ghosts, model_.row_options);
-    correction_ = fpm::consistency_correction(initial, model_.ghosts, model_.area_vector);
+    correction_ = fpm::consistency_correction(*initial_rows(), model_.ghosts, model_.area_vector);
   }
   rebuild_operator();
   if (rest) {
@@ -92,11 +91,9 @@ Equilibrium<Dim>::Equilibrium(const model::Model<Dim>& model, model::State<Dim>&
   if (sizes.viscosity > 0) evaluation_.volume = state_.rows.reference_volume();
 }
 
-// On the initial rows, whatever was re-searched since.
 template <int Dim>
 fpm::MomentOperator<Dim> Equilibrium<Dim>::initial_operator() const {
-  return {fpm::Rows<Dim>(model_.particles, model_.ghosts, model_.row_options), model_.ghosts,
-          model_.channels, correction_};
+  return {*initial_rows(), model_.ghosts, model_.channels, correction_};
 }
 
 template <int Dim>
@@ -282,6 +279,13 @@ bool Equilibrium<Dim>::has_boundary_terms() const {
   return model_.control == scene::HourglassControl::viscosity ||
          !model_.following_pressures.empty() || !model_.penalty_supports.empty() ||
          !interfaces_.empty();
+}
+
+template <int Dim>
+bool Equilibrium<Dim>::is_linear() const {
+  return !model_.layout.finite && !model_.layout.plastic &&
+         model_.control != scene::HourglassControl::viscosity &&
+         model_.following_pressures.empty() && interfaces_.empty();
 }
 
 // Terms that scenes seldom have: following pressures, penalty supports, the paper's viscosity.

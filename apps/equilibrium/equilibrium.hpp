@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "equilibrium/initial_balance.hpp"
+#include "equilibrium/initial_rows.hpp"
 #include "equilibrium/interface_forces.hpp"
 #include "equilibrium/law_loops.hpp"
 #include "equilibrium/share_out.hpp"
@@ -76,7 +77,11 @@ class Equilibrium {
 
   const InitialBalance<Dim>& balance() const { return balance_; }
 
-  /// On the initial rows, whatever was re-searched since, with the consistency correction.
+  /// Whether the residual is linear in the increment, and its tangent that of an energy.
+  [[nodiscard]] bool is_linear() const;
+
+  InitialRows<Dim> initial_rows() const { return {model_, state_}; }
+  /// On the initial rows, with the consistency correction.
   fpm::MomentOperator<Dim> initial_operator() const;
 
   // The residual in the sense of libjfnk.

@@ -11,10 +11,10 @@ namespace equilibrium {
 
 template <int Dim>
 TwoLevelPreconditioner<Dim>::TwoLevelPreconditioner(const model::Model<Dim>& model,
-                                                    const fpm::MomentOperator<Dim>& op,
+                                                    const fpm::Rows<Dim>& initial_rows,
                                                     double coarse_over_spacing)
     : size_(model.size()), prescribed_(model.prescribed), given_(given_unknowns(model.prescribed)) {
-  build_blocks(model, op);
+  build_blocks(model, initial_rows);
   if (!model.interfaces.empty()) springs_ = InterfaceSprings<Dim>(model, block_inverse_);
   if (coarse_over_spacing > 0.0) {
     grid_ = BackgroundGrid<Dim>(model, coarse_over_spacing);
@@ -23,7 +23,7 @@ TwoLevelPreconditioner<Dim>::TwoLevelPreconditioner(const model::Model<Dim>& mod
 
 template <int Dim>
 void TwoLevelPreconditioner<Dim>::build_blocks(const model::Model<Dim>& model,
-                                               const fpm::MomentOperator<Dim>& op) {
+                                               const fpm::Rows<Dim>& initial_rows) {
   using Tensor = fpm::Tensor<Dim>;
   using Vector = fpm::Vector<Dim>;
   using Second = Eigen::Matrix<double, fpm::second_gradient_size<Dim>, 1>;
@@ -35,7 +35,8 @@ void TwoLevelPreconditioner<Dim>::build_blocks(const model::Model<Dim>& model,
     if (node >= size_) node = model.ghosts.source(node - static_cast<fpm::Index>(size_));
     Eigen::Map<Tensor>(sum.col(node).data()) += block;
   };
-  for (fpm::Index a = 0; a < size_; ++a) {
+  const auto add_row = [&](const fpm::WeightedRow& row) {
+    const fpm::Index a = row.row;
     const constitutive::ElasticModuli m = moduli_of(model, a);
     const double volume = model.particles.volume[a];
     const double spring =
@@ -54,7 +55,8 @@ void TwoLevelPreconditioner<Dim>::build_blocks(const model::Model<Dim>& model,
       }
       return block;
     };
-    op.for_each_entry(a, [&](fpm::Index b, const double* w) {
+    const double* w = row.weights;
+    for (const fpm::Index b : row.neighbours) {
       const Vector g = Eigen::Map<const Vector>(w);
       own -= g;
       Tensor block = volume * elastic_block<Dim>(m, g, g);
@@ -68,12 +70,14 @@ void TwoLevelPreconditioner<Dim>::build_blocks(const model::Model<Dim>& model,
         block += subpoint_block(h);
       }
       add(b, block);
-    });
+      w += model.channels.count(Dim);
+    }
     Tensor block =
         volume * elastic_block<Dim>(m, own, own) + spring * own_kappa * Tensor::Identity();
     if (second) block += subpoint_block(own_second);
     add(a, block);
-  }
+  };
+  fpm::for_each_weighted_row<Dim>(initial_rows, model.ghosts, model.channels, {}, add_row);
   add_penalty_blocks(model, sum);
   invert_blocks(sum);
 }

@@ -26,7 +26,7 @@ class TwoLevelPreconditioner {
   /// @param coarse_over_spacing  grid spacing over particle spacing; 0 leaves the grid out
   ///   (block-Jacobi)
   /// @throws std::runtime_error if the coarse factorisation fails (a body without support)
-  TwoLevelPreconditioner(const model::Model<Dim>& model, const fpm::MomentOperator<Dim>& op,
+  TwoLevelPreconditioner(const model::Model<Dim>& model, const fpm::Rows<Dim>& initial_rows,
                          double coarse_over_spacing);
 
   void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z);
@@ -35,7 +35,7 @@ class TwoLevelPreconditioner {
 
  private:
   using Blocks = Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic>;
-  void build_blocks(const model::Model<Dim>& model, const fpm::MomentOperator<Dim>& op);
+  void build_blocks(const model::Model<Dim>& model, const fpm::Rows<Dim>& initial_rows);
   void add_penalty_blocks(const model::Model<Dim>& model, Blocks& sum) const;
   void invert_blocks(const Blocks& sum);
   void apply_block(Eigen::Index a, const Eigen::VectorXd& r, Eigen::VectorXd& z) const;

@@ -69,12 +69,9 @@ equilibrium::Preconditioner<Dim> preconditioner_for(
   if (kind == scene::PreconditionerKind::factors) {
     return Way(equilibrium::StiffnessFactors<Dim>(model, equilibrium.initial_operator()));
   }
-  const fpm::MomentOperator<Dim> op(
-      fpm::Rows<Dim>(model.particles, model.ghosts, model.row_options), model.ghosts,
-      model.channels);
   const double coarse =
       kind == scene::PreconditionerKind::two_level ? scene.solver.coarse_spacing_over_spacing : 0.0;
-  return Way(equilibrium::TwoLevelPreconditioner<Dim>(model, op, coarse));
+  return Way(equilibrium::TwoLevelPreconditioner<Dim>(model, *equilibrium.initial_rows(), coarse));
 }
 
 std::string reason_of(const jfnk::Report& report, const scene::Scene& scene, int dimension) {

@@ -54,13 +54,16 @@ std::vector<model::MemoryPart> LoadStepper<Dim>::memory(bool to_come) const {
   constexpr int krylov_vectors = 20;
   std::vector<model::MemoryPart> parts = equilibrium_->memory(to_come);
   parts.push_back({"preconditioner", preconditioner_->bytes()});
-  parts.push_back(
-      {"solver's vectors",
-       to_come ? solver_.bytes_to_come(model_.unknowns(), use_preconditioner_, krylov_vectors)
-               : solver_.bytes()});
+  const Eigen::Index n = model_.unknowns();
+  std::size_t vectors = solver_.bytes() + linear_solve_.bytes();
+  if (to_come) {
+    vectors = solves_linearly() ? LinearSolve<Dim>::bytes_to_come(n, use_preconditioner_)
+                                : solver_.bytes_to_come(n, use_preconditioner_, krylov_vectors);
+  }
+  parts.push_back({"solver's vectors", vectors});
   if (to_come && hands_on_pairs()) {
-    const auto numbers = std::max<Eigen::Index>(
-        2 * kept_pairs * model_.unknowns() - 2 * state_.secant_step.size(), 0);
+    const auto numbers =
+        std::max<Eigen::Index>(2 * kept_pairs * n - 2 * state_.secant_step.size(), 0);
     parts.push_back(
         {"secant pairs of the state", static_cast<std::size_t>(numbers) * sizeof(float)});
   }
@@ -174,6 +177,36 @@ bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult&
   return false;
 }
 
+// Where the scene leaves the choice to us: who names a method or an algorithm gets it.
+template <int Dim>
+bool LoadStepper<Dim>::solves_linearly() const {
+  const scene::SolverSettings settings = scene::resolve_solver(scene_);
+  return equilibrium_->is_linear() && settings.method == scene::SolverMethod::hybrid &&
+         settings.jacobian == scene::JacobianKind::analytic &&
+         scene_.solver.preset != scene::SolverPreset::appendix_a;
+}
+
+template <int Dim>
+bool LoadStepper<Dim>::solve_linearly(double increment, const Watch& watch, StepResult& result) {
+  LinearSolveOptions options;
+  options.tolerance = scene::resolve_solver(scene_).tolerance;
+  options.rounding = rounding_;
+  options.max_actions = scene_.solver.max_evaluations_per_step;
+  increment_.setZero();
+  set_prescribed(increment, increment_);
+  const auto go_on = [&] { return !watch || watch(jfnk::Iteration{}); };
+  const jfnk::PreconditionerRef P =
+      use_preconditioner_ ? jfnk::PreconditionerRef(*preconditioner_) : jfnk::PreconditionerRef();
+  const LinearSolveResult solve = linear_solve_(*equilibrium_, P, options, increment_, go_on);
+  StepRecord& record = result.record;
+  record.residual_evaluations += solve.evaluations;
+  record.jacobian_actions += solve.actions;
+  record.residual_ratio = solve.norm / std::max(solve.reference, 1e-300);
+  result.status = solve.stopped ? jfnk::Status::stopped : jfnk::Status::converged;
+  if (solve.stopped) result.outcome = StepOutcome::stopped;
+  return solve.converged;
+}
+
 // What a solve learns of the tangent serves the next step where it is the load that grows. Elastic
 // steps are few, and where strength is divided, or rows are rebuilt, the tangent changes too. Under
 // tight tolerances the last pairs are of the last digits: they spare nothing, and perturb bodies
@@ -227,10 +260,10 @@ StepResult LoadStepper<Dim>::attempt(const Watch& watch) {
     equilibrium_->begin_step(load_at(progress), scene_.course.fades * progress,
                              scene::reduction_at(scene_.course, progress));
 
+    bool solved = solves_linearly() && solve_linearly(increment, watch, result);
     // Predictor: the last increment. Moving the prescribed unknowns alone would tear the body.
-    bool solved = false;
     const bool has_history = programme.last_increment > 0.0;
-    if (has_history) {
+    if (!solved && has_history && result.outcome != StepOutcome::stopped) {
       increment_ = (increment / programme.last_increment) *
                    Eigen::Map<const Eigen::VectorXd>(state_.increment.data(), model_.unknowns());
       set_prescribed(increment, increment_);

@@ -11,6 +11,7 @@
 #include "model/model.hpp"
 #include "model/state.hpp"
 #include "record/curve.hpp"
+#include "stepping/linear_solve.hpp"
 #include "stepping/patience.hpp"
 
 namespace scene {
@@ -103,6 +104,8 @@ class LoadStepper {
   void set_prescribed(double increment, Eigen::VectorXd& u) const;
   bool predict_by_tangent(double increment, Eigen::VectorXd& u, StepRecord& record);
   bool solve(Eigen::VectorXd& u, const Watch& watch, StepResult& result);
+  [[nodiscard]] bool solves_linearly() const;
+  bool solve_linearly(double increment, const Watch& watch, StepResult& result);
   [[nodiscard]] bool hands_on_pairs() const;
   void forget_pairs();
   void keep_pairs(const StepRecord& record);
@@ -118,6 +121,7 @@ class LoadStepper {
   std::unique_ptr<equilibrium::Preconditioner<Dim>> preconditioner_;
   bool use_preconditioner_ = true;
   jfnk::Solver solver_;
+  LinearSolve<Dim> linear_solve_;
   double nominal_increment_ = 1.0;  // of the progress
   Patience patience_;
   Eigen::VectorXd increment_;

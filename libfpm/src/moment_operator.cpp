@@ -123,6 +123,14 @@ detail::WeightedRows weigh(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Cha
   return weighted;
 }
 
+template <int Dim>
+void require_fit(const ConsistencyCorrection<Dim>& correction, Index rows) {
+  const Field<Dim>& potential = correction.potential;
+  if (potential.size() == 0) return;
+  require_size("consistency potential", potential.rows(), rows);
+  require_size("corrected rows", static_cast<Eigen::Index>(correction.corrected.size()), rows);
+}
+
 // The blocks of the rows that are set, which are then set as a whole.
 std::vector<char> whole_blocks(std::vector<char>& rows, Index block_rows) {
   const auto width = static_cast<std::size_t>(block_rows);
@@ -140,11 +148,7 @@ template <int Dim>
 MomentOperator<Dim>::MomentOperator(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts,
                                     Channels channels, const ConsistencyCorrection<Dim>& correction)
     : size_(rows.size()), channels_(channels), ghosts_(ghosts) {
-  const Field<Dim>& potential = correction.potential;
-  if (potential.size() > 0) {
-    require_size("consistency potential", potential.rows(), size_);
-    require_size("corrected rows", static_cast<Eigen::Index>(correction.corrected.size()), size_);
-  }
+  require_fit(correction, size_);
   if (channels.pair) {
     first_moment_.resize(size_, Dim);
     second_moment_.resize(static_cast<Eigen::Index>(size_) * Dim * Dim);
@@ -297,6 +301,32 @@ double MomentOperator<Dim>::shared_share() const {
   }
   return size_ == 0 ? 0.0 : shared / size_;
 }
+
+template <int Dim>
+void for_each_weighted_row(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Channels channels,
+                           const ConsistencyCorrection<Dim>& correction,
+                           const std::function<void(const WeightedRow&)>& visit) {
+  const Index n = rows.size();
+  require_fit(correction, n);
+  Field<Dim> first(channels.pair ? n : 0, Dim);
+  Eigen::VectorXd second(channels.pair ? static_cast<Eigen::Index>(n) * Dim * Dim : 0);
+  const auto all = [](Index /*row*/) { return true; };
+  for (Index begin = 0; begin < n; begin += part_rows) {
+    const detail::WeightedRows part =
+        weigh<Dim>(rows, ghosts, channels, correction, begin, std::min(begin + part_rows, n), all,
+                   {first, second});
+    for (Index a = part.first; a < part.last(); ++a) {
+      visit({a, part.ids(a), part.weights(a).data()});
+    }
+  }
+}
+
+template void for_each_weighted_row<2>(const Rows<2>&, const Ghosts<2>&, Channels,
+                                       const ConsistencyCorrection<2>&,
+                                       const std::function<void(const WeightedRow&)>&);
+template void for_each_weighted_row<3>(const Rows<3>&, const Ghosts<3>&, Channels,
+                                       const ConsistencyCorrection<3>&,
+                                       const std::function<void(const WeightedRow&)>&);
 
 template class MomentOperator<2>;
 template class MomentOperator<3>;

@@ -19,7 +19,8 @@ int most_iterations(const Solve& solve) {
 Trouble trouble_of(KrylovStatus status, bool flat) {
   if (flat) return Trouble::flat;
   if (status == KrylovStatus::operator_failed) return Trouble::action_failed;
-  return status == KrylovStatus::breakdown ? Trouble::singular : Trouble::krylov_capped;
+  const bool exhausted = status == KrylovStatus::breakdown || status == KrylovStatus::indefinite;
+  return exhausted ? Trouble::singular : Trouble::krylov_capped;
 }
 
 Evaluation answer(Outcome outcome) {
@@ -84,12 +85,17 @@ LinearSolution find_direction(Solve& solve, double eta, double shift, Iteration&
   linear.global_size = evaluator.residual().global_size(work.base.u.size());
   work.step = -work.base.r;
   work.direction.setZero();
-  const bool by_gmres = solve.options.krylov.solver != Krylov::Solver::bicgstab;
-  const GmresResult result =
-      by_gmres ? work.gmres.solve(OperatorRef(action), work.step, work.direction, linear, P,
-                                  evaluator.product())
-               : work.bicgstab.solve(OperatorRef(action), work.step, work.direction, linear, P,
-                                     evaluator.product());
+  const auto solve_by = [&](auto& krylov) {
+    return krylov.solve(OperatorRef(action), work.step, work.direction, linear, P,
+                        evaluator.product());
+  };
+  const Krylov::Solver kind = solve.options.krylov.solver;
+  const bool by_gmres =
+      kind != Krylov::Solver::bicgstab && kind != Krylov::Solver::conjugate_gradients;
+  const GmresResult result = by_gmres ? solve_by(work.gmres)
+                             : kind == Krylov::Solver::bicgstab
+                                 ? solve_by(work.bicgstab)
+                                 : solve_by(work.conjugate_gradients);
   solve.report.last_linear_residual = result.relative_residual;
   solve.report.last_forcing = eta;
   line.forcing = eta;

@@ -100,13 +100,12 @@ void SecantMemory::begin_with(const Eigen::MatrixXf& du, const Eigen::MatrixXf& 
   const Vector* const measured = &change;
   for (Eigen::Index j = std::max<Eigen::Index>(du.cols() - capacity_, 0); j < du.cols(); ++j) {
     double length = 0.0;
-    product.pass(
-        n_, 3,
-        [&](Rows rows) {
-          rows.of(step) = du.col(j).segment(rows.begin, rows.count).cast<double>();
-          rows.of(change) = dr.col(j).segment(rows.begin, rows.count).cast<double>();
-        },
-        {&measured, 1}, {&length, 1});
+    product.pass(n_, 3,
+                 [&](Rows rows) {
+                   rows.of(step) = du.col(j).segment(rows.begin, rows.count).cast<double>();
+                   rows.of(change) = dr.col(j).segment(rows.begin, rows.count).cast<double>();
+                 },
+                 {&measured, 1}, {&length, 1});
     add({step, change, length}, max_condition, product);
   }
   given_ = size_;

@@ -79,10 +79,15 @@ void resize(Workspace& work, Eigen::Index n, Eigen::Index global, const Options&
     linear.max_iterations = options.krylov.max_iterations;
     linear.flexible = options.krylov.flexible;
     linear.single_precision = options.krylov.single_precision;
-    if (options.krylov.solver != Krylov::Solver::bicgstab) {
-      work.gmres.resize(n, linear, preconditioned);
-    } else {
-      work.bicgstab.resize(n, preconditioned);
+    switch (options.krylov.solver) {
+      case Krylov::Solver::bicgstab:
+        work.bicgstab.resize(n, preconditioned);
+        break;
+      case Krylov::Solver::conjugate_gradients:
+        work.conjugate_gradients.resize(n, preconditioned);
+        break;
+      default:
+        work.gmres.resize(n, linear, preconditioned);
     }
   }
   if (options.method != Method::newton_krylov) {
@@ -385,8 +390,8 @@ std::size_t Solver::bytes() const {
     numbers += v->size();
   }
   return static_cast<std::size_t>(numbers) * sizeof(double) + work.gmres.bytes() +
-         work.bicgstab.bytes() + work.secants.bytes() + work.broyden.bytes() +
-         memory_->report.history.capacity() * sizeof(Iteration) +
+         work.bicgstab.bytes() + work.conjugate_gradients.bytes() + work.secants.bytes() +
+         work.broyden.bytes() + memory_->report.history.capacity() * sizeof(Iteration) +
          static_cast<std::size_t>(memory_->given.step.size() + memory_->given.change.size()) *
              sizeof(float);
 }
@@ -401,6 +406,8 @@ std::size_t Solver::bytes_to_come(Eigen::Index n, bool preconditioned, int krylo
     const Eigen::Index basis = std::min<Eigen::Index>({most, krylov_vectors + 1, n + 1});
     if (options.krylov.solver == Krylov::Solver::bicgstab) {
       vectors += 6 + p;
+    } else if (options.krylov.solver == Krylov::Solver::conjugate_gradients) {
+      vectors += 3 + p;
     } else {
       vectors += 2 + p;
       (options.krylov.single_precision ? singles : vectors) += basis;

@@ -4,6 +4,7 @@
 #include "course.hpp"
 #include "evaluator.hpp"
 #include "jfnk/bicgstab.hpp"
+#include "jfnk/conjugate_gradients.hpp"
 #include "jfnk/gmres.hpp"
 #include "jfnk/solver.hpp"
 #include "secant_memory.hpp"
@@ -24,6 +25,7 @@ struct Workspace {
   EvaluatorState evaluator_state;
   Gmres gmres;
   BiCGStab bicgstab;
+  ConjugateGradients conjugate_gradients;
   SecantMemory secants;
   BroydenMemory broyden;
   Vector by_least_squares;  // H F at base by secants

@@ -27,13 +27,6 @@ model::State<Dim> settled_state(const scene::Scene& scene, const model::Model<Di
   return state;
 }
 
-/// The operator on the initial rows, which the preconditioner is built from.
-template <int Dim>
-fpm::MomentOperator<Dim> initial_operator(const model::Model<Dim>& model) {
-  return {fpm::Rows<Dim>(model.particles, model.ghosts, model.row_options), model.ghosts,
-          model.channels};
-}
-
 /// A body in the midst of its programme, with everything a solver asks of it in one step: an
 /// increment like the last one (so the same particles yield) and a direction without structure.
 template <int Dim>
@@ -43,7 +36,7 @@ struct Prepared {
         model(model::build_model<Dim>(*scene)),
         state(settled_state(*scene, model, settle_steps)),
         equilibrium(model, state),
-        preconditioner(model, initial_operator(model), coarse_spacing_of(*scene)),
+        preconditioner(model, *equilibrium.initial_rows(), coarse_spacing_of(*scene)),
         increment(Eigen::Map<const Eigen::VectorXd>(state.increment.data(), model.unknowns())),
         direction(model.unknowns()),
         result(model.unknowns()) {

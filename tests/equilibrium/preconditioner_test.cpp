@@ -35,7 +35,7 @@ struct Elastic {
         model(model::build_model<Dim>(*scene)),
         state(model::initial_state(model)),
         equilibrium(model, state),
-        preconditioner(model, equilibrium.moment_operator(), coarse_over_spacing) {
+        preconditioner(model, *equilibrium.initial_rows(), coarse_over_spacing) {
     equilibrium.begin_step(0.0);
     if (!equilibrium.linearise(Eigen::VectorXd::Zero(model.unknowns()))) {
       throw std::runtime_error("not linearised");

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "fpm/consistency.hpp"
@@ -151,6 +153,20 @@ class MomentOperator {
   Field<Dim> first_moment_;
   Eigen::VectorXd second_moment_;
 };
+
+/// The weights of one row.
+struct WeightedRow {
+  Index row = 0;
+  std::span<const Index> neighbours;
+  const double* weights = nullptr;  ///< as many per neighbour as there are channels
+};
+
+/// Calls visit(weighted row) for all rows in their order, without the memory of an operator: the
+/// entries are those of one set up from the same.
+template <int Dim>
+void for_each_weighted_row(const Rows<Dim>& rows, const Ghosts<Dim>& ghosts, Channels channels,
+                           const ConsistencyCorrection<Dim>& correction,
+                           const std::function<void(const WeightedRow&)>& visit);
 
 template <int Dim>
 template <class Visitor>

@@ -87,6 +87,9 @@ class Rows {
   /// Whether the row was re-searched since the start.
   bool searched(Index row) const { return slot_[static_cast<std::size_t>(row)] >= 0; }
 
+  /// Whether all rows are as the first search left them.
+  bool as_first_searched() const { return searched_row_.empty() && corrected_row_.empty(); }
+
   /// Offsets and volumes of a row's neighbours in its reference configuration.
   void geometry(Index row, RowGeometry<Dim>& geometry) const;
 

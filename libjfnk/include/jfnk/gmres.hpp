@@ -16,6 +16,7 @@ enum class KrylovStatus {
   max_iterations,   ///< the iteration cap was met first
   stagnated,        ///< a whole restart cycle reduced the residual by less than 0.1 %
   breakdown,        ///< the Krylov space is exhausted (singular A) above the tolerance
+  indefinite,       ///< A or P is not positive definite (conjugate gradients)
   operator_failed,  ///< A could not be applied, or gave NaN; x is of the iterations before
   stopped           ///< A asked to stop; x is of the iterations before
 };

@@ -6,6 +6,7 @@
 #include "jfnk/block_jacobi.hpp"
 #include "jfnk/check.hpp"
 #include "jfnk/coloured_jacobian.hpp"
+#include "jfnk/conjugate_gradients.hpp"
 #include "jfnk/gmres.hpp"
 #include "jfnk/options.hpp"
 #include "jfnk/preconditioner.hpp"

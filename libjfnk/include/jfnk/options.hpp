@@ -47,8 +47,10 @@ struct Forcing {
 /// The linear solver of a Newton step.
 struct Krylov {
   enum class Solver {
-    gmres,     ///< lowest residual of the space; memory grows with the iterations
-    bicgstab,  ///< fixed memory, two Jacobian actions per iteration (van der Vorst 1992)
+    gmres,                ///< lowest residual of the space; memory grows with the iterations
+    bicgstab,             ///< fixed memory, two Jacobian actions per iteration (van der Vorst 1992)
+    conjugate_gradients,  ///< fixed memory, one action per iteration; for Jacobians and
+                          ///< preconditioners that are symmetric and positive definite
     direct  ///< du = -P F without any action, for a P that is J^-1 where it was set up; gmres where
             ///< there is no preconditioner
   };
