@@ -1,7 +1,6 @@
 #include "stepping/linear_solve.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "equilibrium/equilibrium.hpp"
 
@@ -13,9 +12,9 @@ LinearSolveResult LinearSolve<Dim>::operator()(equilibrium::Equilibrium<Dim>& eq
                                                const LinearSolveOptions& options,
                                                Eigen::VectorXd& u,
                                                const std::function<bool()>& go_on) {
-  // Below what is asked for, as the reference norm is another at the end; and of a step that only
-  // moves prescribed unknowns it is known but roughly before one solve.
+  // Below what is asked for, as the reference norm is another at the end.
   constexpr double aim = 0.5;
+  // Where nothing but the motion of supports is known, of what the tear at them leaves.
   constexpr double first_aim = 1e-2;
   constexpr double worth_another = 0.5;
   const jfnk::InnerProductRef product(equilibrium);
@@ -26,20 +25,23 @@ LinearSolveResult LinearSolve<Dim>::operator()(equilibrium::Equilibrium<Dim>& eq
   };
   LinearSolveResult result;
   rest_.resize(u.size());
-  correction_.setZero(u.size());
-  ++result.evaluations;
-  if (!equilibrium.linearise_before_motion(correction_, rest_)) return result;
-  equilibrium.apply_motion(u, correction_);
-  ++result.actions;
-  rest_ += correction_;
-  result.norm = product.norm(rest_);
-  result.reference = equilibrium.reference_norm();
-  for (bool falls = true; falls && result.actions < options.max_actions;) {
+  correction_.resize(u.size());
+  const auto look = [&] {
+    ++result.evaluations;
+    if (equilibrium(u, rest_) != jfnk::Evaluation::ok) return false;
+    result.norm = product.norm(rest_);
+    result.reference = equilibrium.reference_norm();
+    result.converged =
+        result.norm <= std::max(options.rounding, options.tolerance * result.reference);
+    return true;
+  };
+  if (!look() || result.converged || !equilibrium.linearise(u)) return result;
+  double scale = equilibrium.external_load().norm();
+  for (bool falls = true; falls && !result.converged && result.actions < options.max_actions;) {
     jfnk::GmresOptions linear;
     linear.max_iterations = options.max_actions - result.actions;
-    linear.absolute_tolerance =
-        std::max(options.rounding, aim * options.tolerance * result.reference);
-    linear.relative_tolerance = result.reference > 0.0 ? 0.0 : first_aim;
+    linear.absolute_tolerance = std::max(options.rounding, aim * options.tolerance * scale);
+    linear.relative_tolerance = scale > 0.0 ? 0.0 : first_aim;
     rest_ *= -1.0;
     const jfnk::GmresResult solve =
         krylov_.solve(jfnk::OperatorRef(action), rest_, correction_, linear, P, product);
@@ -47,13 +49,9 @@ LinearSolveResult LinearSolve<Dim>::operator()(equilibrium::Equilibrium<Dim>& eq
     result.stopped = solve.status == jfnk::KrylovStatus::stopped;
     if (result.stopped) return result;
     u += correction_;
-    ++result.evaluations;
-    if (equilibrium(u, rest_) != jfnk::Evaluation::ok) return result;
-    const double before = std::exchange(result.norm, product.norm(rest_));
-    result.reference = equilibrium.reference_norm();
-    result.converged =
-        result.norm <= std::max(options.rounding, options.tolerance * result.reference);
-    if (result.converged) return result;
+    const double before = result.norm;
+    if (!look()) return result;
+    scale = result.reference;
     falls = solve.status == jfnk::KrylovStatus::converged && result.norm < worth_another * before;
   }
   return result;

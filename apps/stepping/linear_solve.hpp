@@ -37,9 +37,9 @@ template <int Dim>
 class LinearSolve {
  public:
   /// @param P  of the tangent, symmetric; the identity by default
-  /// @param[in,out] u  prescribed unknowns of the increment, 0 elsewhere; the increment, which is
-  ///                   of use only if the result has converged: the equilibrium's last evaluation
-  ///                   is then the one at it
+  /// @param[in,out] u  first guess, its prescribed unknowns being those of the increment; the
+  ///                   increment, which is of use only if the result has converged: the
+  ///                   equilibrium's last evaluation is then the one at it
   /// @param go_on  asked before each action
   LinearSolveResult operator()(equilibrium::Equilibrium<Dim>& equilibrium,
                                const jfnk::PreconditionerRef& P, const LinearSolveOptions& options,

@@ -125,6 +125,19 @@ void LoadStepper<Dim>::set_prescribed(double increment, Eigen::VectorXd& u) cons
   }
 }
 
+// Like the last increment, if there is one.
+template <int Dim>
+void LoadStepper<Dim>::foresee(double increment) {
+  const double last = state_.programme.last_increment;
+  if (last > 0.0) {
+    increment_ = (increment / last) *
+                 Eigen::Map<const Eigen::VectorXd>(state_.increment.data(), model_.unknowns());
+  } else {
+    increment_.setZero();
+  }
+  set_prescribed(increment, increment_);
+}
+
 // Free unknowns by one linear solve from the converged state: J u_free = -(r(0) + J u_prescribed).
 template <int Dim>
 bool LoadStepper<Dim>::predict_by_tangent(double increment, Eigen::VectorXd& u,
@@ -192,8 +205,7 @@ bool LoadStepper<Dim>::solve_linearly(double increment, const Watch& watch, Step
   options.tolerance = scene::resolve_solver(scene_).tolerance;
   options.rounding = rounding_;
   options.max_actions = scene_.solver.max_evaluations_per_step;
-  increment_.setZero();
-  set_prescribed(increment, increment_);
+  foresee(increment);
   const auto go_on = [&] { return !watch || watch(jfnk::Iteration{}); };
   const jfnk::PreconditionerRef P =
       use_preconditioner_ ? jfnk::PreconditionerRef(*preconditioner_) : jfnk::PreconditionerRef();
@@ -261,12 +273,10 @@ StepResult LoadStepper<Dim>::attempt(const Watch& watch) {
                              scene::reduction_at(scene_.course, progress));
 
     bool solved = solves_linearly() && solve_linearly(increment, watch, result);
-    // Predictor: the last increment. Moving the prescribed unknowns alone would tear the body.
+    // Moving the prescribed unknowns alone would tear the body.
     const bool has_history = programme.last_increment > 0.0;
     if (!solved && has_history && result.outcome != StepOutcome::stopped) {
-      increment_ = (increment / programme.last_increment) *
-                   Eigen::Map<const Eigen::VectorXd>(state_.increment.data(), model_.unknowns());
-      set_prescribed(increment, increment_);
+      foresee(increment);
       solver_.begin_with({state_.secant_step, state_.secant_change});
       solved = solve(increment_, watch, result);
     }

@@ -102,6 +102,7 @@ class LoadStepper {
   StepResult attempt(const Watch& watch);
   [[nodiscard]] double load_at(double progress) const;
   void set_prescribed(double increment, Eigen::VectorXd& u) const;
+  void foresee(double increment);
   bool predict_by_tangent(double increment, Eigen::VectorXd& u, StepRecord& record);
   bool solve(Eigen::VectorXd& u, const Watch& watch, StepResult& result);
   [[nodiscard]] bool solves_linearly() const;
