@@ -113,6 +113,17 @@ void InnerProductRef::work_and_norms(Eigen::Index n, Eigen::Index numbers_per_ro
     for (std::size_t j = 0; j < vectors.size(); ++j) norms[j] = norm(*vectors[j]);
     return;
   }
+  if (share_out_ == nullptr) {
+    std::fill_n(norms.begin(), vectors.size(), 0.0);
+    for (Eigen::Index block = 0; block < blocks_of(n); ++block) {
+      work(block);
+      for (std::size_t j = 0; j < vectors.size(); ++j) {
+        norms[j] += square_of_rows(rows_of(block, n), *vectors[j]);
+      }
+    }
+    for (std::size_t j = 0; j < vectors.size(); ++j) norms[j] = norm_of(*vectors[j], norms[j]);
+    return;
+  }
   const auto blocks = static_cast<std::size_t>(blocks_of(n));
   const std::span<double> squares = sums_of_blocks(blocks * vectors.size());
   const auto work_and_squares = [&](Eigen::Index block) {

@@ -163,7 +163,7 @@ class InnerProductRef {
   }
 
   /// The same, and then norms[j] = `norm` of vectors[j], of which each block is read when the work
-  /// on it is done.
+  /// on it is done. No allocation, but with `share_out` as `dots`.
   template <class Work>
   void pass(Eigen::Index n, Eigen::Index numbers_per_row, const Work& work, Vectors vectors,
             std::span<double> norms) const {
