@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 #include "model/model.hpp"
@@ -133,5 +134,22 @@ std::string end_report(const scene::Scene& scene, const std::vector<std::string>
   out.pop_back();  // whoever says it ends the line
   return out;
 }
+
+template <int Dim>
+std::vector<std::string> lateral_notes(const scene::Scene& scene, const model::Model<Dim>& model) {
+  constexpr double much = 0.25;  // in the mean: near faces that are not level it is always another
+  const scene::InitialStress& initial = scene.initial_stress;
+  if (initial.kind != scene::InitialStressKind::gravity || !initial.K0) return {};
+  const Eigen::VectorXd mean = model.initial_stress * model.particles.volume;
+  const double ratio = mean[0] / mean[1];
+  if (!(mean[1] < 0.0) || std::abs(ratio - *initial.K0) <= much * *initial.K0) return {};
+  return {fmt::format(
+      "initial_stress.K0 asks for {:.3g}; at rest the ground has {:.3g} times its vertical stress "
+      "in the mean: what faces bear decides, where they are loaded or not level",
+      *initial.K0, ratio)};
+}
+
+template std::vector<std::string> lateral_notes<2>(const scene::Scene&, const model::Model<2>&);
+template std::vector<std::string> lateral_notes<3>(const scene::Scene&, const model::Model<3>&);
 
 }  // namespace run

@@ -29,6 +29,11 @@ std::string check_report(const scene::Scene& scene, std::size_t particles, std::
 template <int Dim>
 std::vector<std::string> joined_notes(const scene::Scene& scene, const model::Model<Dim>& model);
 
+/// That K0 is not what the ground has at rest, if it is not by far.
+template <int Dim>
+std::vector<std::string> lateral_notes(const scene::Scene& scene, const model::Model<Dim>& model);
+
+
 /// One line for each side on which water stands that the scene's pore pressures have there: how
 /// high, and what it presses with. Of the stage at hand.
 template <int Dim>

@@ -157,6 +157,8 @@ class Run {
     }
     draw();
     for (const std::string& note : joined_notes(scene_, model)) err_ << "warning: " << note << '\n';
+    for (const std::string& note : lateral_notes(scene_, model))
+      err_ << "warning: " << note << '\n';
     for (const std::string& warning : start.warnings) err_ << "warning: " << warning << '\n';
     if (!start.checkpoint.empty()) out_ << resumed_line(start) << '\n';
     for (const scene::SceneChange& change : start.changes)
@@ -222,6 +224,9 @@ class Run {
     }
     warn_of_joined(recorder);
     say_water(recorder);
+    for (const std::string& note : lateral_notes(scene_, stages_.model())) {
+      recorder.log().warning(note);
+    }
     for (const std::string& warning : start.warnings) recorder.log().warning(warning);
     if (!start.checkpoint.empty()) recorder.say(resumed_line(start));
     for (const scene::SceneChange& change : start.changes)

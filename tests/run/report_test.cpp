@@ -6,6 +6,7 @@
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
 #include "scene/stages.hpp"
+#include "stepping/settle.hpp"
 #include "support/sample_scene.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -75,6 +76,50 @@ TEST(ControlNote, IsForLoadsBorneToTheEndByGroundThatYields) {
   EXPECT_THAT(control_note(scene_of(""), yields), ::testing::HasSubstr("stiffness_ratio = 0.1"));
   EXPECT_EQ(control_note(scene_of(""), stays_elastic), "");
   EXPECT_EQ(control_note(scene_of("[hourglass]\nstiffness_ratio = 0.001\n"), yields), "");
+}
+
+// A square between smooth mirrors and pressures that are alike: at rest the stress is, too,
+// whatever K0 is asked for.
+TEST(LateralNotes, AreOfAStressThatFacesDecide) {
+  const auto notes = [](const std::string& initial) {
+    const auto reading = scene::parse_scene(R"(
+[geometry]
+dimension = 2
+spacing = 0.5
+[[material]]
+name = "rock"
+model = "elastic"
+youngs_modulus = 1e9
+poissons_ratio = 0.3
+[[region]]
+name = "block"
+material = "rock"
+outline = [[0, 0], [4, 0], [4, 4], [0, 4]]
+[[side]]
+name = "inside"
+along = [[0, 4], [0, 0], [4, 0]]
+kind = "symmetry"
+[[side]]
+name = "outside"
+along = [[4, 0], [4, 4], [0, 4]]
+kind = "loaded"
+pressure = 1e6
+live_pressure = 1e5
+[drive]
+kind = "load"
+scales = ["traction"]
+[programme]
+steps = 1
+)" + initial,
+                                            "s.toml");
+    EXPECT_TRUE(reading.scene) << reading.errors.front().text();
+    return lateral_notes(*reading.scene, stepping::model_at_rest<2>(*reading.scene));
+  };
+  EXPECT_THAT(notes("[initial_stress]\nkind = \"gravity\"\nK0 = 0.5\n"),
+              ::testing::ElementsAre(::testing::HasSubstr("K0 asks for 0.5; at rest the ground has "
+                                                          "1 times its vertical stress")));
+  EXPECT_THAT(notes("[initial_stress]\nkind = \"gravity\"\nK0 = 1.0\n"), ::testing::IsEmpty());
+  EXPECT_THAT(notes("[initial_stress]\nkind = \"gravity\"\n"), ::testing::IsEmpty());
 }
 
 }  // namespace
