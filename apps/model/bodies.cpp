@@ -33,7 +33,7 @@ std::vector<fpm::Index> bodies_with(const scene::Scene& scene, const Model<Dim>&
 
 template <int Dim>
 void part_into_bodies(const scene::Scene& scene, Model<Dim>& model) {
-  if (model.cells.size() == 0) return;  // elements and prisms know (elements.hpp, extrude.hpp)
+  if (model.cells.size() == 0) return;  // elements and even prisms know (elements.hpp, extrude.hpp)
   model.particles.body = bodies_with(scene, model, {});
   if constexpr (Dim == 2) {
     join_thin_tips(

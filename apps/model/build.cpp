@@ -10,6 +10,7 @@
 
 #include "model/bodies.hpp"
 #include "model/cut_body.hpp"
+#include "model/cut_prisms.hpp"
 #include "model/elements.hpp"
 #include "model/extrude.hpp"
 #include "model/holders.hpp"
@@ -57,6 +58,12 @@ Model<2> section_of(const scene::Scene& scene) {
   return section;
 }
 
+void place_prisms(const scene::Scene& scene, Model<3>& model) {
+  if (!scene.grading.enabled) return extrude(section_of(scene), model);
+  model.cells = cells_of<3>(scene);
+  cut_prisms(scene, model);
+}
+
 template <int Dim>
 void place_particles(const scene::Scene& scene, Model<Dim>& model) {
   const scene::Geometry& geometry = scene.geometry;
@@ -69,7 +76,7 @@ void place_particles(const scene::Scene& scene, Model<Dim>& model) {
   if (scene::has_elements(scene)) {
     place_elements(scene, model);
   } else if (scene::is_extruded(scene)) {
-    if constexpr (Dim == 3) extrude(section_of(scene), model);
+    if constexpr (Dim == 3) place_prisms(scene, model);
   } else {
     model.cells = cells_of<Dim>(scene);
     model.particles = fpm::make_particles(model.cells);
@@ -269,7 +276,7 @@ fpm::Cells<Dim> cells_of(const scene::Scene& scene) {
                                                           : fpm::LatticeLayout::vertex;
   lattice.jitter = geometry.jitter;
   lattice.seed = static_cast<std::uint64_t>(geometry.seed);
-  const bool cut = Dim == 2 && scene::is_cut(scene);
+  const bool cut = scene::is_cut(scene) && (Dim == 2 || scene::is_extruded(scene));
   if (!scene.grading.enabled) {
     // A tree of equal cells can lose some of them.
     if (cut) return {lattice, [&](const auto& /*lower*/, const auto& /*upper*/) { return 0.0; }};

@@ -110,7 +110,7 @@ struct SurfacePiece<2> {
   int face = -1;  // of the box: 0 left, 1 right, 2 bottom, 3 top
 };
 
-/// A flat one, of a face of an element.
+/// A flat one, of a face of an element or of a cell.
 template <>
 struct SurfacePiece<3> {
   Eigen::Vector3d middle;   // [m] centroid
@@ -120,6 +120,8 @@ struct SurfacePiece<3> {
   int cut = -1;   // none
   int side = -1;  // as above
   int face = -1;  // as above, 4 front, 5 back
+  // [m] Two edges of a rectangle; zero of what is none, or no wider than particles are apart.
+  std::array<Eigen::Vector3d, 2> edges{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 };
 
 inline Eigen::Vector2d middle_of(const SurfacePiece<2>& piece) {

@@ -62,6 +62,14 @@ void for_each_piece(const Model<Dim>& model, const SurfacePart& part, Visitor&& 
   }
 }
 
+// Two to the spacing of a particle, along what is `length` long.
+template <int Dim>
+int points_along(const Model<Dim>& model, fpm::Index particle, double length) {
+  const double half = 0.5 * model.spacing_at(particle);
+  constexpr double round_off = 1e-9;
+  return std::max(1, static_cast<int>(std::ceil(length / half - round_off)));
+}
+
 // Points of a part of the surface, whose number is not known beforehand.
 template <int Dim>
 struct PointList {
@@ -104,9 +112,18 @@ void add_points(const Model<2>& model, const SurfacePiece<2>& piece, PointList<2
   list.add(piece.from, piece.to, piece.particle, point_count(model, piece));
 }
 
-// The pieces of a solid's surface are no wider than its particles are apart.
-void add_points(const Model<3>& /*model*/, const SurfacePiece<3>& piece, PointList<3>& list) {
-  list.add(piece.middle, piece.outward, piece.area, piece.particle);
+// A rectangle has as many to its edges as a straight piece; the centroid is all there is of others.
+void add_points(const Model<3>& model, const SurfacePiece<3>& piece, PointList<3>& list) {
+  const std::array<int, 2> count{points_along(model, piece.particle, piece.edges[0].norm()),
+                                 points_along(model, piece.particle, piece.edges[1].norm())};
+  for (int j = 0; j < count[1]; ++j) {
+    for (int i = 0; i < count[0]; ++i) {
+      const Eigen::Vector3d place = piece.middle +
+                                    ((i + 0.5) / count[0] - 0.5) * piece.edges[0] +
+                                    ((j + 0.5) / count[1] - 0.5) * piece.edges[1];
+      list.add(place, piece.outward, piece.area / (count[0] * count[1]), piece.particle);
+    }
+  }
 }
 
 void add_face(const SurfacePiece<2>& piece, PointList<2>& list) {
@@ -125,10 +142,7 @@ void add_face(const JointPiece<3>& joint, PointList<3>& list) {
 }  // namespace
 
 int point_count(const Model<2>& model, const SurfacePiece<2>& piece) {
-  const double half = 0.5 * model.spacing_at(piece.particle);
-  constexpr double round_off = 1e-9;
-  const double length = (piece.to - piece.from).norm();
-  return std::max(1, static_cast<int>(std::ceil(length / half - round_off)));
+  return points_along(model, piece.particle, (piece.to - piece.from).norm());
 }
 
 template <int Dim>

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/check.hpp"
+#include "scene/cutouts.hpp"
 #include "scene/derived.hpp"
 #include "scene/grading.hpp"
 #include "scene/names.hpp"
@@ -66,6 +68,14 @@ void check_extent(const Scene& scene, tables::Diagnosis& diagnosis) {
   }
 }
 
+/// Whether there are surfaces that are fine by themselves: cutouts, bores in regions.
+bool has_hollows(const Scene& scene) {
+  if (scene.region.empty()) return !scene.cutout.empty();
+  const Geometry& geometry = scene.geometry;
+  return std::isfinite(body_of(scene).distance_to_hollows({geometry.min[0], geometry.min[1]},
+                                                          {geometry.max[0], geometry.max[1]}));
+}
+
 }  // namespace
 
 void check_grading(const Scene& scene, tables::Diagnosis& diagnosis) {
@@ -106,7 +116,9 @@ void check_grading(const Scene& scene, tables::Diagnosis& diagnosis) {
       return;
     }
   }
-  if (fine_places(scene).empty() && scene.cutout.empty()) {
+  // No body is known of regions with errors.
+  if (fine_places(scene).empty() &&
+      (scene.region.empty() || diagnosis.errors().empty()) && !has_hollows(scene)) {
     diagnosis.error("grading.enabled", "found true, and no plate or load ends within a side",
                     "say in [[refine]] where particles are to be fine");
   }

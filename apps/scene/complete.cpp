@@ -126,8 +126,6 @@ bool is_ground(const Scene& scene, tables::Diagnosis& diagnosis) {
          "it belongs to polygons in dimension 3");
   refuse(is_extruded(scene) && scene.geometry.jitter > 0.0, "geometry.jitter",
          "found with regions in 3D", "particles of prisms are not moved");
-  refuse(is_extruded(scene) && scene.grading.enabled, "grading.enabled", "found with prisms",
-         "particles of prisms are equally fine; a solid mesh may grade them");
   refuse(scene.geometry.layout != Layout::cell, "geometry.layout", "found vertex with a [[region]]",
          "particles of regions are those of cells: layout = \"cell\"");
   for (std::size_t i = 0; i < scene.material.size(); ++i) {

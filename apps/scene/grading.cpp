@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scene/derived.hpp"
+#include "scene/element_body.hpp"
 #include "scene/ground.hpp"
 
 namespace scene {
@@ -104,8 +105,12 @@ std::vector<FinePlace> fine_places(const Scene& scene) {
              traction.range_max, 0.0, places);
   }
   for (const shape::Point& corner : singular_corners(scene)) {
-    const Point at{corner.x(), corner.y()};
-    places.push_back({at, at, scene.geometry.spacing, 0.0});
+    FinePlace place{{corner.x(), corner.y()}, {corner.x(), corner.y()}, scene.geometry.spacing};
+    if (is_extruded(scene)) {  // an edge from end to end
+      place.min.push_back(scene.geometry.min[2]);
+      place.max.push_back(scene.geometry.max[2]);
+    }
+    places.push_back(place);
   }
   for (const Refine& refine : scene.refine) {
     FinePlace place;
