@@ -118,8 +118,7 @@ void add_points(const Model<3>& model, const SurfacePiece<3>& piece, PointList<3
                                  points_along(model, piece.particle, piece.edges[1].norm())};
   for (int j = 0; j < count[1]; ++j) {
     for (int i = 0; i < count[0]; ++i) {
-      const Eigen::Vector3d place = piece.middle +
-                                    ((i + 0.5) / count[0] - 0.5) * piece.edges[0] +
+      const Eigen::Vector3d place = piece.middle + ((i + 0.5) / count[0] - 0.5) * piece.edges[0] +
                                     ((j + 0.5) / count[1] - 0.5) * piece.edges[1];
       list.add(place, piece.outward, piece.area / (count[0] * count[1]), piece.particle);
     }

@@ -117,8 +117,8 @@ void check_grading(const Scene& scene, tables::Diagnosis& diagnosis) {
     }
   }
   // No body is known of regions with errors.
-  if (fine_places(scene).empty() &&
-      (scene.region.empty() || diagnosis.errors().empty()) && !has_hollows(scene)) {
+  if (fine_places(scene).empty() && (scene.region.empty() || diagnosis.errors().empty()) &&
+      !has_hollows(scene)) {
     diagnosis.error("grading.enabled", "found true, and no plate or load ends within a side",
                     "say in [[refine]] where particles are to be fine");
   }

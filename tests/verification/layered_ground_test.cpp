@@ -220,9 +220,17 @@ TEST(LayeredGround, IsAtRestInSpace) {
   const std::string ends =
       "[[support]]\nname = \"front\"\nside = \"front\"\ndirections = [\"z\"]\n"
       "[[support]]\nname = \"back\"\nside = \"back\"\ndirections = [\"z\"]\n";
-  std::string text = text_of({.spacing = 0.25, .more = ends});
-  text.insert(text.find("spacing"), "dimension = 3\ndepth = [0, 1]\n");
-  expect_rest<3>(text);
+  const auto in_space = [](std::string text) {
+    return text.insert(text.find("spacing"), "dimension = 3\ndepth = [0, 1]\n");
+  };
+  expect_rest<3>(in_space(text_of({.spacing = 0.25, .more = ends})));
+  // Through cells of several widths, and with water.
+  expect_rest<3>(in_space(text_of({.joint_left = -0.83,
+                                   .joint_right = -0.83,
+                                   .spacing = 0.125,
+                                   .more = ends + water_within +
+                                           "[grading]\nenabled = true\ncoarsest = 0.25\n"
+                                           "growth = 0.5\n[[refine]]\nat = [1, 0, 0.5]\n"})));
 }
 
 // Elements of a mesh, in the plane and in space, whose joint is a level of nodes.

@@ -168,6 +168,7 @@ TEST(SolidStages, CloseABoreAsLameSays) {
       p * (1.0 + nu) * (1.0 - 2.0 * nu) / modulus / ((1.0 - 2.0 * nu) / a2 + 1.0 / R2);
   constexpr double exact = C * (1.0 - 1.0 / R2);
   std::vector<double> errors;
+  double particles = 0.0;
   for (const double spacing : {0.25, 0.125}) {
     SolidRun run(scene_of(bore(spacing)));
     run.complete();
@@ -176,9 +177,20 @@ TEST(SolidStages, CloseABoreAsLameSays) {
     errors.push_back(across / exact - 1.0);
     report(fmt::format("error_at_{}", spacing), errors.back());
     EXPECT_NEAR(measured(run, "face_uz_m"), 0.0, 1e-6 * exact);
+    particles = static_cast<double>(run.stages.model().size());
   }
   EXPECT_LT(std::abs(errors[1]), std::abs(errors[0]));
   EXPECT_NEAR(errors[1], 0.0, 0.03);
+  // Twice as wide further than a radius from the bore.
+  SolidRun graded(scene_of(bore(0.125) +
+                           "[grading]\nenabled = true\ncoarsest = 0.25\ngrowth = 0.5\n"
+                           "[[refine]]\nat = [0, 0, 0.25]\nradius = 2\n"));
+  graded.complete();
+  const double across = -measured(graded, "face_ux_m") * std::cos(std::numbers::pi / 6.0) -
+                        measured(graded, "face_uy_m") * 0.5;
+  report("error_graded", across / exact - 1.0);
+  report("share_graded", static_cast<double>(graded.stages.model().size()) / particles);
+  EXPECT_NEAR(across / exact, 1.0, 0.5 * errors[0]);
 }
 
 }  // namespace

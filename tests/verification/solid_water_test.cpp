@@ -126,12 +126,16 @@ kind = "gravity"
 TEST(SolidGroundUnderWater, IsAtRestOnceItHasSettled) {
   for (const char* water :
        {"table = [[0, 2], [5, 1], [6, 1]]\nunit_weight = 10e3\n", "r_u = 0.2\n"}) {
-    const TestScene scene = scene_of(slope + sand(17e3, 0.0) + "[water]\n" + water);
-    const model::Model<3> model = stepping::model_at_rest<3>(scene);
-    model::State<3> state = model::initial_state(model);
-    stepping::LoadStepper<3> stepper(scene, model, state);
-    EXPECT_EQ(stepper.advance().outcome, stepping::StepOutcome::converged) << water;
-    EXPECT_LT(state.displacement.cwiseAbs().maxCoeff(), 1e-9) << water;
+    for (const std::string grading :
+         {"", "[grading]\nenabled = true\ngrowth = 0.5\ncoarsest = 0.5\n"}) {
+      const TestScene scene = scene_of(slope + sand(17e3, 0.0) + "[water]\n" + water + grading);
+      const model::Model<3> model = stepping::model_at_rest<3>(scene);
+      model::State<3> state = model::initial_state(model);
+      stepping::LoadStepper<3> stepper(scene, model, state);
+      EXPECT_EQ(model.cells.graded(), !grading.empty());
+      EXPECT_EQ(stepper.advance().outcome, stepping::StepOutcome::converged) << water;
+      EXPECT_LT(state.displacement.cwiseAbs().maxCoeff(), 1e-9) << water;
+    }
   }
 }
 
