@@ -13,6 +13,7 @@
 #include "model/cut_prisms.hpp"
 #include "model/elements.hpp"
 #include "model/extrude.hpp"
+#include "model/grid_cells.hpp"
 #include "model/holders.hpp"
 #include "model/initial_stress.hpp"
 #include "model/interfaces.hpp"
@@ -62,6 +63,9 @@ void place_prisms(const scene::Scene& scene, Model<3>& model) {
   if (!scene.grading.enabled) return extrude(section_of(scene), model);
   model.cells = cells_of<3>(scene);
   cut_prisms(scene, model);
+  // The tree itself goes on where the body does not: behind an aslant side that is held it would
+  // ask for half as many evaluations again, and more.
+  model.background = cells_behind(model);
 }
 
 template <int Dim>
