@@ -36,6 +36,7 @@ void add_layer(const Model<2>& section, fpm::Index layer, double z, double thick
     wall.cut = piece.cut;
     wall.side = piece.side;
     wall.face = piece.face;
+    wall.edges = {in_space(piece.to - piece.from, 0.0), thickness * Eigen::Vector3d::UnitZ()};
   }
   for (const JointPiece<2>& joint : section.joints) {
     model.joints.push_back(
@@ -54,6 +55,10 @@ void add_end(const Model<2>& section, fpm::Index layer, double z, int face, Mode
     end.area = section.particles.volume[a];
     end.particle = layer * n + a;
     end.face = face;
+    const double width = section.cells.width(a);
+    if (end.area == width * width) {
+      end.edges = {width * Eigen::Vector3d::UnitX(), width * Eigen::Vector3d::UnitY()};
+    }
   }
 }
 

@@ -38,16 +38,23 @@ std::optional<SurfacePiece<2>> clipped(SurfacePiece<2> piece, const SurfacePart&
   return piece;
 }
 
-// A piece of a solid is within a range or not, as its middle is.
-std::optional<SurfacePiece<3>> clipped(const SurfacePiece<3>& piece, const SurfacePart& part,
-                                       double /*sliver*/) {
+// Of a rectangle along the axes the part within a range is known; another piece of a solid is
+// within it or not, as its middle is.
+std::optional<SurfacePiece<3>> clipped(SurfacePiece<3> piece, const SurfacePart& part,
+                                       double sliver) {
   if (part.of != SurfacePart::Of::face) return piece;
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const bool across = i == part.index / 2;
-    if (!across && (piece.middle[i] < part.from[k] || piece.middle[i] > part.to[k])) {
-      return std::nullopt;
-    }
+    if (i == part.index / 2) continue;
+    double width = 0.0;
+    for (const Eigen::Vector3d& edge : piece.edges) width += std::abs(edge[i]);
+    const double low = std::max(piece.middle[i] - 0.5 * width, part.from[k]);
+    const double high = std::min(piece.middle[i] + 0.5 * width, part.to[k]);
+    if (width == 0.0 ? high < low : high - low <= sliver) return std::nullopt;
+    if (width == 0.0 || high - low >= width - sliver) continue;
+    piece.area *= (high - low) / width;
+    piece.middle[i] = 0.5 * (low + high);
+    for (Eigen::Vector3d& edge : piece.edges) edge[i] *= (high - low) / width;
   }
   return piece;
 }

@@ -68,6 +68,12 @@ TEST(Prisms, HaveADepthOfWholeSpacings) {
   EXPECT_THAT(with("dimension = 3\ndepth = [0, 0.5]\njitter = 0.1\n"),
               HasSubstr("geometry.jitter: found with regions in 3D"));
   EXPECT_THAT(with("depth = [0, 0.5]\n"), HasSubstr("geometry.depth: found in a plane"));
+  const std::string graded = "dimension = 3\ndepth = [0, 0.5]\n[grading]\nenabled = true\n";
+  EXPECT_EQ(with(graded), "");
+  EXPECT_EQ(with(graded + "[[refine]]\nat = [1.0, 0.2, 0.3]\n"), "");
+  EXPECT_THAT(with(graded + "[[refine]]\nat = [1.0, 0.2]\n"), HasSubstr("refine.0.at: "));
+  EXPECT_THAT(with(graded + "[[refine]]\nat = [1.0, 0.2, 0.7]\n"), HasSubstr("refine.0.at: "));
+  EXPECT_THAT(with(graded + "coarsest = 0.05\n"), HasSubstr("grading.coarsest: found 0.05"));
   const auto reading = parse_scene(
       replaced(base, "spacing = 0.1\n", "spacing = 0.1\ndimension = 3\ndepth = [-0.2, 0.3]\n") +
           layers + around + pressed + ends,

@@ -141,6 +141,27 @@ TEST(GradedPrism, OfARectangleIsTheBox) {
             1e-8 * box.state.displacement.norm());
 }
 
+// A load that ends within cells, on even and on graded prisms, is its pressure times its area.
+TEST(PrismEnds, BearAllOfALoadThatEndsWithinTheirCells) {
+  const std::string base =
+      deep("0.1") + region("soft", "[[0, 0], [2, 0], [1.7, 1.2], [0, 1.2]]") +
+      side("mantle", "\"free\"", "[[0, 0], [2, 0], [1.7, 1.2], [0, 1.2], [0, 0]]") +
+      "[[support]]\nname = \"base\"\nside = \"front\"\n"
+      "directions = [\"x\", \"y\", \"z\"]\n[[traction]]\nname = \"q\"\n"
+      "side = \"back\"\nvalue = [200.0, 0.0, -1e3]\nrange_min = [0.4, 0.4]\n"
+      "range_max = [0.97, 0.83]\n" +
+      two + tightly;
+  for (const char* grading : {"", "[grading]\nenabled = true\ngrowth = 0.5\ncoarsest = 0.4\n"}) {
+    const TestScene scene = scene_of(base + grading);
+    const auto model = model::build_model<3>(scene);
+    EXPECT_EQ(model.cells.graded(), *grading != 0);
+    const Eigen::Index n = model.size();
+    constexpr double area = 0.57 * 0.43, round_off = 1e-10;
+    EXPECT_NEAR(model.scaled_load.segment(0, n).sum(), 200.0 * area, round_off);
+    EXPECT_NEAR(model.scaled_load.segment(2 * n, n).sum(), -1e3 * area, round_off);
+  }
+}
+
 // A quarter of a ring under inner pressure gives way at its bore as Lame says in plane strain, with
 // particles that are finest there alone, as a hollow surface is by itself: at second order, as all
 // widths halve together, and as its section does.
