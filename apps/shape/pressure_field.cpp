@@ -367,6 +367,12 @@ bool is_pressure_of(const tables::VaryingNumber& told, const Ring& corners, cons
                     "allowed are two rows and columns or more; along one axis give a table");
     return false;
   }
+  if (is_raster && told.samples->nearest) {
+    diagnosis.error(key, "found a raster of one value in each cell",
+                    "the gradient of the pressure is a force: allowed is a raster that is linear "
+                    "between its values, without nearest");
+    return false;
+  }
   const PressureField field(told);
   if (field.has_nothing()) {
     diagnosis.error(key, "found points on one line, or less than three",

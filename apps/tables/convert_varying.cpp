@@ -24,9 +24,10 @@ const std::vector<Form>& forms() {
        "{ along = \"x\" or \"y\", table = [[coordinate, value], ...] or a file } or "
        "{ below = level, table = [[depth, value], ...] or a file }"},
       {"raster",
-       {"raster", "lower", "step", "factor"},
+       {"raster", "lower", "step", "nearest", "factor"},
        "{ raster = a file } or { raster = [[values from left to right], ... from top to bottom], "
-       "lower = [x, y] of the lowest, leftmost value, step = [dx, dy] }"},
+       "lower = [x, y] of the lowest, leftmost value, step = [dx, dy] }, and nearest = true if "
+       "there is one value in each cell"},
       {"points", {"points", "factor"}, "{ points = [[x, y, value], ...] or a file }"}};
   return all;
 }
@@ -130,6 +131,7 @@ class Reader {
                    : file.kind == Samples::Kind::raster ? read_raster(*list, table)
                                                         : read_points(*list);
     if (!samples) return std::nullopt;
+    samples->nearest = file.nearest;
     for (double& value : samples->values) value *= file.factor;
     if (const std::string found = objection(*samples, field_.notes.range); !found.empty()) {
       return refuse(found, field_.allowed_text());
@@ -144,6 +146,14 @@ class Reader {
       const auto value = number(*factor);
       if (!value) return false;
       file.factor = *value;
+    }
+    if (const toml::node* nearest = table.get("nearest")) {
+      const auto value = nearest->value_exact<bool>();
+      if (!value) {
+        refuse("found nearest = " + describe(*nearest), std::string(form_->shown));
+        return false;
+      }
+      file.nearest = *value;
     }
     if (file.kind != Samples::Kind::table) return true;
     const toml::node *along = table.get("along"), *below = table.get("below");

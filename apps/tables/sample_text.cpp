@@ -253,7 +253,9 @@ Samples read_samples(std::string_view text, const SampleFile& file, const Range&
   Samples samples;
   switch (file.kind) {
     case Samples::Kind::raster:
-      return GridReader(text, file.factor, range).read();
+      samples = GridReader(text, file.factor, range).read();
+      samples.nearest = file.nearest;
+      return samples;
     case Samples::Kind::table:
       samples = table_samples(read_columns<2>(text, file, range), file.axis, file.below);
       break;

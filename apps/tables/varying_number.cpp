@@ -100,9 +100,10 @@ std::string samples_text(const Samples& samples) {
         samples.values.begin() + static_cast<std::ptrdiff_t>((row - 1) * samples.columns);
     add({first, first + static_cast<std::ptrdiff_t>(samples.columns)});
   }
-  return fmt::format("{{ raster = [{}], lower = {}, step = {} }}", text,
+  return fmt::format("{{ raster = [{}], lower = {}, step = {}{} }}", text,
                      list_of({samples.lower[0], samples.lower[1]}),
-                     list_of({samples.step[0], samples.step[1]}));
+                     list_of({samples.step[0], samples.step[1]}),
+                     samples.nearest ? ", nearest = true" : "");
 }
 
 std::string file_text(const SampleFile& file) {
@@ -114,11 +115,25 @@ std::string file_text(const SampleFile& file) {
   constexpr std::array<const char*, 3> names{"table", "raster", "points"};
   text +=
       fmt::format("{} = {}", names[static_cast<std::size_t>(file.kind)], quoted_text(file.name));
+  if (file.nearest) text += ", nearest = true";
   if (file.factor != 1.0) text += ", factor = " + number_text(file.factor);
   return "{ " + text + " }";
 }
 
 }  // namespace
+
+std::size_t Samples::cell(std::size_t along, double coordinate) const {
+  const std::size_t count = along == 0 ? columns : rows();
+  const double way = std::floor((coordinate - lower[along]) / step[along] + 0.5);
+  return static_cast<std::size_t>(std::clamp(way, 0.0, static_cast<double>(count - 1)));
+}
+
+std::array<double, 2> Samples::ends_of_cell(std::size_t along, std::size_t index) const {
+  const std::size_t count = along == 0 ? columns : rows();
+  const double middle = lower[along] + step[along] * static_cast<double>(index);
+  return {index == 0 ? -infinity : middle - 0.5 * step[along],
+          index + 1 == count ? infinity : middle + 0.5 * step[along]};
+}
 
 std::array<double, 2> Samples::place(std::size_t i) const {
   switch (kind) {
@@ -139,7 +154,8 @@ double Samples::at_place(std::span<const double> place) const {
     case Kind::table:
       return in_table(*this, place[axis]);
     case Kind::raster:
-      return in_raster(*this, place[0], place[1]);
+      return nearest ? values[cell(1, place[1]) * columns + cell(0, place[0])]
+                     : in_raster(*this, place[0], place[1]);
     case Kind::points:
       break;
   }

@@ -14,8 +14,8 @@ namespace tables {
 /// Places in the plane and the values of a number there.
 struct Samples {
   /// table: linear between values along one coordinate. raster: bilinear between the middles of the
-  /// cells of a regular grid, and as in the nearest of them up to the edges of its outer cells.
-  /// points: that of the nearest one.
+  /// cells of a regular grid, and as in the nearest of them up to the edges of its outer cells;
+  /// or, if it is `nearest`, of one value in each cell. points: that of the nearest one.
   enum class Kind { table, raster, points };
   Kind kind = Kind::table;
   std::size_t axis = 1;             // table: which coordinate, 0 or 1
@@ -23,9 +23,18 @@ struct Samples {
   std::array<double, 2> lower{};    // raster: middle of its lowest, leftmost cell
   std::array<double, 2> step{1.0, 1.0};  // raster: from middle to middle, > 0
   std::size_t columns = 0;               // raster
+  bool nearest = false;                  // raster: one value in each cell
   std::vector<double> values;            // raster: row by row from below, from left to right
 
   [[nodiscard]] std::size_t rows() const { return columns > 0 ? values.size() / columns : 0; }
+  /// Whether they are of one value around each place, and jump half way to the next.
+  [[nodiscard]] bool jumps() const {
+    return kind == Kind::points || (kind == Kind::raster && nearest);
+  }
+  /// raster: which cell a coordinate along one axis is in or, beyond them, next to.
+  [[nodiscard]] std::size_t cell(std::size_t along, double coordinate) const;
+  /// raster: from where to where that cell counts, an outer one without end.
+  [[nodiscard]] std::array<double, 2> ends_of_cell(std::size_t along, std::size_t index) const;
   /// The coordinates of value i, of which a table has one.
   [[nodiscard]] std::array<double, 2> place(std::size_t i) const;
   [[nodiscard]] double at_place(std::span<const double> place) const;
@@ -40,6 +49,7 @@ struct SampleFile {
   Samples::Kind kind = Samples::Kind::table;
   std::size_t axis = 1;
   std::optional<double> below;  // table: its coordinates are depths below this level
+  bool nearest = false;         // raster: one value in each cell
   double factor = 1.0;          // of its values
   bool operator==(const SampleFile&) const = default;
 };
@@ -47,7 +57,7 @@ struct SampleFile {
 /// A number that changes from place to place: linearly, `value` at `at` and `gradient` times the
 /// way from there elsewhere, or as samples tell. In TOML a number, { at = [x, y], value = v,
 /// gradient = [gx, gy] }, { along = "y", table = [[y, v], ...] }, { below = y, table = [[depth, v],
-/// ...] }, { raster = FILE } or { points = FILE }.
+/// ...] }, { raster = FILE }, { raster = FILE, nearest = true } or { points = FILE }.
 struct VaryingNumber {
   double value = 0.0;  // of samples, their mean
   std::array<double, 2> at{};

@@ -43,16 +43,23 @@ TEST(Samples, OfEveryKindAreReadBesideTheSceneAndThenPartOfIt) {
   std::ofstream(folder / "phi.asc") << "ncols 2\nnrows 2\nxllcorner -1\nyllcorner -2\ncellsize 2\n"
                                        "20 30\n20 30\n";
   std::ofstream(folder / "gamma.csv") << "0,0,18e3\n2,0,20e3\n";
+  std::ofstream(folder / "E.asc") << "ncols 2\nnrows 1\nxllcorner 0\nyllcorner -1\ncellsize 1\n"
+                                     "2e6 9e6\n";
   std::string text = with("cohesion", "{ below = 0.0, table = \"c.csv\", factor = 1e3 }");
   text.replace(text.find("friction_angle = 20.0"), 21, "friction_angle = { raster = \"phi.asc\" }");
   text.replace(text.find("dilation_angle = 10.0"), 21, "dilation_angle = 0.0");
   text.replace(text.find("density = 1850.0"), 16, "unit_weight = { points = \"gamma.csv\" }");
+  const auto modulus = text.find("youngs_modulus");
+  text.replace(modulus, text.find('\n', modulus) - modulus,
+               "youngs_modulus = { raster = \"E.asc\", nearest = true }");
   const auto reading = parse_scene(text, (folder / "s.toml").string());
   ASSERT_TRUE(reading.scene) << reading.errors.front().text();
   const Material& soil = reading.scene->material[0];
   EXPECT_DOUBLE_EQ(at(*soil.cohesion, 0.3, -0.25), 2.5e3);
   EXPECT_DOUBLE_EQ(at(*soil.cohesion, 0.3, -0.75), 5e3);
   EXPECT_DOUBLE_EQ(at(*soil.friction_angle, 0.5, -0.5), 22.5);
+  EXPECT_DOUBLE_EQ(at(soil.youngs_modulus, 0.9, -0.5), 2e6);
+  EXPECT_DOUBLE_EQ(at(soil.youngs_modulus, 1.1, -0.5), 9e6);
   EXPECT_DOUBLE_EQ(at(*soil.unit_weight, 0.9, -1.0), 18e3);
   EXPECT_DOUBLE_EQ(at(soil.density, 1.1, -1.0), 20e3 / 9.81);
   const auto there = parameters_at(soil, std::array{0.5, -0.25});
@@ -112,6 +119,13 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"cohesion", "{ raster = [[1e3, 2e3]], lower = [0.5, -0.5], step = [1, 0] }",
               "a step of more than zero"},
         Wrong{"cohesion", "{ raster = [[1e3, 2e3]], lower = [0.5, -0.5], step = [0.5, 1] }",
+              "found values from x = 0.25 to 1.25, and the material reaches ("},
+        Wrong{"cohesion",
+              "{ raster = [[1e3, 2e3]], lower = [0.5, -0.5], step = [1, 1], nearest = 1 }",
+              "found nearest = "},
+        Wrong{"cohesion", "{ points = [[0, 0, 1]], nearest = true }", "no such key in it: nearest"},
+        Wrong{"cohesion",
+              "{ raster = [[1e3, 2e3]], lower = [0.5, -0.5], step = [0.5, 1], nearest = true }",
               "found values from x = 0.25 to 1.25, and the material reaches ("},
         Wrong{"cohesion", "{ points = [[0, 0, 1e3], [0, 0, 2e3]] }", "found two points at (0, 0)"},
         Wrong{"cohesion", "{ points = [[0, 0]] }", "material.0.cohesion: found [0, 0]"},

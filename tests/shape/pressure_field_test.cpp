@@ -184,6 +184,11 @@ TEST(ToldPressure, IsOfAllOfTheGround) {
   EXPECT_THAT(complaint_of(VaryingNumber(raster)),
               HasSubstr("told of nothing at (0, 0), a corner of the ground; allowed are values all "
                         "over the ground, between the middles of the raster's outermost cells"));
+  tables::Samples cells = raster;
+  cells.nearest = true;
+  EXPECT_THAT(complaint_of(VaryingNumber(cells)),
+              HasSubstr("found a raster of one value in each cell; the gradient of the pressure is "
+                        "a force"));
   raster.values.resize(8);
   EXPECT_THAT(complaint_of(VaryingNumber(raster)),
               HasSubstr("found a raster of one row or column"));

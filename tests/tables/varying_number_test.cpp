@@ -77,6 +77,28 @@ TEST(Points, HaveTheValueOfTheNearest) {
   }
 }
 
+// Of one value in each cell: that of the nearest of its middles.
+TEST(ARaster, ThatIsNearestHasTheValueOfTheCell) {
+  Samples raster;
+  raster.kind = Samples::Kind::raster;
+  raster.nearest = true;
+  raster.lower = {1.0, -2.0};
+  raster.step = {0.5, 0.25};
+  raster.columns = 3;
+  raster.values = {1, 2, 3, 4, 5, 6};
+  std::vector<std::array<double, 3>> middles;
+  for (std::size_t i = 0; i < 6; ++i) {
+    middles.push_back({raster.place(i)[0], raster.place(i)[1], raster.values[i]});
+  }
+  const Samples points = point_samples(middles);
+  for (double x = 0.61; x < 2.5; x += 0.1) {
+    for (double y = -2.31; y < -1.4; y += 0.04) EXPECT_EQ(at(raster, x, y), at(points, x, y));
+  }
+  EXPECT_EQ(varying_text(VaryingNumber(raster)),
+            "{ raster = [[4.0, 5.0, 6.0], [1.0, 2.0, 3.0]], lower = [1.0, -2.0], step = [0.5, "
+            "0.25], nearest = true }");
+}
+
 SampleFile file_of(Samples::Kind kind) {
   SampleFile file;
   file.name = "f";

@@ -317,7 +317,7 @@ std::optional<problem::Cases> ground_case(const GroundScene& told, tables::Diagn
   const bool has_samples = std::ranges::any_of(scene.materials, weighs_by_samples);
   if (has_samples) {
     cut_along_tables(scene);
-    cut_between_points(scene);
+    cut_between_samples(scene);
   }
   if (scene.water.is_there() || has_samples) {
     wet(scene, diagnosis);

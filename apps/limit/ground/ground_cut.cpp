@@ -176,8 +176,8 @@ void cut_along_tables(GroundScene& scene) {
 
 namespace {
 
-bool is_of_points(const tables::VaryingNumber& weight) {
-  return weight.samples && weight.samples->kind == tables::Samples::Kind::points;
+bool has_pieces(const tables::VaryingNumber& weight) {
+  return weight.samples && weight.samples->jumps();
 }
 
 // The part of a convex polygon that is no nearer to another place than to one.
@@ -224,25 +224,43 @@ std::vector<std::vector<mesh::Point>> nearest_places(const tables::Samples& poin
   return cells;
 }
 
-// Cuts the regions whose weight, or that which `of` finds, is of points.
+// Of each cell of a raster the rectangle, within a box; nothing where there is none.
+std::vector<std::vector<mesh::Point>> rectangles(const tables::Samples& raster,
+                                                 const mesh::Point& low, const mesh::Point& high) {
+  std::vector<std::vector<mesh::Point>> cells(raster.values.size());
+  for (std::size_t i = 0; i < raster.values.size(); ++i) {
+    const auto x = raster.ends_of_cell(0, i % raster.columns);
+    const auto y = raster.ends_of_cell(1, i / raster.columns);
+    const mesh::Point from = mesh::Point(x[0], y[0]).cwiseMax(low);
+    const mesh::Point to = mesh::Point(x[1], y[1]).cwiseMin(high);
+    if (from.x() >= to.x() || from.y() >= to.y()) continue;
+    cells[i] = {from, {to.x(), from.y()}, to, {from.x(), to.y()}};
+  }
+  return cells;
+}
+
+// Cuts the regions whose weight, or that which `of` finds, is of samples that jump.
 template <class Of>
-void cut_between_points(GroundScene& scene, Of&& of) {
+void cut_between_samples(GroundScene& scene, Of&& of) {
   const Extent ground = extent_of(scene);
   const mesh::Point margin = ground.high - ground.low;
   std::vector<GroundRegion> regions;
   for (GroundRegion& whole : scene.regions) {
     const tables::VaryingNumber* told = of(scene.materials[whole.material]);
-    if (told == nullptr || !is_of_points(*told)) {
+    if (told == nullptr || !has_pieces(*told)) {
       regions.push_back(whole);
       continue;
     }
-    const tables::Samples points = *told->samples;
-    const auto cells = nearest_places(points, ground.low - margin, ground.high + margin);
+    const tables::Samples samples = *told->samples;
+    const mesh::Point low = ground.low - margin, high = ground.high + margin;
+    const auto cells = samples.kind == tables::Samples::Kind::raster
+                           ? rectangles(samples, low, high)
+                           : nearest_places(samples, low, high);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (cells[i].empty()) continue;
       for (GroundPart& part : parts_within(whole, cells[i], ground)) {
         GroundMaterial material = scene.materials[whole.material];
-        *of(material) = tables::VaryingNumber(points.values[i]);
+        *of(material) = tables::VaryingNumber(samples.values[i]);
         recentre(part.centre, material.soil);
         if (!material.unit_weight.samples) take_weight(material.unit_weight, material.soil);
         scene.materials.push_back(std::move(material));
@@ -256,9 +274,9 @@ void cut_between_points(GroundScene& scene, Of&& of) {
 
 }  // namespace
 
-void cut_between_points(GroundScene& scene) {
-  cut_between_points(scene, [](auto& material) { return &material.unit_weight; });
-  cut_between_points(scene, [](auto& material) {
+void cut_between_samples(GroundScene& scene) {
+  cut_between_samples(scene, [](auto& material) { return &material.unit_weight; });
+  cut_between_samples(scene, [](auto& material) {
     return material.saturated_unit_weight ? &*material.saturated_unit_weight : nullptr;
   });
 }

@@ -30,8 +30,8 @@ struct GroundPart {
 /// in every part, which has a material of its own, of the same name.
 void cut_along_tables(GroundScene& scene);
 
-/// Likewise those whose unit weight is told by points, of which the nearest counts, into what is
-/// nearest to each.
-void cut_between_points(GroundScene& scene);
+/// Likewise those whose unit weight is told by points, of which the nearest counts, or of one value
+/// in each cell of a raster, into what is nearest to each.
+void cut_between_samples(GroundScene& scene);
 
 }  // namespace limit::ground

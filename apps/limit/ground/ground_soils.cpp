@@ -83,23 +83,38 @@ bool check_number(const tables::VaryingNumber& number, const std::vector<Corner>
   return false;
 }
 
+// How many pieces the ground will be cut into around the samples of a weight that jumps.
+std::size_t pieces_of(const tables::Samples& samples, const std::vector<Corner>& corners) {
+  if (samples.kind == tables::Samples::Kind::points) return samples.values.size();
+  std::size_t pieces = 1;
+  for (const Eigen::Index axis : {0, 1}) {
+    const auto [low, high] =
+        std::ranges::minmax(corners, {}, [&](const Corner& corner) { return corner.place[axis]; });
+    const auto along = static_cast<std::size_t>(axis);
+    pieces *= samples.cell(along, high.place[axis]) - samples.cell(along, low.place[axis]) + 1;
+  }
+  return pieces;
+}
+
 // Whether a weight is linear, or will be cut into what is.
 bool check_weight(const tables::VaryingNumber& weight, const std::vector<Corner>& corners,
                   const std::string& key, tables::Diagnosis& diagnosis) {
-  using Kind = tables::Samples::Kind;
-  if (weight.samples && weight.samples->kind == Kind::raster) {
+  const auto samples = weight.samples;
+  if (samples && samples->kind == tables::Samples::Kind::raster && !samples->nearest) {
     diagnosis.error(key, "found a raster",
                     "fpm-limit balances a weight exactly, and between the middles of four cells a "
-                    "raster is not linear: allowed is a number, one that is linear, a table, or "
-                    "points, of which the nearest counts");
+                    "raster is not linear: allowed is one value in each cell, { raster = ..., "
+                    "nearest = true }, for both programs; or a number, one that is linear, a "
+                    "table, or points");
     return false;
   }
   constexpr std::size_t most = 1000;
-  if (weight.samples && weight.samples->kind == Kind::points &&
-      weight.samples->values.size() > most) {
-    diagnosis.error(key, fmt::format("found {} points", weight.samples->values.size()),
+  if (samples && samples->jumps() && !corners.empty() && pieces_of(*samples, corners) > most) {
+    diagnosis.error(key,
+                    fmt::format("found {} {} over the material", pieces_of(*samples, corners),
+                                samples->columns > 0 ? "cells" : "points"),
                     fmt::format("the mesh has sides between what is nearest to each: allowed are "
-                                "{} points",
+                                "{}",
                                 most));
     return false;
   }

@@ -7,7 +7,7 @@ namespace limit::ground {
 
 /// Makes the soils of a scene of what its materials tell. A cohesion that changes and is not more
 /// than zero wherever its material is is an error, likewise a friction angle, what samples do not
-/// speak of, and a weight by a raster or points.
+/// speak of, and a weight by a raster that is bilinear.
 void tell_soils(GroundScene& scene, tables::Diagnosis& diagnosis);
 
 /// Gives a soil a weight that is linear.

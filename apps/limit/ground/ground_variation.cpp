@@ -139,6 +139,48 @@ void see_table(const tables::Samples& table, const Polygon& triangle, Collector&
   }
 }
 
+// How much of a triangle, or of a line, is in a part of it.
+double measure(const Polygon& part, bool is_line) {
+  double area = 0.0, length = 0.0;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    const mesh::Point one = part[i] - part[0], next = part[(i + 1) % part.size()] - part[0];
+    area += 0.5 * (one.x() * next.y() - one.y() * next.x());
+    length = std::max(length, one.norm());
+  }
+  return is_line ? length : std::abs(area);
+}
+
+// Of one value in each cell: what is in the triangle, not what only touches it.
+NumberWithin within_cells(const tables::Samples& raster,
+                          const std::array<mesh::Point, 3>& corners) {
+  const Polygon triangle(corners.begin(), corners.end());
+  const bool is_line = corners[1] == corners[2];
+  constexpr double rounding = 1e-12;
+  const double nothing = rounding * measure(triangle, is_line);
+  const auto [left, right] =
+      std::ranges::minmax(triangle, {}, [](const mesh::Point& p) { return p.x(); });
+  const auto [low, high] =
+      std::ranges::minmax(triangle, {}, [](const mesh::Point& p) { return p.y(); });
+  NumberWithin within;
+  within.least = infinity;
+  within.most = -infinity;
+  for (std::size_t i = raster.cell(0, left.x()); i <= raster.cell(0, right.x()); ++i) {
+    const auto across = raster.ends_of_cell(0, i);
+    const Polygon column = part_between(triangle, 0, across[0], across[1]);
+    for (std::size_t j = raster.cell(1, low.y()); j <= raster.cell(1, high.y()); ++j) {
+      const auto up = raster.ends_of_cell(1, j);
+      if (column.empty() || measure(part_between(column, 1, up[0], up[1]), is_line) <= nothing) {
+        continue;
+      }
+      within.least = std::min(within.least, raster.values[j * raster.columns + i]);
+      within.most = std::max(within.most, raster.values[j * raster.columns + i]);
+    }
+  }
+  within.corner.fill(within.least);
+  within.above = within.most - within.least;
+  return within;
+}
+
 // Whatever is nearest to a place is no farther from the middle than twice the radius more than what
 // is nearest to that.
 NumberWithin within_points(const tables::Samples& points,
@@ -173,6 +215,7 @@ NumberWithin number_within(const tables::VaryingNumber& number,
   if (number.samples && number.samples->kind == Kind::points) {
     return within_points(*number.samples, corners);
   }
+  if (number.samples && number.samples->jumps()) return within_cells(*number.samples, corners);
   Collector collector(number, corners);
   const Polygon triangle(corners.begin(), corners.end());
   for (const mesh::Point& corner : corners) collector.see(corner);

@@ -56,6 +56,11 @@ VaryingNumber rough_table() {
   for (const double y : {-1.0, -0.6, -0.5, 0.1, 0.7, 1.0}) lines.push_back({y, any(1.0, 3.0)});
   return VaryingNumber(tables::table_samples(lines, 1, std::nullopt));
 }
+VaryingNumber rough_cells() {
+  tables::Samples cells = *rough_raster().samples;
+  cells.nearest = true;
+  return VaryingNumber(cells);
+}
 VaryingNumber rough_points() {
   std::vector<std::array<double, 3>> points;
   for (int i = 0; i < 30; ++i) points.push_back({any(-1, 1), any(-1, 1), any(1.0, 3.0)});
@@ -65,11 +70,10 @@ VaryingNumber rough_points() {
 // Whatever is sampled within a triangle is within the bounds, and, of what is bilinear, comes as
 // near to them as the sampling does.
 TEST(BoundsInATriangle, HoldForAllKindsAndAreTight) {
-  for (const bool is_points : {false, true}) {
+  for (const bool jumps : {false, true}) {
     for (int trial = 0; trial < 60; ++trial) {
-      const VaryingNumber number = is_points        ? rough_points()
-                                   : trial % 2 == 0 ? rough_raster()
-                                                    : rough_table();
+      const VaryingNumber number = jumps ? (trial % 2 == 0 ? rough_points() : rough_cells())
+                                         : (trial % 2 == 0 ? rough_raster() : rough_table());
       std::array<mesh::Point, 3> corners;
       for (mesh::Point& corner : corners) corner = {any(-1.1, 1.1), any(-1, 1)};
       if (trial % 5 == 0) corners[2] = corners[1];  // along a side
@@ -93,7 +97,7 @@ TEST(BoundsInATriangle, HoldForAllKindsAndAreTight) {
       EXPECT_GE(within.most, most - rounding);
       EXPECT_LE(within.below, below + rounding);
       EXPECT_GE(within.above, above - rounding);
-      if (is_points) continue;
+      if (jumps) continue;
       // A step of the sampling is 0.05 at most, a slope of the samples some ten.
       constexpr double missed = 0.25;
       EXPECT_GE(within.least, least - missed);
@@ -101,6 +105,22 @@ TEST(BoundsInATriangle, HoldForAllKindsAndAreTight) {
       EXPECT_GE(within.below, below - missed);
       EXPECT_LE(within.above, above + missed);
     }
+  }
+}
+
+// What only touches a triangle is not in it.
+TEST(BoundsInATriangle, OfOneCellAreItsValue) {
+  const VaryingNumber cells = rough_cells();
+  const tables::Samples& raster = *cells.samples;
+  for (const std::size_t i : {std::size_t{0}, raster.columns + 1, raster.values.size() - 1}) {
+    const auto x = raster.ends_of_cell(0, i % raster.columns);
+    const auto y = raster.ends_of_cell(1, i / raster.columns);
+    const mesh::Point low(std::max(x[0], -2.0), std::max(y[0], -2.0));
+    const mesh::Point high(std::min(x[1], 2.0), std::min(y[1], 2.0));
+    const auto within = ground::number_within(cells, {low, mesh::Point(high.x(), low.y()), high});
+    EXPECT_EQ(within.least, raster.values[i]);
+    EXPECT_EQ(within.most, raster.values[i]);
+    EXPECT_EQ(within.above, 0.0);
   }
 }
 
@@ -223,17 +243,19 @@ TEST(ABlockBetweenPlatens, OfWeightThatGrowsWithDepthBearsWhatItsFibresDo) {
   EXPECT_LE(found.gap(), 0.01);
 }
 
-// By the nearest of four points, as two columns of two weights, 200 below 100 and 400 below 300
-// kN/m3, beside the cohesion that they want, with which all of it spreads at once.
-TEST(ABlockBetweenPlatens, OfWeightByPointsBearsWhatItsFibresDo) {
+// By the nearest of four points, or the cells of a raster, as two columns of two weights, 200 below
+// 100 and 400 below 300 kN/m3, beside the cohesion that they want, with which all of it spreads at
+// once.
+class ABlockOfWeights : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ABlockOfWeights, BearsBetweenPlatensWhatItsFibresDo) {
   const auto column = [](const char* name, double left, double kink, double below) {
     return fmt::format(
-        "[[material]]\nname = \"{0}\"\nfriction_angle = 0\nunit_weight = {{ points = "
-        "[[0.0125, 0.03, 2e5], [0.0125, 0.09, 1e5], [0.0375, 0.03, 4e5], [0.0375, 0.09, 3e5]] }}\n"
+        "[[material]]\nname = \"{0}\"\nfriction_angle = 0\nunit_weight = {5}\n"
         "cohesion = {{ along = \"y\", table = [[0, {3}], [0.06, {2}], [0.1, 15e3]] }}\n"
         "[[region]]\nmaterial = \"{0}\"\n"
         "outline = [[{1}, 0], [{4}, 0], [{4}, 0.1], [{1}, 0.1]]\n",
-        name, left, kink, below, left + 0.025);
+        name, left, kink, below, left + 0.025, GetParam());
   };
   const auto cases =
       case_of("[load]\nsought = \"footing\"\n" + column("left", 0.0, 17e3, 23e3) +
@@ -245,6 +267,13 @@ TEST(ABlockBetweenPlatens, OfWeightByPointsBearsWhatItsFibresDo) {
   ASSERT_TRUE(cases);
   expect_bracketed(solved(*cases, 0.01), 30e3, 0.01);
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Samples, ABlockOfWeights,
+    ::testing::Values("{ points = [[0.0125, 0.03, 2e5], [0.0125, 0.09, 1e5], [0.0375, 0.03, 4e5], "
+                      "[0.0375, 0.09, 3e5]] }",
+                      "{ raster = [[1e5, 3e5], [2e5, 4e5]], lower = [0.0125, 0.03], step = [0.025, "
+                      "0.06], nearest = true }"));
 
 // Wherever they are: a cut of one weight, by points of which all have it.
 TEST(AVerticalCut, OfAWeightByPointsThatAreAllAlikeFailsAsOneOfOneWeightDoes) {
@@ -333,7 +362,12 @@ TEST(SamplesOfTheGround, ThatDoNotDoAreRefusedByTheirKey) {
   EXPECT_THAT(
       complaint({"material.0.unit_weight={ raster = [[1, 2]], lower = [0, 0], step = [9, 9] }"}),
       AllOf(HasSubstr("material.0.unit_weight: found a raster"),
-            HasSubstr("a number, one that is linear, a table, or points, of which the nearest")));
+            HasSubstr("allowed is one value in each cell, { raster = ..., nearest = true }")));
+  std::string cells;
+  for (int i = 0; i <= 1000; ++i) cells += i == 0 ? "1" : ", 1";
+  EXPECT_THAT(complaint({"material.0.unit_weight={ raster = [[" + cells +
+                         "]], lower = [0, 0], step = [1e-3, 9], nearest = true }"}),
+              HasSubstr("material.0.unit_weight: found 1001 cells over the material"));
   std::string many;
   for (int i = 0; i <= 1000; ++i) many += fmt::format("{}[0, {}, 1]", i == 0 ? "" : ", ", i);
   EXPECT_THAT(complaint({"material.0.unit_weight={ points = [" + many + "] }"}),
