@@ -37,11 +37,13 @@ LinearSolveResult LinearSolve<Dim>::operator()(equilibrium::Equilibrium<Dim>& eq
   };
   if (!look() || result.converged || !equilibrium.linearise(u)) return result;
   double scale = equilibrium.external_load().norm();
+  // Supports have moved, or something else than the loads is to be borne.
+  bool torn = result.reference > 2.0 * scale;
   for (bool falls = true; falls && !result.converged && result.actions < options.max_actions;) {
     jfnk::GmresOptions linear;
     linear.max_iterations = options.max_actions - result.actions;
     linear.absolute_tolerance = std::max(options.rounding, aim * options.tolerance * scale);
-    linear.relative_tolerance = scale > 0.0 ? 0.0 : first_aim;
+    linear.relative_tolerance = torn ? first_aim : 0.0;
     rest_ *= -1.0;
     const jfnk::GmresResult solve =
         krylov_.solve(jfnk::OperatorRef(action), rest_, correction_, linear, P, product);
@@ -52,6 +54,7 @@ LinearSolveResult LinearSolve<Dim>::operator()(equilibrium::Equilibrium<Dim>& eq
     const double before = result.norm;
     if (!look()) return result;
     scale = result.reference;
+    torn = false;
     falls = solve.status == jfnk::KrylovStatus::converged && result.norm < worth_another * before;
   }
   return result;

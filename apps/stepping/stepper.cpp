@@ -214,8 +214,11 @@ bool LoadStepper<Dim>::solve_linearly(double increment, const Watch& watch, Step
   record.residual_evaluations += solve.evaluations;
   record.jacobian_actions += solve.actions;
   record.residual_ratio = solve.norm / std::max(solve.reference, 1e-300);
-  result.status = solve.stopped ? jfnk::Status::stopped : jfnk::Status::converged;
-  if (solve.stopped) result.outcome = StepOutcome::stopped;
+  if (solve.converged) result.status = jfnk::Status::converged;
+  if (solve.stopped) {
+    result.status = jfnk::Status::stopped;
+    result.outcome = StepOutcome::stopped;
+  }
   return solve.converged;
 }
 
@@ -264,6 +267,7 @@ template <int Dim>
 StepResult LoadStepper<Dim>::attempt(const Watch& watch) {
   model::ProgrammeState& programme = state_.programme;
   StepResult result;
+  bool linear = solves_linearly();
   for (;;) {
     const double left = 1.0 - programme.progress;
     double increment = std::min(programme.next_increment, left);
@@ -272,15 +276,21 @@ StepResult LoadStepper<Dim>::attempt(const Watch& watch) {
     equilibrium_->begin_step(load_at(progress), scene_.course.fades * progress,
                              scene::reduction_at(scene_.course, progress));
 
-    bool solved = solves_linearly() && solve_linearly(increment, watch, result);
+    bool solved = linear && solve_linearly(increment, watch, result);
+    // What that came to is gone on with once; a smaller step would come to no more.
+    const bool came_short = linear && !solved && result.outcome != StepOutcome::stopped;
+    if (came_short) {
+      linear = false;
+      solved = increment_.allFinite() && solve(increment_, watch, result);
+    }
     // Moving the prescribed unknowns alone would tear the body.
     const bool has_history = programme.last_increment > 0.0;
-    if (!solved && has_history && result.outcome != StepOutcome::stopped) {
+    if (!solved && !came_short && has_history && result.outcome != StepOutcome::stopped) {
       foresee(increment);
       solver_.begin_with({state_.secant_step, state_.secant_change});
       solved = solve(increment_, watch, result);
     }
-    if (!solved && result.outcome != StepOutcome::stopped) {
+    if (!solved && !came_short && result.outcome != StepOutcome::stopped) {
       solved = predict_by_tangent(increment, increment_, result.record) &&
                solve(increment_, watch, result);
     }
