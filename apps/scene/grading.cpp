@@ -104,7 +104,8 @@ std::vector<FinePlace> fine_places(const Scene& scene) {
     add_ends(scene, traction.side, side_position(scene.geometry, traction.side), traction.range_min,
              traction.range_max, 0.0, places);
   }
-  for (const shape::Point& corner : singular_corners(scene)) {
+  const auto corners = is_solid(scene) ? std::vector<shape::Point>() : singular_corners(scene);
+  for (const shape::Point& corner : corners) {
     FinePlace place{{corner.x(), corner.y()}, {corner.x(), corner.y()}, scene.geometry.spacing};
     if (is_extruded(scene)) {  // an edge from end to end
       place.min.push_back(scene.geometry.min[2]);

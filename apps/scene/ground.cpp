@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "scene/box.hpp"
-#include "scene/element_body.hpp"
 #include "scene/scene.hpp"
 
 namespace scene {
@@ -100,7 +99,7 @@ std::vector<std::size_t> materials_of_regions_at(const Scene& scene, const shape
 
 std::vector<shape::Point> singular_corners(const Scene& scene) {
   std::vector<shape::Point> corners;
-  if (scene.region.empty() || is_solid(scene)) return corners;
+  if (scene.region.empty()) return corners;
   const shape::Outline outline = outline_of(scene);
   // Less is a step of a polygon that stands for a curve.
   constexpr double turn = 0.17;  // sine of 10 degrees
