@@ -33,7 +33,6 @@ std::vector<std::string> joined_notes(const scene::Scene& scene, const model::Mo
 template <int Dim>
 std::vector<std::string> lateral_notes(const scene::Scene& scene, const model::Model<Dim>& model);
 
-
 /// One line for each side on which water stands that the scene's pore pressures have there: how
 /// high, and what it presses with. Of the stage at hand.
 template <int Dim>

@@ -68,7 +68,9 @@ SceneTable solver() {
                       "divided"})
       .key("method", &Solver::method,
            {.need = tables::Need::optional,
-            .doc = "hybrid: multisecant with Newton rescue.",
+            .doc =
+                "hybrid: multisecant with Newton rescue; conjugate gradients where the residual is "
+                "linear, of elastic bodies of small strains.",
             .absent = "the preset's"})
       .key("jacobian", &Solver::jacobian,
            {.need = tables::Need::optional,
