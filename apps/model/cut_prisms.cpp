@@ -9,16 +9,13 @@
 #include <utility>
 
 #include "model/cut_body.hpp"
+#include "model/prism_faces.hpp"
 #include "scene/scene.hpp"
 
 namespace model {
 namespace {
 
 using Place = Eigen::Vector3d;
-
-Place in_space(const Eigen::Vector2d& place, double z) {
-  return {place.x(), place.y(), z};
-}
 
 // A layer through which the sections of all cells are the same.
 struct Slab {
@@ -80,19 +77,22 @@ class Columns {
   std::map<std::tuple<fpm::Index, fpm::Index, Key>, std::size_t> index_;
 };
 
-// Adds an area to one with its centroid.
+// Puts a piece on top of what there is of it, if anything.
 template <class Piece>
-void add_area(const Place& middle, double area, Piece& piece) {
-  const double sum = piece.area + area;
-  piece.middle =
-      piece.area == 0.0 ? middle : Place((piece.area * piece.middle + area * middle) / sum);
-  piece.area = sum;
-}
-
-// Unit normal of a straight piece, to its right.
-Place right_of(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-  const Eigen::Vector2d along = (to - from).normalized();
-  return {along.y(), -along.x(), 0.0};
+void stack(const Piece& piece, Piece& column) {
+  const double below = column.area, sum = below + piece.area;
+  const Place middle = below == 0.0
+                           ? piece.middle
+                           : Place((below * column.middle + piece.area * piece.middle) / sum);
+  if constexpr (requires { piece.edges; }) {
+    const Place height = column.edges[1] + piece.edges[1];
+    column = piece;
+    column.edges[1] = height;
+  } else {
+    column = piece;
+  }
+  column.middle = middle;
+  column.area = sum;
 }
 
 // Of particles numbered as the cells of the box: those without a cell of their own have none.
@@ -116,44 +116,27 @@ fpm::Index cell_of(const fpm::Cells<3>& cells, const fpm::Cells<2>::Place& place
 void add_walls(const Model<2>& section, const std::vector<fpm::Index>& cell, const Slab& slab,
                Shares& shares) {
   for (const SurfacePiece<2>& piece : section.surface) {
-    const fpm::Index owner = cell[static_cast<std::size_t>(piece.particle)];
+    SurfacePiece<3> wall = prism_wall(piece, slab.middle(), slab.height());
+    wall.particle = cell[static_cast<std::size_t>(piece.particle)];
     // A face of the box may be one of the scene's sides, too; no piece is of two.
     const fpm::Index kind = (piece.side + 2) * 8 + piece.face + 1;
-    SurfacePiece<3>& wall =
-        shares.walls.find(std::pair(owner, kind), piece.from, piece.to, shares.surface);
-    wall.outward = right_of(piece.from, piece.to);
-    wall.particle = owner;
-    wall.cut = piece.cut;
-    wall.side = piece.side;
-    wall.face = piece.face;
-    const double length = (piece.to - piece.from).norm();
-    add_area(in_space(middle_of(piece), slab.middle()), length * slab.height(), wall);
-    wall.edges = {in_space(piece.to - piece.from, 0.0), Place(0.0, 0.0, wall.area / length)};
+    stack(wall,
+          shares.walls.find(std::pair(wall.particle, kind), piece.from, piece.to, shares.surface));
   }
   for (const JointPiece<2>& joint : section.joints) {
-    const std::pair between(cell[static_cast<std::size_t>(joint.first)],
-                            cell[static_cast<std::size_t>(joint.second)]);
-    JointPiece<3>& face = shares.faces.find(between, joint.from, joint.to, shares.joints);
-    face.normal = right_of(joint.from, joint.to);
-    face.first = between.first;
-    face.second = between.second;
-    add_area(in_space(0.5 * (joint.from + joint.to), slab.middle()),
-             (joint.to - joint.from).norm() * slab.height(), face);
+    JointPiece<3> face = prism_joint(joint, slab.middle(), slab.height());
+    face.first = cell[static_cast<std::size_t>(joint.first)];
+    face.second = cell[static_cast<std::size_t>(joint.second)];
+    stack(face, shares.faces.find(std::pair(face.first, face.second), joint.from, joint.to,
+                                  shares.joints));
   }
 }
 
-// An end of the prisms: face 4, front, or 5, back.
 void add_end(const Model<2>& section, const std::vector<fpm::Index>& cell, double z, int face,
              Shares& shares) {
   for (fpm::Index b = 0; b < section.cells.size(); ++b) {
-    SurfacePiece<3>& end = shares.surface.emplace_back();
-    end.middle = in_space(section.particles.position.row(b).transpose(), z);
-    end.outward = {0.0, 0.0, face == 5 ? 1.0 : -1.0};
-    end.area = section.particles.volume[b];
-    const double width = section.cells.width(b);
-    if (end.area == width * width) end.edges = {width * Place::UnitX(), width * Place::UnitY()};
-    end.particle = cell[static_cast<std::size_t>(b)];
-    end.face = face;
+    shares.surface.push_back(prism_end(section, b, z, face));
+    shares.surface.back().particle = cell[static_cast<std::size_t>(b)];
   }
 }
 
@@ -167,8 +150,8 @@ std::vector<fpm::Index> add_slab(const Model<2>& section, const fpm::Cells<2>& w
     const auto k = static_cast<std::size_t>(a);
     const double volume = section.particles.volume[b] * slab.height();
     shares.volume[a] += volume;
-    shares.moment.row(a) +=
-        volume * in_space(section.particles.position.row(b).transpose(), slab.middle()).transpose();
+    shares.moment.row(a).head<2>() += volume * section.particles.position.row(b);
+    shares.moment(a, 2) += volume * slab.middle();
     shares.material[k] = static_cast<int>(section.material[static_cast<std::size_t>(b)]);
     shares.heir[k] = a;
     cell.push_back(a);

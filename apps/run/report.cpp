@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -137,12 +138,14 @@ std::string end_report(const scene::Scene& scene, const std::vector<std::string>
 
 template <int Dim>
 std::vector<std::string> lateral_notes(const scene::Scene& scene, const model::Model<Dim>& model) {
-  constexpr double much = 0.25;  // in the mean: near faces that are not level it is always another
+  // In the mean: near faces that are not level it is always another.
+  constexpr double much = 0.25, least = 0.05;
   const scene::InitialStress& initial = scene.initial_stress;
   if (initial.kind != scene::InitialStressKind::gravity || !initial.K0) return {};
   const Eigen::VectorXd mean = model.initial_stress * model.particles.volume;
   const double ratio = mean[0] / mean[1];
-  if (!(mean[1] < 0.0) || std::abs(ratio - *initial.K0) <= much * *initial.K0) return {};
+  if (!(mean[1] < 0.0) || std::abs(ratio - *initial.K0) <= std::max(much * *initial.K0, least))
+    return {};
   return {fmt::format(
       "initial_stress.K0 asks for {:.3g}; at rest the ground has {:.3g} times its vertical stress "
       "in the mean: what faces bear decides, where they are loaded or not level",

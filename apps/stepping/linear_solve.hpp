@@ -38,8 +38,8 @@ class LinearSolve {
  public:
   /// @param P  of the tangent, symmetric; the identity by default
   /// @param[in,out] u  first guess, its prescribed unknowns being those of the increment; the
-  ///                   increment, which is of use only if the result has converged: the
-  ///                   equilibrium's last evaluation is then the one at it
+  ///                   increment, or the nearest that was come to. If the result has converged,
+  ///                   the equilibrium's last evaluation is the one at it
   /// @param go_on  asked before each action
   LinearSolveResult operator()(equilibrium::Equilibrium<Dim>& equilibrium,
                                const jfnk::PreconditionerRef& P, const LinearSolveOptions& options,

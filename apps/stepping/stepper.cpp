@@ -190,7 +190,7 @@ bool LoadStepper<Dim>::solve(Eigen::VectorXd& u, const Watch& watch, StepResult&
   return false;
 }
 
-// Where the scene leaves the choice to us: who names a method or an algorithm gets it.
+// Unless the scene asks for another method than the default one, or for another algorithm.
 template <int Dim>
 bool LoadStepper<Dim>::solves_linearly() const {
   const scene::SolverSettings settings = scene::resolve_solver(scene_);

@@ -27,15 +27,20 @@ GmresResult ConjugateGradients::solve(const OperatorRef& A, const Vector& b, Vec
   GmresResult result;
   const double b_norm = product.norm(b);
   const double target = std::max(options.absolute_tolerance, options.relative_tolerance * b_norm);
-  double norm = b_norm;
   x.setZero();
-  detail::assign(product, r_, b);
+  // In units of ||b||, so that no square over- or underflows whatever the units are.
+  const double unit = b_norm > 0.0 ? b_norm : 1.0;
+  double norm = b_norm / unit;
+  r_.resize(b.size());
+  product.pass(b.size(), 2, [&](Rows rows) { rows.of(r_) = rows.of(b) / unit; });
   double rho = 0.0;  // no direction yet
   result.status = KrylovStatus::max_iterations;
-  while (norm > target && result.iterations < options.max_iterations) {
+  while (norm * unit > target && result.iterations < options.max_iterations) {
     result.status = advance(A, P, product, rho, norm, x, result.iterations);
     if (result.status != KrylovStatus::max_iterations) break;
   }
+  product.pass(x.size(), 2, [&](Rows rows) { rows.of(x) *= unit; });
+  norm *= unit;
   if (norm <= target) result.status = KrylovStatus::converged;
   result.residual_norm = norm;
   result.relative_residual = b_norm > 0.0 ? norm / b_norm : 0.0;

@@ -19,8 +19,8 @@ int most_iterations(const Solve& solve) {
 Trouble trouble_of(KrylovStatus status, bool flat) {
   if (flat) return Trouble::flat;
   if (status == KrylovStatus::operator_failed) return Trouble::action_failed;
-  const bool exhausted = status == KrylovStatus::breakdown || status == KrylovStatus::indefinite;
-  return exhausted ? Trouble::singular : Trouble::krylov_capped;
+  if (status == KrylovStatus::indefinite) return Trouble::indefinite;
+  return status == KrylovStatus::breakdown ? Trouble::singular : Trouble::krylov_capped;
 }
 
 Evaluation answer(Outcome outcome) {

@@ -78,6 +78,8 @@ std::string_view to_string(Trouble trouble) {
       return "domain_edge";
     case Trouble::short_steps:
       return "short_steps";
+    case Trouble::indefinite:
+      return "indefinite";
   }
   return "unknown";
 }
@@ -144,6 +146,10 @@ std::string advice(const Report& report) {
       return "; F has no value along the step: the end of its domain, where u may not go further";
     case Trouble::short_steps:
       return "; steps have become shorter than the rounding of u: give tolerances.absolute";
+    case Trouble::indefinite:
+      return "; J, or the preconditioner, is not positive definite, as conjugate gradients need "
+             "it: "
+             "solve by gmres";
     case Trouble::none:
       break;
   }

@@ -6,6 +6,7 @@
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "jfnk/jfnk.hpp"
 #include "problems.hpp"
@@ -153,6 +154,32 @@ TEST(ConjugateGradients, AreDoneWithNothing) {
   Vector other(3);
   EXPECT_THROW(jfnk::conjugate_gradients(op, Vector::Zero(4), other, tight()),
                std::invalid_argument);
+}
+
+TEST(ConjugateGradients, DoNotKnowTheUnitOfTheRightSide) {
+  const jfnk_test::Sparse A = jfnk_test::laplacian(8);
+  const auto op = [&](const Vector& v, Vector& Av) { Av = A * v; };
+  for (const double unit : {1e-165, 1e160}) {
+    const Vector b = unit * Vector::LinSpaced(64, 1.0, -2.0);
+    Vector x(64);
+    EXPECT_EQ(jfnk::conjugate_gradients(op, b, x, tight()).status, KrylovStatus::converged) << unit;
+    EXPECT_LE((b - A * x).stableNorm(), 1e-10 * b.stableNorm()) << unit;
+  }
+}
+
+// Regular, but of the other sign: what is said is not that it is singular.
+TEST(ConjugateGradients, TellNewtonThatAJacobianIsNegative) {
+  const auto F = [](const Vector& u, Vector& r) {
+    r = -3.0 * u - u.cwiseProduct(u).cwiseProduct(u) + Vector::LinSpaced(u.size(), 1.0, 2.0);
+  };
+  jfnk::Options options = jfnk::newton_krylov();
+  options.learning.enabled = false;
+  options.krylov.solver = jfnk::Krylov::Solver::conjugate_gradients;
+  Vector u = Vector::Zero(20);
+  const jfnk::Report report = jfnk::solve(F, u, options);
+  EXPECT_FALSE(report.converged());
+  EXPECT_EQ(report.trouble, jfnk::Trouble::indefinite) << report.reason;
+  EXPECT_NE(report.reason.find("not positive definite"), std::string::npos) << report.reason;
 }
 
 TEST(ConjugateGradients, HoldFourVectors) {

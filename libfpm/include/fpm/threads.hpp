@@ -18,7 +18,7 @@ namespace detail {
 /// Two neighbours share a range. One takes blocks from its lower end, the other from its upper,
 /// until they meet: both are done at once whatever a block costs and whichever of them is put off,
 /// and yet all blocks but those around the meeting stay with one thread from loop to loop, and what
-/// they read and write with one processor.
+/// they read and write with one processor. Between pairs of neighbours nothing is evened out.
 template <class Index>
 class BlockDealer {
  public:
@@ -56,8 +56,8 @@ class BlockDealer {
 
 }  // namespace detail
 
-/// Calls work(block) once for each block 0 .. count - 1, from all threads and in any order. To be
-/// called from one thread; `work` must not throw.
+/// Calls work(block) once for each block 0 .. count - 1, in any order, from all threads or the
+/// first 128. To be called from one thread; `work` must not throw.
 template <class Index, class Work>
 void for_each_block(Index count, const Work& work) {
 #ifdef _OPENMP

@@ -36,7 +36,8 @@ enum class Trouble {
   minimum,         ///< ||F|| falls for a tiny part of the step only, or rises on both sides
   broken_promise,  ///< F does not fall as J v promises, however short the step
   domain_edge,     ///< F has no value along the step, however short
-  short_steps      ///< steps have become shorter than the rounding of u
+  short_steps,     ///< steps have become shorter than the rounding of u
+  indefinite       ///< J or P is not positive definite, as conjugate gradients need them
 };
 
 /// The name of a status as written in the enum.
