@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/archive/text_iarchive.hpp>
 #include <boost/archive/text_oarchive.hpp>
 #include <boost/serialization/vector.hpp>
@@ -13,6 +14,7 @@
 #include "model/build.hpp"
 #include "model/particle_fields.hpp"
 #include "model/state_file.hpp"
+#include "scene/course.hpp"
 #include "scene/derived.hpp"
 #include "scene/drives.hpp"
 #include "scene/element_body.hpp"
@@ -54,6 +56,26 @@ void control_as_if_driven(scene::Scene& scene) {
   scene.hourglass.control = scene::resolve_control(driven);
   if (scene.hourglass.control == scene::HourglassControl::incremental) {
     scene.hourglass.stiffness_ratio = scene::resolve_stiffness_ratio(driven);
+  }
+}
+
+// Before this schema stages that try the ground had the controls of a displacement, and ground was
+// settled with those of the run.
+constexpr std::int64_t schema_of_stage_control = 10;
+
+void control_as_if_untried(scene::Scene& scene) {
+  if (std::ranges::none_of(scene.material, scene::yields)) return;
+  scene::Scene untried = scene;
+  for (scene::Stage& stage : untried.stage) {
+    scene::Stage other;
+    other.reduction = stage.reduction;
+    other.drive = stage.drive;
+    stage = other;
+  }
+  scene.hourglass.control = scene::resolve_control(untried);
+  const bool is_alone = scene.hourglass.control == scene::HourglassControl::incremental;
+  if (is_alone && scene::tries_ground(scene)) {
+    scene.hourglass.stiffness_ratio = scene::resolve_stiffness_ratio(untried);
   }
 }
 
@@ -154,6 +176,7 @@ scene::Scene scene_of(const std::filesystem::path& path, const record::Checkpoin
     keep_one_body(scene);
   }
   if (notes.schema < schema_of_load_control) control_as_if_driven(scene);
+  if (notes.schema < schema_of_stage_control) control_as_if_untried(scene);
   if (notes.schema < schema_of_ties) tie_footing(scene);
   if (restored(path, notes.materials) != parameters_of(scene)) {
     throw files::FileError(path, "/meta/materials are not the materials of /meta/scene");

@@ -16,8 +16,9 @@ namespace record {
 /// are read: 1 had no seal (see open_unsealed), and of the lineage only the parent's name; 1 and 2
 /// had no reactions in the state; before 4 no load kept the initial stress at rest; before 7 there
 /// was one stage; before 8 supports by penalty held at none, and opposite sides that hold the same
-/// particles shared what these bear; before 9 no solve knew what the one before had learnt.
-inline constexpr std::int64_t checkpoint_schema = 9;
+/// particles shared what these bear; before 9 no solve knew what the one before had learnt; before
+/// 10 stages that try the ground had the control of displacements.
+inline constexpr std::int64_t checkpoint_schema = 10;
 
 /// What a checkpoint holds beside the mechanical state. It makes a checkpoint sufficient by itself:
 /// a run goes on from it though the rest of its folder is lost.

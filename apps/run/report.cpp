@@ -85,8 +85,8 @@ std::string control_note(const scene::Scene& scene, const record::CurveRow& last
   if (last.max_plastic_strain <= 0.0 || !scene::is_controlled_for_collapse(scene)) return "";
   return fmt::format(
       "  {:<12} the ground yields, but bears its loads to the end: displacements beside what "
-      "yields scatter less with hourglass.stiffness_ratio = 0.1; the {} of here is for loads that "
-      "end in a collapse",
+      "yields scatter less with hourglass.stiffness_ratio = 0.1; the {} of here is for what "
+      "ends in a collapse",
       "control", scene::resolve_stiffness_ratio(scene));
 }
 

@@ -58,6 +58,14 @@ bool has_new_ground(const Scene& scene) {
   });
 }
 
+bool tries_ground(const Scene& scene) {
+  return std::ranges::any_of(scene.stage, [](Stage stage) {
+    stage.drive.reset();
+    stage.hold.clear();
+    return changes_ground(stage);
+  });
+}
+
 bool region_is_there(const Scene& whole, std::size_t stages, const std::string& region) {
   return is_there(whole, stages, region, &Stage::remove, &Stage::place);
 }

@@ -26,6 +26,11 @@ struct Stage;
 /// where that of before was.
 [[nodiscard]] bool has_new_ground(const Scene& scene);
 
+/// Whether stages load the ground by its weight, weaken it or take away what holds it: dig, fill,
+/// release, flood, shake, change strength or material. Whether it still stands is the question
+/// then.
+[[nodiscard]] bool tries_ground(const Scene& scene);
+
 /// Whether a region is there, or a support holds, once so many stages have begun: what they put
 /// down or hold before it was taken away or released is not there at first.
 [[nodiscard]] bool region_is_there(const Scene& whole, std::size_t stages,

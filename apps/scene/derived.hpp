@@ -46,8 +46,8 @@ struct Support;
 [[nodiscard]] bool yields(const Material& material);
 
 /// The control `automatic` stands for: stiffness if every material is elastic; under a load that
-/// grows incremental; else mixed in 2D when every material yields and its sub-points can share one
-/// pressure, incremental otherwise.
+/// grows, or where stages try the ground, incremental; else mixed in 2D when every material yields
+/// and its sub-points can share one pressure, incremental otherwise.
 [[nodiscard]] HourglassControl resolve_control(const Scene& scene);
 
 /// Whether a material gives way in its shape far more than in its volume (Poisson's ratio above
@@ -58,11 +58,12 @@ struct Support;
 [[nodiscard]] double largest_poissons_ratio(const Scene& scene);
 
 /// Hourglass modulus ratio gamma in force: the scene's, else 0.1 for stiffness and incremental, the
-/// latter 0.001 under a load that grows, 0.01 for mixed, 0 for none and viscosity.
+/// latter 0.001 under a load that grows and 0.01 where stages try ground that yields, 0.01 for
+/// mixed, 0 for none and viscosity.
 [[nodiscard]] double resolve_stiffness_ratio(const Scene& scene);
 
 /// Whether the control is as weak as it is for the sake of a collapse only, to which loads that
-/// grow need not lead.
+/// grow, and stages that try the ground, need not lead.
 [[nodiscard]] bool is_controlled_for_collapse(const Scene& scene);
 
 /// How a support holds: its method, where `automatic` means ghosts if images can hold its side, and
@@ -103,6 +104,10 @@ struct SolverSettings {
   PreconditionerKind preconditioner = PreconditionerKind::two_level;
   bool operator==(const SolverSettings&) const = default;
 };
+
+/// Whether ground that yields, or what slides by contact, is asked for more than it may bear: by
+/// loads that grow, strength that is divided, or stages that try it.
+[[nodiscard]] bool may_give_way(const Scene& scene);
 
 /// Fills absent keys of the solver from its preset and the scene.
 [[nodiscard]] SolverSettings resolve_solver(const Scene& scene);

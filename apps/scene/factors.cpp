@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "scene/contacts.hpp"
 #include "scene/ground.hpp"
 #include "scene/scene.hpp"
 
@@ -18,12 +19,6 @@ double cells_of(const Geometry& geometry) {
     cells *= (geometry.max[i] - geometry.min[i]) / geometry.spacing;
   }
   return cells;
-}
-
-bool has_contact(const Scene& scene) {
-  return scene.drive.method == DriveMethod::contact ||
-         std::ranges::count(scene.support, SupportMethod::contact, &Support::method) > 0 ||
-         std::ranges::count(scene.interface, InterfaceKind::contact, &Interface::kind) > 0;
 }
 
 // Of a ring, either way around, corners that jut out or in.

@@ -387,7 +387,8 @@ SceneTable hourglass() {
                "they yield. incremental: cheap; its stiffness biases collapse loads at first order "
                "in spacing. mixed: sub-points with one pressure plus a weak incremental control; "
                "collapse loads under a plate converge, narrow bands are borne too well. auto: "
-               "stiffness if all is elastic, incremental under a load that grows, mixed in 2D "
+               "stiffness if all is elastic, incremental under a load that grows and where a stage "
+               "digs, fills, releases, floods, shakes or changes the ground, mixed in 2D "
                "where all that yields is von_mises or drucker_prager without tension cut-off or "
                "residual_strain, "
                "else "
@@ -398,8 +399,9 @@ SceneTable hourglass() {
             .range = tables::between(0.0, 1.0),
             .doc = "gamma: control stiffness over Young's modulus.",
             .absent = "0.1 for stiffness and incremental, the former 0.03 in the plane where some "
-                      "poissons_ratio is above 0.49, the latter 0.001 under a load that grows; "
-                      "0.01 for mixed"})
+                      "poissons_ratio is above 0.49, the latter 0.001 under a load that grows and "
+                      "0.01 where a stage digs, fills, releases, floods, shakes or changes ground "
+                      "that yields; 0.01 for mixed"})
       .key("modulus_factor", &Hourglass::modulus_factor,
            {.range = tables::positive(),
             .doc =

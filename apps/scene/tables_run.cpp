@@ -62,10 +62,12 @@ SceneTable solver() {
             .range = {0.0, 0.01, true, false},
             .doc = "A step is converged when |r_free| <= tolerance max(|r_prescribed|, |f_ext|), "
                    "2-norms. 3e-4 costs about twice 1e-3 and takes the load 0.25 % lower. Where "
-                   "ground fails under a load that grows or by its strength, what is left "
-                   "unbalanced of all of it bears part of what fails: 1e-3 some per cent.",
-            .absent = "1e-3, 1e-4 where what yields is under a load that grows or its strength is "
-                      "divided"})
+                   "ground fails under a load that grows, by its strength or by what a stage does, "
+                   "what is left unbalanced of all of it bears part of what fails: 1e-3 some per "
+                   "cent.",
+            .absent = "1e-3; 1e-4 where what yields or slides by contact is under a load that "
+                      "grows, its strength is divided, or a stage digs, fills, releases, floods, "
+                      "shakes or changes it"})
       .key("method", &Solver::method,
            {.need = tables::Need::optional,
             .doc =

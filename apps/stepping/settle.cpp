@@ -93,7 +93,6 @@ scene::Scene settling(const scene::Scene& scene) {
       side.live_shear = std::exchange(side.shear, 0.0);
     }
   }
-  ground.hourglass.control = scene::resolve_control(scene);
   ground.programme = {};
   ground.programme.steps = 10;
   ground.re_search = {};

@@ -26,14 +26,11 @@ constexpr std::array<std::string_view, 3> names{"draft", "normal", "fine"};
 constexpr double coarser = 2.0, finer = 0.5;
 constexpr double looser = 10.0, loosest = 0.01;
 
-/// Whether a looser tolerance decides little: not where what grows is borne until it no longer is.
-/// A failure is met late then: 11 % of the weight of share/scenes/slope.toml at a tolerance of 0.01
-/// instead of 0.001, 27 % of the factor that the strength of excavation.toml is divided by.
+/// Whether a looser tolerance decides little: not where what gives way is borne until it no longer
+/// is. A failure is met late then: 11 % of the weight of share/scenes/slope.toml at a tolerance of
+/// 0.01 instead of 0.001, 27 % of the factor that the strength of excavation.toml is divided by.
 bool may_be_loose(const scene::Scene& scene) {
-  if (std::ranges::none_of(scene.material, scene::yields)) return true;
-  return scene.drive.kind == scene::DriveKind::displacement &&
-         std::ranges::none_of(
-             scene.stage, [](const scene::Stage& stage) { return stage.reduction.has_value(); });
+  return !scene::may_give_way(scene);
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -64,6 +67,48 @@ TEST(HourglassControl, HasItsStiffnessRatioUnlessTheSceneSaysOtherwise) {
   scene.hourglass = {};
   scene.hourglass.control = HourglassControl::viscosity;
   EXPECT_EQ(resolve_stiffness_ratio(scene), 0.0);
+}
+
+// Whether ground still stands after a stage has tried it is a question of its collapse.
+TEST(Stages, ThatTryTheGroundHaveControlAndToleranceOfACollapse) {
+  const std::vector<std::pair<std::string, std::function<void(Stage&)>>> changes{
+      {"digs", [](Stage& stage) { stage.remove = {"pit"}; }},
+      {"fills", [](Stage& stage) { stage.place = {"lift"}; }},
+      {"releases", [](Stage& stage) { stage.release = {"strut"}; }},
+      {"floods",
+       [](Stage& stage) {
+         stage.water_table = {{0.0, 0.0}, {1.0, 0.0}};
+       }},
+      {"is told a pressure", [](Stage& stage) { stage.pore_pressure = 1e3; }},
+      {"shakes", [](Stage& stage) { stage.kh = 0.1; }},
+      {"lifts", [](Stage& stage) { stage.kv = 0.1; }},
+      {"weakens", [](Stage& stage) { stage.materials = {"m"}; }},
+      {"changes", [](Stage& stage) { stage.regions = {"ring"}; }}};
+  for (const auto& [what, change] : changes) {
+    for (const char* model : {"von_mises", "drucker_prager", "mohr_coulomb"}) {
+      Scene scene = scene_of(model);
+      scene.stage.resize(2);
+      change(scene.stage[1]);
+      EXPECT_EQ(resolve_control(scene), HourglassControl::incremental) << what;
+      EXPECT_EQ(resolve_stiffness_ratio(scene), 0.01) << what;
+      EXPECT_EQ(resolve_solver(scene).tolerance, 1e-4) << what;
+      scene.drive.kind = DriveKind::load;
+      EXPECT_EQ(resolve_stiffness_ratio(scene), 0.001) << "the load grows until it collapses";
+    }
+    Scene elastic = scene_of("elastic");
+    elastic.stage.resize(1);
+    change(elastic.stage[0]);
+    EXPECT_EQ(resolve_solver(elastic).tolerance, 1e-3) << what;
+    EXPECT_EQ(resolve_stiffness_ratio(elastic), 0.1) << what;
+    elastic.support.emplace_back().method = SupportMethod::contact;
+    EXPECT_EQ(resolve_solver(elastic).tolerance, 1e-4) << what << ", and it may slide";
+  }
+  Scene pushed = scene_of("von_mises");
+  pushed.stage.resize(2);
+  pushed.stage[0].to = 0.1;
+  pushed.stage[1].hold = {"strut"};
+  EXPECT_EQ(resolve_control(pushed), HourglassControl::mixed);
+  EXPECT_EQ(resolve_solver(pushed).tolerance, 1e-3);
 }
 
 TEST(Solver, PresetFillsAbsentKeysOnly) {

@@ -155,6 +155,7 @@ TEST(InSituStress, ClosesABoreThatYieldsWhicheverWayItIsTurned) {
                         "initial_stress.sigma_z=-15e6",
                         "geometry.spacing=0.05",
                         "stage.0.steps=10",
+                        "hourglass.stiffness_ratio=0.1",
                         "solver.tolerance=1e-3"};
   const auto closures = [&](double turned) {
     std::string text = bore;
