@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "model/thin_layers.hpp"
 #include "model/thin_tips.hpp"
 #include "scene/derived.hpp"
 #include "scene/scene.hpp"
@@ -10,13 +11,14 @@
 namespace model {
 namespace {
 
+// Fewer particles across a body leave its rows singular, with second gradients or at a corner.
+constexpr fpm::Index fewest_across = 3;
+
 template <int Dim>
 std::vector<fpm::Index> bodies_with(const scene::Scene& scene, const Model<Dim>& model,
-                                    const std::set<MaterialPair>& joined) {
+                                    const std::set<MaterialPair>& joined, fpm::Index thickness) {
   const std::vector<fpm::Index> label(model.material.begin(), model.material.end());
-  // Fewer particles across a body leave its rows singular, with second gradients or at a corner.
-  constexpr fpm::Index thickness = 3;
-  auto body = fpm::bodies_of<Dim>(
+  return fpm::bodies_of<Dim>(
       model.cells, label,
       [&](fpm::Index low, fpm::Index high) {
         return joined.contains({low, high}) ||
@@ -25,8 +27,6 @@ std::vector<fpm::Index> bodies_with(const scene::Scene& scene, const Model<Dim>&
                        .kind == scene::InterfaceKind::through;
       },
       thickness, model.meeting);
-  if (std::ranges::max(body) == 0) body.clear();
-  return body;
 }
 
 }  // namespace
@@ -34,13 +34,14 @@ std::vector<fpm::Index> bodies_with(const scene::Scene& scene, const Model<Dim>&
 template <int Dim>
 void part_into_bodies(const scene::Scene& scene, Model<Dim>& model) {
   if (model.cells.size() == 0) return;  // elements and even prisms know (elements.hpp, extrude.hpp)
-  model.particles.body = bodies_with(scene, model, {});
-  if constexpr (Dim == 2) {
-    join_thin_tips(
-        scene,
-        [&](const std::set<MaterialPair>& joined) { return bodies_with(scene, model, joined); },
-        model);
-  }
+  const auto parted = [&](const std::set<MaterialPair>& joined) {
+    std::vector<fpm::Index> body = bodies_with(scene, model, joined, fewest_across);
+    if (std::ranges::max(body) == 0) body.clear();
+    return body;
+  };
+  model.particles.body = parted({});
+  note_thin_layers(scene, bodies_with(scene, model, {}, 1), model);
+  if constexpr (Dim == 2) join_thin_tips(scene, parted, model);
 }
 
 template <int Dim>

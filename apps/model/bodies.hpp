@@ -12,7 +12,7 @@ namespace model {
 
 /// Which body each particle belongs to, into the particles: one, unless an interface parts them.
 /// @param model  with particles and materials
-/// @throws InterfaceRefused (thin_tips.hpp)
+/// @throws InterfaceRefused (given_interface.hpp)
 template <int Dim>
 void part_into_bodies(const scene::Scene& scene, Model<Dim>& model);
 

@@ -48,6 +48,9 @@ void extrude(const Model<2>& section, Model<3>& model) {
   for (fpm::Index k = 0; k < layers; ++k) {
     add_layer(section, k, low + (k + 0.5) * thickness, thickness, model);
   }
+  for (const ThinLayer<2>& thin : section.thin_layers) {
+    model.thin_layers.push_back({thin.layer, thin.beside, {thin.place.x(), thin.place.y(), low}});
+  }
   add_end(section, 0, low, 4, model);
   add_end(section, layers - 1, high, 5, model);
   model.background = cells_behind(model);

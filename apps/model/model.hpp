@@ -158,6 +158,14 @@ struct JoinedFace {
   Eigen::Vector2d place;             // [m]
 };
 
+/// A layer with too few particles across for rows of its own, of one body with a neighbour that is
+/// another material.
+template <int Dim>
+struct ThinLayer {
+  fpm::Index layer = 0, beside = 0;  // of the scene's materials
+  fpm::Vector<Dim> place;            // [m] one where they meet
+};
+
 /// A scene turned into particles, materials, constraints and loads: everything that stays the same
 /// during a run. Vectors over unknowns are component-major (all x, then all y, ...), length n Dim.
 template <int Dim>
@@ -221,6 +229,7 @@ struct Model {
   // Particles of one region that meet where cells between them have gone to one of them; likewise.
   std::vector<std::pair<fpm::Index, fpm::Index>> meeting;
   std::vector<JoinedFace> joined_faces;  // likewise
+  std::vector<ThinLayer<Dim>> thin_layers;
 
   /// [Pa] Young's modulus of a particle.
   double youngs_modulus_of(Eigen::Index particle) const {

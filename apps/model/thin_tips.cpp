@@ -136,20 +136,6 @@ std::vector<MaterialPair> pairs_near(const Model<2>& model, const Place& place,
   return pairs;
 }
 
-// Whether the scene itself says what happens between two materials, and that it is no seam.
-std::optional<std::string> key_of_given(const scene::Scene& scene, const MaterialPair& pair) {
-  const auto one = static_cast<std::size_t>(pair.first);
-  const auto other = static_cast<std::size_t>(pair.second);
-  const scene::Interface rule = scene::interface_between(scene, one, other);
-  const auto found = std::ranges::find(scene.interface, rule);
-  if (rule.kind == scene::InterfaceKind::through) return std::nullopt;
-  if (found != scene.interface.end()) {
-    return fmt::format("interface.{}.kind", found - scene.interface.begin());
-  }
-  if (rule.kind == scene::InterfaceKind::tied) return std::nullopt;
-  return "approximation.interfaces";
-}
-
 // Of what the scene gives, a pair that would be of one body, and was not.
 std::optional<MaterialPair> swallowed(const scene::Scene& scene, const Model<2>& model,
                                       const std::vector<fpm::Index>& apart,

@@ -2,25 +2,16 @@
 
 #include <functional>
 #include <set>
-#include <utility>
 #include <vector>
 
+#include "model/given_interface.hpp"
 #include "model/model.hpp"
-#include "model/refusal.hpp"
 
 namespace scene {
 struct Scene;
 }
 
 namespace model {
-
-/// Numbers of two materials, the smaller first.
-using MaterialPair = std::pair<fpm::Index, fpm::Index>;
-
-/// What the scene asks of two materials leaves a tip without rows.
-struct InterfaceRefused : Refusal {
-  using Refusal::Refusal;
-};
 
 /// Bodies of particles if faces between some materials are none; empty if there is one.
 using Parting = std::function<std::vector<fpm::Index>(const std::set<MaterialPair>& joined)>;

@@ -1,6 +1,7 @@
 #include "run/report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,16 @@ std::vector<std::string> joined_notes(const scene::Scene& scene, const model::Mo
         scene.material[static_cast<std::size_t>(face.first)].name,
         scene.material[static_cast<std::size_t>(face.second)].name, face.place.x(),
         face.place.y()));
+  }
+  for (const model::ThinLayer<Dim>& thin : model.thin_layers) {
+    const std::string& layer = scene.material[static_cast<std::size_t>(thin.layer)].name;
+    const std::string& beside = scene.material[static_cast<std::size_t>(thin.beside)].name;
+    notes.push_back(fmt::format(
+        "\"{0}\" is less than three particles thick, as at ({2:.4g}) m, and of one body with "
+        "\"{1}\", as if \"through\" joined them: what jumps across it is smeared, and where it "
+        "yields "
+        "\"{1}\" bears what it cannot; use finer particles, or make it an [[interface]]",
+        layer, beside, fmt::join(thin.place.begin(), thin.place.end(), ", ")));
   }
   return notes;
 }

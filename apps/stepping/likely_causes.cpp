@@ -36,6 +36,24 @@ Motion<Dim> component(int axis, const fpm::Vector<Dim>& place) {
   return at;
 }
 
+// Rigid bodies that do not move by themselves, and what rests on them: a face that only slides
+// holds across itself.
+template <int Dim, class Hold>
+void hold_by_faces(const model::Model<Dim>& model, Hold&& hold) {
+  for (const model::Interface<Dim>& interface : model.interfaces) {
+    if (!interface.is_rigid() || interface.plate) continue;
+    const fpm::BoundaryPoints<Dim>& points = interface.faces.points;
+    for (Eigen::Index c = 0; c < points.weight.size(); ++c) {
+      const fpm::Vector<Dim> place = points.position.row(c).transpose();
+      if (!constitutive::sticks(interface.law)) {
+        hold(fpm::Vector<Dim>(points.normal.row(c).transpose()), place);
+        continue;
+      }
+      for (int i = 0; i < Dim; ++i) hold(fpm::Vector<Dim>(fpm::Vector<Dim>::Unit(i)), place);
+    }
+  }
+}
+
 // A^T A of all that is held, A being the rigid motions' components there.
 template <int Dim>
 Eigen::Matrix<double, rigid_motions<Dim>, rigid_motions<Dim>> resistance(
@@ -44,10 +62,17 @@ Eigen::Matrix<double, rigid_motions<Dim>, rigid_motions<Dim>> resistance(
   const double size = (model.box_max - model.box_min).maxCoeff();
   Eigen::Matrix<double, rigid_motions<Dim>, rigid_motions<Dim>> sum;
   sum.setZero();
-  const auto hold = [&](int axis, const fpm::Vector<Dim>& place) {
-    const Motion<Dim> at = component<Dim>(axis, fpm::Vector<Dim>((place - middle) / size));
+  const auto hold_along = [&](const fpm::Vector<Dim>& direction, const fpm::Vector<Dim>& place) {
+    Motion<Dim> at = Motion<Dim>::Zero();
+    for (int i = 0; i < Dim; ++i) {
+      at += direction[i] * component<Dim>(i, fpm::Vector<Dim>((place - middle) / size));
+    }
     sum += at * at.transpose();
   };
+  const auto hold = [&](int axis, const fpm::Vector<Dim>& place) {
+    hold_along(fpm::Vector<Dim>::Unit(axis), place);
+  };
+  hold_by_faces(model, hold_along);
   for (Eigen::Index k = 0; k < model.unknowns(); ++k) {
     if (model.prescribed[static_cast<std::size_t>(k)] == 0) continue;
     hold(static_cast<int>(k / model.size()),

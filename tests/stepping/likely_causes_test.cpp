@@ -58,6 +58,27 @@ TEST(FreeRigidMotions, AreHeldByMirrorsAndPenaltiesToo) {
               ElementsAre("a shift along x"));
 }
 
+TEST(FreeRigidMotions, AreHeldByRigidFaces) {
+  const std::string contact = "[\"y\"]\nmethod = \"contact\"\n";
+  EXPECT_THAT(free_motions<2>(support(bottom, contact)), ElementsAre("a shift along x"));
+  EXPECT_THAT(free_motions<2>(support(bottom, contact + "friction_angle = 20")), IsEmpty());
+  // A triangle on its side aslant.
+  const auto held = [](const std::string& kind) {
+    const auto reading = scene::parse_scene(
+        "[geometry]\nspacing = 0.125\n[[material]]\nname = \"a\"\nmodel = \"elastic\"\n"
+        "youngs_modulus = 1e6\npoissons_ratio = 0.3\n[[region]]\nname = \"r\"\nmaterial = \"a\"\n"
+        "outline = [[0, 0], [2, 1], [0, 2]]\n[[side]]\nname = \"held\"\nkind = \"" +
+            kind +
+            "\"\nalong = [[0, 0], [2, 1]]\n[[side]]\nname = \"free\"\nkind = \"free\"\n"
+            "along = [[2, 1], [0, 2], [0, 0]]\n",
+        "triangle");
+    if (!reading.scene) throw std::runtime_error(reading.errors.front().text());
+    return free_rigid_motions(model::build_model<2>(*reading.scene));
+  };
+  EXPECT_THAT(held("fixed"), IsEmpty());
+  EXPECT_THAT(held("roller"), ElementsAre("a shift along x"));
+}
+
 TEST(FreeRigidMotions, InSpaceAreSix) {
   EXPECT_EQ(free_motions<3>("").size(), 6U);
   EXPECT_THAT(free_motions<3>(support(bottom, "[\"y\"]")),
