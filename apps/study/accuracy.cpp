@@ -337,6 +337,10 @@ program::ExitCode find_accuracy(const AccuracyRequest& request, std::ostream& ou
   wish.spacings = spacings_of_a_ladder(*base, request.budget.has_value());
   wish.formal = formal_order(*base, quantity);
   wish.box = !request.far.empty();
+  // The residual of what is elastic is proportional to its error, and tells of it.
+  if (std::ranges::any_of(base->material, scene::yields)) {
+    wish.unbalanced = scene::resolve_solver(*base).tolerance;
+  }
   wish.growth = base->geometry.dimension + 1.0;
   if (wish.spacings.size() < 3) {
     throw program::UsageError(

@@ -244,15 +244,26 @@ class Climb {
       // An error in proportion to the tolerance is 1 / (1 - 0.1) of the change; three times that
       // for one that is not quite. A tenth of the tolerance leaves a ninth of the change then, or
       // less than half of it if errors fall as its square root.
-      const double error = 3.0 / (1.0 - tenth) * change;
-      tolerance_ = Known{{"tolerance", error, "three times what a tenth of it changes"}, *of_now};
-      if (error <= enough || now.tolerance <= least) return true;
+      tolerance_ = Known{left_by(now, 3.0 / (1.0 - tenth) * change,
+                                 "three times what a tenth of it changes", *of_now),
+                         *of_now};
+      if (tolerance_->part.error <= enough || now.tolerance <= least) return true;
       if (descent(finer) > left()) return without(needed);
       tolerance_ =
-          Known{{"tolerance", half * change, "half of what ten times as much changes"}, *of_finer};
+          Known{left_by(finer, half * change, "half of what ten times as much changes", *of_finer),
+                *of_finer};
       fineness_ = finer;
-      if (half * change <= enough) return true;
+      if (tolerance_->part.error <= enough) return true;
     }
+  }
+
+  /// What a tolerance leaves, by what it changes; not less than what it lets a step leave, as two
+  /// runs that agree by chance, or on coarse particles alone, do not say what finer ones do.
+  [[nodiscard]] Part left_by(const Fineness& one, double error, const char* words,
+                             double value) const {
+    const double least = wish_.unbalanced * one.tolerance * std::abs(value);
+    if (error < least) return {"tolerance", least, "what a step may leave unbalanced"};
+    return {"tolerance", error, words};
   }
 
   bool settle_box() {

@@ -33,6 +33,7 @@ struct Wish {
   double formal = 2.0;           // the order that a spacing's error can be trusted with
   double growth = 3.0;           // a run costs (coarse / fine)^growth times as much
   bool box = false;              // whether sides are far
+  double unbalanced = 0.0;  // share of the value that a step may leave, at the scene's tolerance
 };
 
 /// One source of error and what it leaves.

@@ -65,6 +65,26 @@ TEST(TheLadder, MakesStepsAndToleranceFineEnoughFirst) {
   EXPECT_DOUBLE_EQ(sum, answer.bar);
 }
 
+// A tenth of the tolerance may change nothing on coarse particles, and what a step leaves matter
+// all the same: a bar in plane strain that localises stays even on coarse ones.
+TEST(TheLadder, CountsWhatAStepMayLeaveWhereATighterToleranceChangesNothing) {
+  Wish wish{0.02, std::nullopt, spacings, 2.0, 3.0};
+  wish.unbalanced = 1e-3;
+  const Problem problem;
+  const auto run = [&](const Fineness& one, double /*allowance*/) {
+    return Reply{problem.value(one), 1.0};
+  };
+  const auto tolerance_of = [](const Answer& answer) {
+    const auto part = std::ranges::find(answer.parts, "tolerance", &Part::source);
+    return part == answer.parts.end() ? 0.0 : part->error / answer.value;
+  };
+  EXPECT_NEAR(tolerance_of(climb(wish, run)), 1e-3, 1e-12);
+  wish.accuracy = 0.002;  // a quarter of it is less
+  const Answer sharper = climb(wish, run);
+  EXPECT_DOUBLE_EQ(sharper.fineness.tolerance, 0.1);
+  EXPECT_NEAR(tolerance_of(sharper), 1e-4, 1e-12);
+}
+
 // Honest on what it is made for: errors that are powers of each source, of any size and sign; and
 // the bar is not much wider than it must be.
 TEST(TheLadder, HasTheTrueErrorWithinItsBar) {
