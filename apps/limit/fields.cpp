@@ -87,7 +87,7 @@ void write_fields(const std::filesystem::path& file, const problem::Case& proble
       {"stress", problem.names.stress, 6, std::move(stress)},
       {"principal_stresses", problem.names.stress, 3, std::move(principal)},
       {"principal_direction", "", 3, std::move(direction)},
-      {"yield_ratio", "", 1, std::move(ratio)}};
+      {"utilisation", "", 1, std::move(ratio)}};
   write_grid(file, points, fields, {.type = 5, .points = 3}, {});
 }
 

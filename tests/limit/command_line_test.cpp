@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -146,9 +147,36 @@ TEST(FpmLimit, WritesFieldsInTheUnitsOfItsNumbers) {
   const files::Hdf5File lower = files::Hdf5File::open(prefix + "-lower.hdf");
   EXPECT_EQ(lower.info("/VTKHDF/PointData/stress").unit, "psf");
   EXPECT_EQ(lower.info("/VTKHDF/PointData/principal_stresses").unit, "psf");
-  EXPECT_EQ(lower.info("/VTKHDF/PointData/yield_ratio").unit, "");
+  EXPECT_EQ(lower.info("/VTKHDF/PointData/utilisation").unit, "");
   const files::Hdf5File upper = files::Hdf5File::open(prefix + "-upper.hdf");
   EXPECT_EQ(upper.info("/VTKHDF/CellData/dissipation").unit, "psf/ft");
+}
+
+// Half the difference of its principal stresses over strength; of clay c, and where the factor of
+// the strength is sought of that divided by it: 1 where it flows, and nowhere more.
+TEST(FpmLimit, ShowsHowMuchOfItsStrengthTheSoilUses) {
+  const support::TemporaryFolder folder;
+  const std::string prefix = (folder.path() / "used").string();
+  const auto used_of = [&](const std::vector<std::string>& arguments) {
+    std::vector<std::string> all = arguments;
+    all.insert(all.end(), {"--gap", "20%", "--max-triangles", "100", "--fields", prefix});
+    const Outcome done = run(all);
+    EXPECT_EQ(done.code, ExitCode::done) << done.err;
+    return files::Hdf5File::open(prefix + "-lower.hdf");
+  };
+  constexpr double cohesion = 250.0, round_off = 1e-12;
+  const files::Hdf5File clay = used_of({"--strip", "--c", "250"});
+  const auto used = clay.read_all<double>("/VTKHDF/PointData/utilisation");
+  const auto principal = clay.read_all<double>("/VTKHDF/PointData/principal_stresses");
+  ASSERT_EQ(principal.size(), 3 * used.size());
+  for (std::size_t k = 0; k < used.size(); ++k) {
+    EXPECT_NEAR(used[k], (principal[3 * k] - principal[3 * k + 1]) / (2.0 * cohesion), round_off);
+  }
+  const files::Hdf5File slope =
+      used_of({std::string(FPM_SHARE_DIR) + "/scenes/limit/slope_safety.toml"});
+  const double most = std::ranges::max(slope.read_all<double>("/VTKHDF/PointData/utilisation"));
+  EXPECT_LE(most, 1.0 + round_off);
+  EXPECT_GT(most, 0.999);
 }
 
 }  // namespace
