@@ -27,7 +27,7 @@ template <int Dim>
 void Equilibrium<Dim>::begin_step(double load, double faded, double reduction) {
   step_.load = rigid_load_ = load;
   reduce_strength(reduction);
-  interfaces_.begin_step(state_);
+  interfaces_.begin_step(state_, reduction);
   step_.external = model_.constant_load + load * model_.scaled_load;
   if (balance_.load.size() > 0) step_.external += balance_.load;
   if (state_.unbalanced.size() > 0 && faded < 1.0) {

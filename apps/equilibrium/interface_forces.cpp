@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include "constitutive/strength_reduction.hpp"
+
 namespace equilibrium {
 namespace {
 
@@ -17,13 +19,14 @@ void for_each_point(const model::Model<Dim>& model, Visitor&& visit) {
 
 template <int Dim>
 constitutive::InterfaceResponse<Dim> response_at(const model::Interface<Dim>& interface,
+                                                 const constitutive::InterfaceLaw& law,
                                                  fpm::Index point, const fpm::Vector<Dim>& normal,
                                                  const fpm::Vector<Dim>& slip,
                                                  const fpm::Field<Dim>& displacement,
                                                  const fpm::Vector<Dim>& motion) {
   const fpm::Vector<Dim> gap = interface.faces.gap(point, displacement, motion);
   return constitutive::interface_response<Dim>(
-      interface.law, interface.stiffness[point], normal,
+      law, interface.stiffness[point], normal,
       fpm::Vector<Dim>(interface.initial_traction.row(point).transpose()), gap, slip);
 }
 
@@ -32,6 +35,7 @@ constitutive::InterfaceResponse<Dim> response_at(const model::Interface<Dim>& in
 template <int Dim>
 InterfaceForces<Dim>::InterfaceForces(const model::Model<Dim>& model)
     : model_(model), points_(model.interface_points()) {
+  for (const model::Interface<Dim>& interface : model.interfaces) laws_.push_back(interface.law);
   normal_.setZero(Dim, points_);
   slip_.setZero(Dim, points_);
   traction_.setZero(Dim, points_);
@@ -51,7 +55,7 @@ bool InterfaceForces<Dim>::move_plates(const model::State<Dim>& state,
     const Eigen::Index count = interface.faces.points.size();
     if (interface.plate) {
       const auto motion =
-          plate_motion<Dim>({interface, normal_.middleCols(first, count),
+          plate_motion<Dim>({interface, laws_[i], normal_.middleCols(first, count),
                              state.interface_slip.middleCols(first, count), displacement, load});
       if (!motion) return false;
       motion_[i] = *motion;
@@ -71,7 +75,11 @@ fpm::Vector<Dim> InterfaceForces<Dim>::motion_of(std::size_t interface, fpm::Ind
 }
 
 template <int Dim>
-void InterfaceForces<Dim>::begin_step(const model::State<Dim>& state) {
+void InterfaceForces<Dim>::begin_step(const model::State<Dim>& state, double reduction) {
+  for (std::size_t i = 0; i < laws_.size(); ++i) {
+    const model::Interface<Dim>& interface = model_.interfaces[i];
+    if (interface.weakens) laws_[i] = constitutive::with_strength_over(interface.law, reduction);
+  }
   for_each_point(model_, [&](const auto& interface, std::size_t, fpm::Index c, Eigen::Index k) {
     const fpm::Vector<Dim> normal = interface.faces.points.normal.row(c).transpose();
     normal_.col(k) = normal;
@@ -91,7 +99,7 @@ bool InterfaceForces<Dim>::add_force(const model::State<Dim>& state,
   if (!move_plates(state, displacement, load)) return false;
   rigid_force_.assign(model_.interfaces.size(), fpm::Vector<Dim>::Zero());
   for_each_point(model_, [&](const auto& interface, std::size_t i, fpm::Index c, Eigen::Index k) {
-    const auto response = response_at<Dim>(interface, c, fpm::Vector<Dim>(normal_.col(k)),
+    const auto response = response_at<Dim>(interface, laws_[i], c, fpm::Vector<Dim>(normal_.col(k)),
                                            fpm::Vector<Dim>(state.interface_slip.col(k)),
                                            displacement, motion_of(i, c, load));
     slip_.col(k) = response.slip;
@@ -109,7 +117,7 @@ bool InterfaceForces<Dim>::linearise(const model::State<Dim>& state,
                                      const fpm::Field<Dim>& displacement, double load) {
   if (!move_plates(state, displacement, load)) return false;
   for_each_point(model_, [&](const auto& interface, std::size_t i, fpm::Index c, Eigen::Index k) {
-    const auto response = response_at<Dim>(interface, c, fpm::Vector<Dim>(normal_.col(k)),
+    const auto response = response_at<Dim>(interface, laws_[i], c, fpm::Vector<Dim>(normal_.col(k)),
                                            fpm::Vector<Dim>(state.interface_slip.col(k)),
                                            displacement, motion_of(i, c, load));
     Eigen::Map<fpm::Tensor<Dim>>(tangent_.col(k).data()) = response.tangent;

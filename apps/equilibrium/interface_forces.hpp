@@ -22,7 +22,8 @@ class InterfaceForces {
   bool empty() const { return points_ == 0; }
 
   /// Prepares a step from the state.
-  void begin_step(const model::State<Dim>& state);
+  /// @param reduction  what the strength of faces that weaken is divided by
+  void begin_step(const model::State<Dim>& state, double reduction);
 
   /// Adds the forces that go with a total displacement to those of the bodies; remembers tractions.
   /// @param load  load parameter to which rigid bodies have moved
@@ -67,6 +68,7 @@ class InterfaceForces {
   fpm::Vector<Dim> motion_of(std::size_t interface, fpm::Index point, double load) const;
 
   const model::Model<Dim>& model_;
+  std::vector<constitutive::InterfaceLaw> laws_;  // in the step
   Eigen::Index points_ = 0;
   Columns<Dim> normal_;         // of each point, out of the first body
   Columns<Dim> slip_;           // [m] of the latest forces

@@ -14,6 +14,7 @@
 #include "model/initial_stress.hpp"
 #include "model/selection.hpp"
 #include "model/surface.hpp"
+#include "scene/course.hpp"
 #include "scene/cutouts.hpp"
 #include "scene/derived.hpp"
 #include "scene/element_body.hpp"
@@ -120,6 +121,12 @@ Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
   };
   interface.faces.first = operator_of(faces.first);
   if (!faces.second.empty()) interface.faces.second = operator_of(faces.second);
+  const auto is_weakened = [&](fpm::Index a) {
+    return scene::is_weakened(scene, material_of(scene, model, a).name);
+  };
+  interface.weakens =
+      scene::reduces_strength(scene) && (std::ranges::any_of(faces.first, is_weakened) ||
+                                         std::ranges::any_of(faces.second, is_weakened));
   const Eigen::Index count = faces.points.weight.size();
   interface.stiffness.resize(count);
   interface.initial_traction.resize(count, Dim);

@@ -82,6 +82,7 @@ struct Interface {
   std::string support;              // whose the rigid body is; empty: a drive's, or none
   std::string of_drive;             // whose plate it is; empty: none
   std::optional<Plate<Dim>> plate;  // a rigid body that is not driven in every way
+  bool weakens = false;             // divided is its strength, too, when that of materials is
 
   // Whether these points, not those of a finer rule, are the body's boundary to the consistency
   // correction, so that what they bear is what a constant stress asks of them.

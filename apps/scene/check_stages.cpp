@@ -5,6 +5,7 @@
 
 #include "constitutive/parameters.hpp"
 #include "scene/check.hpp"
+#include "scene/contacts.hpp"
 #include "scene/derived.hpp"
 #include "scene/drives.hpp"
 #include "scene/ground.hpp"
@@ -268,7 +269,8 @@ void check_reduction(const Scene& scene, tables::Diagnosis& diagnosis) {
                                 material.model));
     return;
   }
-  if (!any && diagnosis.good({"drive.weakened", "material"})) {
+  // Faces by contact are divided, too, whatever is beside them.
+  if (!any && !has_contact(scene) && diagnosis.good({"drive.weakened", "material"})) {
     diagnosis.error("drive.weakened", "no material of them has a strength",
                     "what is divided is cohesion and tan(phi)");
   }

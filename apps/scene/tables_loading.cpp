@@ -179,7 +179,7 @@ SceneTable drive() {
       .key("weakened", &Drive::weakened,
            {.need = tables::Need::optional,
             .doc = "strength, and stages with a reduction: names of the materials whose strength "
-                   "is divided.",
+                   "is divided, and with it that of the faces by contact that they have.",
             .absent = "all"})
       .build();
 }

@@ -139,7 +139,8 @@ std::string sudden_weight(const scene::Scene& scene, bool plastic, double load) 
 // What a load that grows comes to at last.
 template <int Dim>
 std::string collapse(const scene::Scene& scene, const model::State<Dim>& state) {
-  const bool flows = state.layout.plastic && (state.plastic_increment.array() > 0.0).any();
+  const bool flows = (state.layout.plastic && (state.plastic_increment.array() > 0.0).any()) ||
+                     (state.interface_slip.array() != 0.0).any();
   const double reduction = scene::reduction_at(scene.course, state.programme.progress);
   if (flows && scene.course.reduction_end != scene.course.reduction_begin && reduction != 1.0) {
     return fmt::format(

@@ -53,5 +53,18 @@ TEST(StrengthReduction, ByOneChangesNoBit) {
   EXPECT_EQ(with_strength_over(whole, 1.0), whole);
 }
 
+TEST(StrengthReduction, DividesAFacesAdhesionAndTangent) {
+  InterfaceLaw law;
+  law.tied = false;
+  law.friction_tangent = 0.5;
+  law.adhesion = 3e3;
+  law.tension = true;
+  const InterfaceLaw half = with_strength_over(law, 2.0);
+  EXPECT_EQ(half.friction_tangent, 0.25);
+  EXPECT_EQ(half.adhesion, 1.5e3);
+  EXPECT_TRUE(half.tension);
+  EXPECT_TRUE(with_strength_over(InterfaceLaw{}, 2.0).tied);
+}
+
 }  // namespace
 }  // namespace constitutive

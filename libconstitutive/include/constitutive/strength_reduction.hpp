@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "constitutive/interface_law.hpp"
 #include "constitutive/parameters.hpp"
 
 namespace constitutive {
@@ -27,6 +28,14 @@ namespace constitutive {
     parameters.residual_friction_angle = divided(parameters.residual_friction_angle);
   }
   return parameters;
+}
+
+/// A face whose adhesion and tan(delta) are divided by a factor; one that is tied stays so.
+/// @param factor  > 0; below 1 it strengthens
+[[nodiscard]] inline InterfaceLaw with_strength_over(InterfaceLaw law, double factor) {
+  law.friction_tangent /= factor;
+  law.adhesion /= factor;
+  return law;
 }
 
 }  // namespace constitutive
