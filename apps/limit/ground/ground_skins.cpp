@@ -208,7 +208,7 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
     }
     // The ground is to the left: what runs towards +x hangs over.
     if (outline.at(segment.second).x() > outline.at(segment.first).x()) gentlest = 0.0;
-    if (!soil.is_loose()) continue;
+    if (!soil.is_loose() && soil.tension > 0.0) continue;
     // The weight, aslant in an earthquake, along the skin and across it.
     const mesh::Point &first = outline.at(segment.first), &second = outline.at(segment.second);
     const mesh::Point way = (second - first).normalized();
@@ -217,15 +217,16 @@ void say_skins(const GroundScene& scene, const GroundOutline& outline,
         const mesh::Point force = soil.live_unit_weight_at(place) * soils.live_pull + skin.water;
         const double along = std::abs(way.dot(force));
         const double presses_on = way.x() * force.y() - way.y() * force.x();
-        // What water lifts off the face has no strength at all.
-        const double across =
-            scene.water.is_there() ? std::max(0.0, presses_on) : std::abs(presses_on);
-        if (along <= level * across) continue;
-        const double slides = std::tan(soil.friction_angle) * across / along;
+        // What water lifts off the face, or weight draws off one that hangs over, has no strength
+        // at all.
+        const double across = std::max(0.0, presses_on);
+        const bool is_drawn_off = presses_on < -level * force.norm();
+        if (!is_drawn_off && (!soil.is_loose() || along <= level * across)) continue;
+        const double slides = is_drawn_off ? 0.0 : std::tan(soil.friction_angle) * across / along;
         if (slides >= result.known_upper.value_or(INFINITY)) continue;
         result.known_upper = slides;
-        weakest = fmt::format("{} without cohesion at the side \"{}\"", scene.materials[m].name,
-                              side.name);
+        weakest = fmt::format("{} without {} at the side \"{}\"", scene.materials[m].name,
+                              soil.is_loose() ? "cohesion" : "tension", side.name);
       }
     }
   }

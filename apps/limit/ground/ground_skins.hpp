@@ -6,8 +6,9 @@
 namespace limit::ground {
 
 /// Faces of soil without cohesion, with nothing on them: a skin, however thin, slides parallel to a
-/// face as soon as tan(friction angle) is less than tan(inclination). Says so in the notes of a
-/// case that seeks the factor of its strength, with what is known of it in closed form.
+/// face as soon as tan(friction angle) is less than tan(inclination), and falls off one that hangs
+/// over, as soil without tension does. Says so in the notes of a case that seeks the factor of its
+/// strength, with what is known of it in closed form.
 /// @param soils  of the problem, by material
 void say_skins(const GroundScene& scene, const GroundOutline& outline,
                const problem::Problem& soils, problem::Case& result);

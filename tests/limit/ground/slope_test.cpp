@@ -161,6 +161,33 @@ TEST(Slope, OfDrySandIsThatOfASkinOfIt) {
   EXPECT_TRUE(found.bracket.reached);
 }
 
+// Off a face that hangs over the weight draws a skin, which no friction holds, nor cohesion where
+// there is no tension: the weight's share across it would have to be borne as one. Any tension is
+// enough for a skin.
+TEST(Slope, ThatHangsOverHasNoSkinWithoutTension) {
+  const auto hanging = [](const std::string& cohesion, const std::vector<std::string>& more) {
+    std::vector<std::string> settings{
+        "material.soil.cohesion=" + cohesion,
+        "region.0.outline=[[-5,-4],[14,-4],[14,6],[-2,6],[0,0],[-5,0]]",
+        "side.slope.along=[[-5,0],[0,0],[-2,6],[14,6]]"};
+    settings.insert(settings.end(), more.begin(), more.end());
+    return shipped("slope_safety", settings);
+  };
+  for (const auto& problem :
+       {hanging("0", {}), hanging("15e3", {"material.soil.tension_cutoff=0"})}) {
+    ASSERT_TRUE(problem);
+    const bracket::Solution found = bracket::solution_of(problem->associated, options(), {});
+    ASSERT_TRUE(found.lower && found.upper);
+    EXPECT_EQ(*found.lower, 0.0);
+    EXPECT_EQ(*found.upper, 0.0);
+    EXPECT_THAT(problem->associated.notes,
+                ::testing::Contains(::testing::HasSubstr("bears nothing")));
+  }
+  const auto held = hanging("15e3", {"material.soil.tension_cutoff=1"});
+  ASSERT_TRUE(held);
+  EXPECT_FALSE(held->associated.known_upper);
+}
+
 // Nothing known in closed form, stresses of sand come as close to its skin as they are asked to.
 TEST(Slope, OfDrySandBearsByCertifiedStressesWhatItsSkinDoes) {
   auto problem =
