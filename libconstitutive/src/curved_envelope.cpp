@@ -32,7 +32,10 @@ struct CurvedStep {
 CurvedStep curved_step(const CurvedEnvelope& m, const CurvedFlow& flow, double a, double b) {
   const auto rest = [&](double u) {
     const CurvedPoint p = curved_point(m, u);
-    return (a + p.least) * flow.of_b(p.flow) - (b + p.most) * flow.of_a(p.flow);
+    const double of_a = flow.of_a(p.flow), of_b = flow.of_b(p.flow);
+    return ValueAndSlope{(a + p.least) * of_b - (b + p.most) * of_a,
+                         p.least_by * of_b - p.most_by * of_a +
+                             p.flow_by * ((a + p.least) * flow.b1 - (b + p.most) * flow.a1)};
   };
   const double about = (m.apex() - (a + b) / 2) / m.stress;
   const CurvedRoot root = curved_root(
@@ -122,7 +125,7 @@ CurvedPoint curved_point(const CurvedEnvelope& m, double u) {
   shear /= m.factor;
   slope /= m.factor;
   slope_by /= m.factor;
-  const double secant = std::hypot(1.0, slope), sum = secant + slope;
+  const double secant = std::sqrt(1 + slope * slope), sum = secant + slope;
   CurvedPoint point{};
   point.rise = sum * sum;
   point.least = normal - shear / sum;
@@ -140,11 +143,16 @@ CurvedPoint curved_point(const CurvedEnvelope& m, double u) {
 double curved_excess(const CurvedEnvelope& m, double major, double minor) {
   if (major >= m.apex()) return major - m.apex() + (major - minor > 0 ? major - minor : 0);
   const bool closed = m.curve == Curve::hoek_brown && m.factor == 1;
-  const double first = m.cohesive - major / m.stress;  // of the power law, more or less
+  // Of Hoek and Brown's undivided, and of the others more or less.
+  const double first =
+      m.cohesive - (m.curve == Curve::hoek_brown ? m.coefficient : 1.0) * major / m.stress;
+  const auto beyond = [&](double u) {
+    const CurvedPoint p = curved_point(m, u);
+    return ValueAndSlope{-major - p.least, -p.least_by};
+  };
+  constexpr double least = 1e-9;
   const CurvedRoot root =
-      closed ? CurvedRoot{true, m.cohesive - m.coefficient * major / m.stress}
-             : curved_root([&](double u) { return -major - curved_point(m, u).least; },
-                           std::max(first, 1e-3));
+      closed ? CurvedRoot{true, first} : curved_root(beyond, std::max(first, least));
   if (!root.found) return major - minor;
   const CurvedPoint point = curved_point(m, root.u);
   return (-minor - point.most) / point.rise;
@@ -153,8 +161,8 @@ double curved_excess(const CurvedEnvelope& m, double major, double minor) {
 double curved_radius(const CurvedEnvelope& m, double centre) {
   const CurvedRoot root = curved_root(
       [&](double u) {
-        const CurvedPoint point = curved_point(m, u);
-        return centre - (point.least + point.most) / 2;
+        const CurvedPoint p = curved_point(m, u);
+        return ValueAndSlope{centre - (p.least + p.most) / 2, -(p.least_by + p.most_by) / 2};
       },
       std::max(m.cohesive + centre / m.stress, 1e-3));
   if (!root.found) return 0;

@@ -133,7 +133,11 @@ TEST(CurvedReturn, ObeysKoitersRuleAndKeepsTheOrderInEveryRegime) {
             continue;
           }
           const auto root = detail::curved_root(
-              [&](double u) { return -r.stress[0] - detail::curved_point(m, u).least; }, 1.0);
+              [&](double u) {
+                const auto point = detail::curved_point(m, u);
+                return detail::ValueAndSlope{-r.stress[0] - point.least, -point.least_by};
+              },
+              1.0);
           ASSERT_TRUE(root.found);
           const auto before = detail::curved_point(m, root.u * (1 - 1e-6)),
                      here = detail::curved_point(m, root.u),

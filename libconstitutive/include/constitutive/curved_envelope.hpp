@@ -89,46 +89,38 @@ struct CurvedRoot {
   double u = 0;
 };
 
-/// By Illinois' false position, bisected now and then.
+/// Of a function of ln u.
+struct ValueAndSlope {
+  double value, slope;
+};
+
+/// By Newton's method in ln u between what is known to be above and below zero.
+/// @param function  of u: its value and its derivative by ln u
 /// @param from  a guess of u, > 0
 template <class Function>
 CurvedRoot curved_root(const Function& function, double from) {
-  constexpr double most = 160;  // of |ln u|
-  const auto at = [&](double v) { return function(std::exp(v)); };
-  double low = std::clamp(std::log(from), -most, most), high = low;
-  double at_low = at(low), at_high = at_low;
-  for (double step = 0.25; at_low < 0; step *= 2) {
-    if (low <= -most) return {};
-    high = low;
-    at_high = at_low;
-    low = std::max(low - step, -most);
-    at_low = at(low);
+  constexpr double most = 160;         // of |ln u|
+  constexpr double farthest = 16;      // of one step
+  constexpr double round_off = 2e-16;  // of ln u, where that is not less than 1
+  constexpr int usual = 16, enough = 200;
+  // Beyond the ends it is not asked for.
+  double above = -INFINITY, below = INFINITY, v = std::clamp(std::log(from), -most, most);
+  for (int count = 0; count < enough; ++count) {
+    const auto [value, slope] = function(std::exp(v));
+    if (value == 0) break;
+    (value > 0 ? above : below) = v;
+    if (below <= -most) return {};
+    if (above >= most) break;
+    const double newton = slope < 0 ? -value / slope : value > 0 ? farthest : -farthest;
+    if (std::abs(newton) <= round_off * std::max(1.0, std::abs(v))) break;
+    double next = std::clamp(v + std::clamp(newton, -farthest, farthest), -most, most);
+    // What does not converge by then is halved every other time.
+    const bool is_slow = count > usual && count % 2 == 0 && std::isfinite(below - above);
+    if (is_slow || !(next > above && next < below)) next = above + (below - above) / 2;
+    if (!(next > above && next < below)) break;
+    v = next;
   }
-  for (double step = 0.25; at_high > 0 && high < most; step *= 2) {
-    low = high;
-    at_low = at_high;
-    high = std::min(high + step, most);
-    at_high = at(high);
-  }
-  int side = 0;
-  for (int count = 0; count < 200 && at_low != 0 && at_high != 0; ++count) {
-    double v = (low * at_high - high * at_low) / (at_high - at_low);
-    if (count % 4 == 3 || !(v > low && v < high)) v = low + (high - low) / 2;
-    if (!(v > low && v < high)) break;
-    const double here = at(v);
-    const int now = here > 0 ? 1 : -1;
-    if (now > 0) {
-      low = v;
-      at_low = here;
-      if (side == now) at_high /= 2;
-    } else {
-      high = v;
-      at_high = here;
-      if (side == now) at_low /= 2;
-    }
-    side = now;
-  }
-  return {true, std::exp(at_high == 0 ? high : low)};
+  return {true, std::exp(v)};
 }
 
 /// How far sorted principal stresses (falling order, tension positive) are outside, as a difference
