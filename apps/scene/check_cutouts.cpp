@@ -73,7 +73,10 @@ void check_body(const Scene& scene, tables::Diagnosis& diagnosis) {
 void check_cutouts(const Scene& scene, tables::Diagnosis& diagnosis) {
   if (scene.cutout.empty() || !diagnosis.good({"geometry.dimension", "geometry.layout"})) return;
   if (scene.geometry.dimension != 2) {
-    diagnosis.error("cutout.0", "found in 3D", "only plane bodies have cutouts");
+    diagnosis.error(
+        "cutout.0", "found in 3D",
+        "only plane bodies have cutouts: in space give [[region]]s without it, prisms by "
+        "geometry.depth, or a [mesh]");
     return;
   }
   if (scene.geometry.layout != Layout::cell) {

@@ -88,6 +88,17 @@ TEST(Cutouts, HaveNoGeostaticStress) {
                   "what is dug later is a [[region]] that a [[stage]] removes"));
 }
 
+TEST(Cutouts, OfBodiesInSpaceAreRegions) {
+  EXPECT_THAT(errors_of("[geometry]\ndimension = 3\nmin = [0.0, 0.0, 0.0]\nmax = [2.0, 1.0, 1.0]\n"
+                        "spacing = 0.1\n[[material]]\nname = \"m\"\nmodel = \"elastic\"\n"
+                        "youngs_modulus = 1e6\npoissons_ratio = 0.3\n[[support]]\nname = \"base\"\n"
+                        "side = \"bottom\"\ndirections = [\"x\", \"y\", \"z\"]\n" +
+                        hole),
+              ElementsAre("s.toml:15:1: cutout.0: found in 3D; only plane bodies have cutouts: in "
+                          "space give [[region]]s without it, prisms by geometry.depth, or a "
+                          "[mesh]"));
+}
+
 TEST(Cutouts, AreOfPlaneBodiesOfCells) {
   EXPECT_THAT(
       errors_of(text_of(hole, "layout = \"vertex\"\n")),
