@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "picture/picture.hpp"
+#include "run/drawing_style.hpp"
 #include "scene/derived.hpp"
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
@@ -20,15 +21,15 @@ namespace {
 using Place = Eigen::Vector2d;
 
 constexpr double longest = 900.0;  // [px] of the body
-constexpr double margin = 60.0;    // [px]
-constexpr double line_height = 18.0;
-constexpr std::array<std::string_view, 8> colours{"#d9b382", "#8fb0c9", "#a8c98f", "#c99bb8",
-                                                  "#c9c38f", "#9f9fd0", "#d09f8f", "#8fc9c0"};
-constexpr std::string_view held = "#202020", loaded = "#c03020", moved = "#2050c0";
+constexpr double margin = drawing_margin, line_height = drawing_line_height;
+constexpr auto& colours = material_colours;
+constexpr std::string_view held = held_colour, loaded = loaded_colour, moved = moved_colour;
 
 class Drawing {
  public:
-  Drawing(const scene::Scene& scene, const model::Model<2>& model) : scene_(scene), model_(model) {
+  Drawing(const scene::Scene& scene, const model::Model<2>& model,
+          const std::vector<std::string>& notes)
+      : scene_(scene), model_(model), notes_(notes) {
     const Place size = model.box_max - model.box_min;
     scale_ = longest / size.maxCoeff();
     height_ = scale_ * size.y();
@@ -215,6 +216,7 @@ class Drawing {
                                  scene_.title.empty() ? "" : scene_.title + ": ", model_.size(),
                                  spacing, model_.box_max.x() - model_.box_min.x(),
                                  model_.box_max.y() - model_.box_min.y()));
+    for (const std::string& note : notes_) written("white", note);
     for (std::size_t m = 0; m < scene_.material.size(); ++m) {
       const scene::Material& material = scene_.material[m];
       written(colours[m % colours.size()], fmt::format("{}: {}", material.name, material.model));
@@ -223,14 +225,16 @@ class Drawing {
 
   const scene::Scene& scene_;
   const model::Model<2>& model_;
+  const std::vector<std::string>& notes_;
   double scale_ = 1.0, width_ = 0.0, height_ = 0.0, below_ = 0.0;
   std::string out_;
 };
 
 }  // namespace
 
-std::string drawing_of(const scene::Scene& scene, const model::Model<2>& model) {
-  return Drawing(scene, model).text();
+std::string drawing_of(const scene::Scene& scene, const model::Model<2>& model,
+                       const std::vector<std::string>& notes) {
+  return Drawing(scene, model, notes).text();
 }
 
 }  // namespace run

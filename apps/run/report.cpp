@@ -47,6 +47,11 @@ std::string check_report(const scene::Scene& scene, std::size_t particles, std::
   return out;
 }
 
+std::string size_note(const scene::Scene& scene, const std::vector<model::MemoryPart>& parts) {
+  return fmt::format("{:.1f} MiB of memory, {} steps planned", mebibytes(model::total(parts)),
+                     scene::planned_steps(scene));
+}
+
 template <int Dim>
 std::vector<std::string> joined_notes(const scene::Scene& scene, const model::Model<Dim>& model) {
   std::vector<std::string> notes;

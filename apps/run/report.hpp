@@ -25,8 +25,11 @@ namespace run {
 std::string check_report(const scene::Scene& scene, std::size_t particles, std::size_t ghosts,
                          const std::vector<model::MemoryPart>& parts);
 
-/// One line for each face between two materials that is none, as a tip or a thin layer takes it with
-/// it.
+/// The memory and the steps of it in one line.
+std::string size_note(const scene::Scene& scene, const std::vector<model::MemoryPart>& parts);
+
+/// One line for each face between two materials that is none, as a tip or a thin layer takes it
+/// with it.
 template <int Dim>
 std::vector<std::string> joined_notes(const scene::Scene& scene, const model::Model<Dim>& model);
 

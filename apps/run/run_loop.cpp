@@ -155,7 +155,7 @@ class Run {
     for (const std::string& note : water_notes(stages_.scene(), model)) {
       out_ << fmt::format("  {:<12} {}\n", "water", note);
     }
-    draw();
+    draw(parts);
     for (const std::string& note : joined_notes(scene_, model)) err_ << "warning: " << note << '\n';
     for (const std::string& note : lateral_notes(scene_, model))
       err_ << "warning: " << note << '\n';
@@ -166,14 +166,11 @@ class Run {
     return program::ExitCode::done;
   }
 
-  void draw() const {
+  void draw(const std::vector<model::MemoryPart>& parts) const {
     if (request_.drawing.empty()) return;
-    if constexpr (Dim == 2) {
-      files::write_text_durably(request_.drawing, drawing_of(scene_, stages_.model()), system_);
-      out_ << fmt::format("  {:<12} {}\n", "drawn", request_.drawing.string());
-    } else {
-      err_ << "warning: --draw: only plane scenes are drawn\n";
-    }
+    files::write_text_durably(
+        request_.drawing, drawing_of(scene_, stages_.model(), {size_note(scene_, parts)}), system_);
+    out_ << fmt::format("  {:<12} {}\n", "drawn", request_.drawing.string());
   }
 
   program::ExitCode say_finished(const RunStart<Dim>& start,
