@@ -48,7 +48,7 @@ std::string check_report(const scene::Scene& scene, std::size_t particles, std::
 }
 
 std::string size_note(const scene::Scene& scene, const std::vector<model::MemoryPart>& parts) {
-  return fmt::format("{:.1f} MiB of memory, {} steps planned", mebibytes(model::total(parts)),
+  return fmt::format("{:.1f} MiB of memory, steps planned: {}", mebibytes(model::total(parts)),
                      scene::planned_steps(scene));
 }
 

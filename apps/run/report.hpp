@@ -25,7 +25,7 @@ namespace run {
 std::string check_report(const scene::Scene& scene, std::size_t particles, std::size_t ghosts,
                          const std::vector<model::MemoryPart>& parts);
 
-/// The memory and the steps of it in one line.
+/// The memory and the planned steps of a run in one line, for its picture.
 std::string size_note(const scene::Scene& scene, const std::vector<model::MemoryPart>& parts);
 
 /// One line for each face between two materials that is none, as a tip or a thin layer takes it
