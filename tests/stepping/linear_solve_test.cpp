@@ -125,6 +125,20 @@ TEST(LinearSolve, IsTheSolutionOfNewton) {
   expect_the_solution_of_newton<3>(body(false, pressed_in_space));
 }
 
+// Springs of tied faces, of penalties and of sides aslant are in the residual and its action alike.
+TEST(LinearSolve, OfSpringsIsTheSolutionOfNewton) {
+  const std::string layer =
+      "[[material]]\nname = \"b\"\nmodel = \"elastic\"\nyoungs_modulus = 1e8\n"
+      "poissons_ratio = 0.2\ndensity = 2000.0\nregion_min = [0.0, 0.4]\nregion_max = [1.0, 0.8]\n";
+  expect_the_solution_of_newton<2>(body(true, pressed) + layer);
+  expect_the_solution_of_newton<2>(body(true, pressed) + layer,
+                                   {"approximation.interfaces=through"});
+  expect_the_solution_of_newton<2>(body(true, pressed), {"support.1.method=penalty"});
+  expect_the_solution_of_newton<2>(
+      body(true, pressed) +
+      "[[cutout]]\nname = \"corner\"\nkind = \"fixed\"\noutline = [[0.6, 0], [1, 0], [1, 0.3]]\n");
+}
+
 TEST(LinearSolve, IsForResidualsThatAreLinear) {
   const auto is_linear = [](const Settings& settings, const std::string& more = "") {
     return Body<2>(body(true, pressed) + more, settings).is_linear();
