@@ -285,7 +285,7 @@ template <int Dim>
 bool Equilibrium<Dim>::is_linear() const {
   return !model_.layout.finite && !model_.layout.plastic &&
          model_.control != scene::HourglassControl::viscosity &&
-         model_.following_pressures.empty() && interfaces_.empty();
+         model_.following_pressures.empty() && interfaces_.are_linear();
 }
 
 // Terms that scenes seldom have: following pressures, penalty supports, the paper's viscosity.

@@ -1,6 +1,7 @@
 #include "equilibrium/interface_forces.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "constitutive/strength_reduction.hpp"
 
@@ -44,6 +45,16 @@ InterfaceForces<Dim>::InterfaceForces(const model::Model<Dim>& model)
   motion_.assign(model.interfaces.size(), Motion::Zero());
   start_motion_ = motion_;
   plate_tangent_.resize(model.interfaces.size());
+}
+
+template <int Dim>
+bool InterfaceForces<Dim>::are_linear() const {
+  return std::ranges::none_of(model_.interfaces, [](const model::Interface<Dim>& interface) {
+    const constitutive::InterfaceLaw& law = interface.law;
+    const bool slips = !law.tied && constitutive::sticks(law);
+    const bool opens = !law.tied && !law.tension;
+    return slips || opens || interface.plate;
+  });
 }
 
 template <int Dim>

@@ -21,6 +21,10 @@ class InterfaceForces {
 
   bool empty() const { return points_ == 0; }
 
+  /// Whether all that they bear is proportional to what moves: springs that neither slip nor open,
+  /// and no plate that finds its own way.
+  bool are_linear() const;
+
   /// Prepares a step from the state.
   /// @param reduction  what the strength of faces that weaken is divided by
   void begin_step(const model::State<Dim>& state, double reduction);
