@@ -100,22 +100,28 @@ struct ValueAndSlope {
 template <class Function>
 CurvedRoot curved_root(const Function& function, double from) {
   constexpr double most = 160;         // of |ln u|
-  constexpr double farthest = 16;      // of one step
   constexpr double round_off = 2e-16;  // of ln u, where that is not less than 1
   constexpr int usual = 16, enough = 200;
   // Beyond the ends it is not asked for.
   double above = -INFINITY, below = INFINITY, v = std::clamp(std::log(from), -most, most);
+  // Of a step; the nearest zero is sought, and farther away there may be another one.
+  double farthest = 0.25;
   for (int count = 0; count < enough; ++count) {
     const auto [value, slope] = function(std::exp(v));
     if (value == 0) break;
     (value > 0 ? above : below) = v;
     if (below <= -most) return {};
     if (above >= most) break;
-    const double newton = slope < 0 ? -value / slope : value > 0 ? farthest : -farthest;
+    const double newton = slope < 0 ? -value / slope : value > 0 ? INFINITY : -INFINITY;
     if (std::abs(newton) <= round_off * std::max(1.0, std::abs(v))) break;
-    double next = std::clamp(v + std::clamp(newton, -farthest, farthest), -most, most);
+    const bool is_between = std::isfinite(below - above);
+    double next = v + newton;
+    if (!is_between) {
+      next = std::clamp(v + std::clamp(newton, -farthest, farthest), -most, most);
+      farthest *= 2;
+    }
     // What does not converge by then is halved every other time.
-    const bool is_slow = count > usual && count % 2 == 0 && std::isfinite(below - above);
+    const bool is_slow = is_between && count > usual && count % 2 == 0;
     if (is_slow || !(next > above && next < below)) next = above + (below - above) / 2;
     if (!(next > above && next < below)) break;
     v = next;
