@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "accept_return.hpp"
+#include "constitutive/rankine.hpp"
 #include "constitutive/spectral.hpp"
 
 namespace constitutive {
@@ -101,6 +102,30 @@ bool return_to_curved_edge(const CurvedEnvelope& m, bool larger, bool is_told,
   return true;
 }
 
+/// An envelope that begins as a parabola does, with an exponent of 1/2, is round there: circles
+/// smaller than its curvature touch it at its end alone. They are those up to this sigma_1, whose
+/// sigma_3 is the largest tension. Next to 1/2 it is what no u on offer tells from that.
+double round_end(const CurvedEnvelope& m) {
+  return m.curve == Curve::power_law ? curved_point(m, std::exp(-farthest_ln_u)).most : -m.apex();
+}
+
+/// To the largest tension, which bounds such circles as a tension cut-off does.
+bool return_to_round_end(const CurvedEnvelope& m, const Eigen::Vector3d& trial,
+                         PrincipalReturn& r) {
+  const double tension = m.apex(), end = round_end(m);
+  const PrincipalPlane first = rankine_plane(m.moduli, tension, 0),
+                       second = rankine_plane(m.moduli, tension, 1);
+  const auto takes = [&](const PlaneReturn& found, int planes) {
+    if (!found.found || found.stress[planes] > tension || -found.stress[2] > end) return false;
+    r.stress = found.stress;
+    r.jacobian = found.jacobian;
+    r.regime = MohrCoulombRegime::tension;
+    return true;
+  };
+  return takes(return_to_planes<1>({&first}, trial, 1.0), 1) ||
+         takes(return_to_planes<2>({&first, &second}, trial, 1.0), 2);
+}
+
 }  // namespace
 
 CurvedPoint curved_point(const CurvedEnvelope& m, double u) {
@@ -141,7 +166,9 @@ CurvedPoint curved_point(const CurvedEnvelope& m, double u) {
 }
 
 double curved_excess(const CurvedEnvelope& m, double major, double minor) {
-  if (major >= m.apex()) return major - m.apex() + (major - minor > 0 ? major - minor : 0);
+  if (major >= m.apex()) {
+    return major - m.apex() + (-minor > round_end(m) ? std::max(0.0, major - minor) : 0.0);
+  }
   const bool closed = m.curve == Curve::hoek_brown && m.factor == 1;
   // Of Hoek and Brown's undivided, and of the others more or less.
   const double first =
@@ -165,7 +192,7 @@ double curved_radius(const CurvedEnvelope& m, double centre) {
         return ValueAndSlope{centre - (p.least + p.most) / 2, -(p.least_by + p.most_by) / 2};
       },
       std::max(m.cohesive + centre / m.stress, 1e-3));
-  if (!root.found) return 0;
+  if (!root.found) return std::max(0.0, centre + m.apex());
   const CurvedPoint point = curved_point(m, root.u);
   return (point.most - point.least) / 2;
 }
@@ -185,6 +212,7 @@ PrincipalReturn return_principal(const CurvedEnvelope& m, const Eigen::Vector3d&
       if (return_to_curved_edge(m, larger, false, trial, r)) return r;
     }
   }
+  if (return_to_round_end(m, trial, r)) return r;
   r.regime = MohrCoulombRegime::apex;
   r.stress.setConstant(m.apex());
   r.jacobian.setZero();

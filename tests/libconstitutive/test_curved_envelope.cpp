@@ -177,6 +177,40 @@ StressVector<Dim> stress_of(const Material& material, const StressVector<Dim>& t
 
 // Against central differences with two steps, whose difference is three quarters of the coarser
 // one's error; what crosses into another regime is seen by that, too, and left out.
+// tau = A sqrt(p_r (sigma_n + T)) has the radius A^2 p_r / 2 at its end: circles that are smaller
+// touch it there alone, and their largest stress is T, as at a tension cut-off.
+TEST(CurvedReturn, OfAParabolaIsToItsEndWhereCirclesAreSmallerThanItIsRound) {
+  MaterialParameters p = points::soil("power_law");
+  p.power_exponent = 0.5;
+  for (const double ratio : {0.0, 0.5, 1.0}) {
+    p.dilation_ratio = ratio;
+    const auto m = std::get<CurvedEnvelope>(make_material(p));
+    const double tension = m.apex(), end = m.coefficient * m.coefficient * m.stress - tension;
+    constexpr double round_off = 1e-9;
+    // On it, whatever the smallest is down to the end, and not beyond.
+    for (const double minor : {0.0, -0.5 * end, -0.99 * end}) {
+      EXPECT_LE(detail::curved_excess(m, tension, minor), round_off * end);
+    }
+    EXPECT_GT(detail::curved_excess(m, tension, -1.01 * end), 0.0);
+
+    const double share = m.moduli.lame / (m.moduli.lame + 2 * m.moduli.shear);
+    const Eigen::Vector3d one(1.5 * tension, -0.2 * end, -0.6 * end);
+    const auto to_one = return_principal(m, one);
+    EXPECT_EQ(to_one.regime, MohrCoulombRegime::tension);
+    const double falls = share * 0.5 * tension;
+    EXPECT_LT((to_one.stress - Eigen::Vector3d(tension, one[1] - falls, one[2] - falls)).norm(),
+              round_off * end);
+    const auto to_two = return_principal(m, {1.5 * tension, 1.5 * tension, -0.6 * end});
+    EXPECT_EQ(to_two.regime, MohrCoulombRegime::tension);
+    EXPECT_NEAR(to_two.stress[1], tension, round_off * end);
+    EXPECT_LT(to_two.stress[2], -0.6 * end);
+    EXPECT_EQ(return_principal(m, {2 * tension, 1.9 * tension, 1.8 * tension}).regime,
+              MohrCoulombRegime::apex);
+    EXPECT_EQ(return_principal(m, {1.1 * tension, -end, -3 * end}).regime,
+              MohrCoulombRegime::plane);
+  }
+}
+
 template <int Dim>
 void compare_tangents() {
   for (const char* model : models) {

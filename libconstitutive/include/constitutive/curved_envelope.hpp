@@ -83,6 +83,9 @@ struct CurvedPoint {
 
 CurvedPoint curved_point(const CurvedEnvelope& m, double u);
 
+/// Beyond it, at either end, u is not asked for.
+constexpr double farthest_ln_u = 160;
+
 /// Where a function of ln u that falls from above to below zero is zero.
 struct CurvedRoot {
   bool found = false;  ///< False: it is below zero from the apex on.
@@ -99,10 +102,9 @@ struct ValueAndSlope {
 /// @param from  a guess of u, > 0
 template <class Function>
 CurvedRoot curved_root(const Function& function, double from) {
-  constexpr double most = 160;         // of |ln u|
+  constexpr double most = farthest_ln_u;
   constexpr double round_off = 2e-16;  // of ln u, where that is not less than 1
   constexpr int usual = 16, enough = 200;
-  // Beyond the ends it is not asked for.
   double above = -INFINITY, below = INFINITY, v = std::clamp(std::log(from), -most, most);
   // Of a step; the nearest zero is sought, and farther away there may be another one.
   double farthest = 0.25;
