@@ -7,7 +7,7 @@
 namespace limit {
 
 /// Writes the stress field of a lower bound for ParaView (VTKHDF, triangles with points of their
-/// own): stress [Pa], principal stresses and the direction of the larger one, yield ratio (Mohr's
+/// own): stress [Pa], principal stresses and the direction of the larger one, utilisation (Mohr's
 /// radius over the one that yields).
 /// @throws files::FileError
 void write_fields(const std::filesystem::path& file, const problem::Case& problem,
