@@ -69,8 +69,8 @@ std::vector<std::string> joined_notes(const scene::Scene& scene, const model::Mo
     notes.push_back(fmt::format(
         "\"{0}\" is less than three particles thick, as at ({2:.4g}) m, and of one body with "
         "\"{1}\", as if \"through\" joined them: what jumps across it is smeared, and where it "
-        "yields "
-        "\"{1}\" bears what it cannot; use finer particles, or make it an [[interface]]",
+        "yields \"{1}\" bears what it cannot; use finer particles, or leave the layer out and give "
+        "its strength to an [[interface]] between its neighbours",
         layer, beside, fmt::join(thin.place.begin(), thin.place.end(), ", ")));
   }
   return notes;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "scene/derived.hpp"
 #include "scene/grading.hpp"
 #include "scene/scene.hpp"
 #include "scene/tables.hpp"
@@ -62,20 +63,40 @@ std::string what_may_change() {
                      fmt::join(free_keys, ", "), fmt::join(free_tables, "*, "));
 }
 
+namespace {
+
+bool has_same_control(const Scene& one, const Scene& other) {
+  return resolve_control(one) == resolve_control(other) &&
+         resolve_stiffness_ratio(one) == resolve_stiffness_ratio(other);
+}
+
+// Also where what a later stage is now to do would change it.
+void keep_control(const Scene& before, Scene& scene) {
+  Hourglass& hourglass = scene.hourglass;
+  if (hourglass.control == HourglassControl::automatic) {
+    hourglass.control = before.hourglass.control;
+  }
+  if (!hourglass.stiffness_ratio) hourglass.stiffness_ratio = before.hourglass.stiffness_ratio;
+  if (has_same_control(before, scene)) return;
+  if (hourglass.control == HourglassControl::automatic) {
+    hourglass.control = resolve_control(before);
+  }
+  const double ratio = resolve_stiffness_ratio(before);
+  if (!hourglass.stiffness_ratio && ratio > 0.0) hourglass.stiffness_ratio = ratio;
+}
+
+}  // namespace
+
 void keep_methods(const Scene& before, Scene& scene) {
   for (std::size_t i = 0; i < std::min(before.support.size(), scene.support.size()); ++i) {
     SupportMethod& method = scene.support[i].method;
     if (method == SupportMethod::automatic) method = before.support[i].method;
   }
   if (scene.drive.method == DriveMethod::automatic) scene.drive.method = before.drive.method;
-  Hourglass& hourglass = scene.hourglass;
-  if (hourglass.control == HourglassControl::automatic) {
-    hourglass.control = before.hourglass.control;
-  }
   // A growth by default was a number in files of before, and is the rule's in others.
   std::optional<double>& growth = scene.grading.growth;
   if (!growth || *growth == resolve_growth(before)) growth = before.grading.growth;
-  if (!hourglass.stiffness_ratio) hourglass.stiffness_ratio = before.hourglass.stiffness_ratio;
+  keep_control(before, scene);
 }
 
 std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after, std::size_t stage) {
@@ -87,6 +108,9 @@ std::vector<SceneChange> scene_changes(const Scene& before, const Scene& after, 
         SceneChange change{table.path(i, field.key), text_at(table, field, before, i),
                            text_at(table, field, after, i), false};
         if (change.before == change.after) continue;
+        // A default that is written out is none.
+        const bool is_control = field.key == "control" || field.key == "stiffness_ratio";
+        if (table.name == "hourglass" && is_control && has_same_control(before, after)) continue;
         const std::string former = change.before;
         change.before = around_change(former, change.after);
         change.after = around_change(change.after, former);

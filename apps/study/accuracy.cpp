@@ -337,8 +337,8 @@ program::ExitCode find_accuracy(const AccuracyRequest& request, std::ostream& ou
   wish.spacings = spacings_of_a_ladder(*base, request.budget.has_value());
   wish.formal = formal_order(*base, quantity);
   wish.box = !request.far.empty();
-  // The residual of what is elastic is proportional to its error, and tells of it.
-  if (std::ranges::any_of(base->material, scene::yields)) {
+  // The residual of what neither yields nor slides is proportional to its error, and tells of it.
+  if (std::ranges::any_of(base->material, scene::yields) || scene::may_give_way(*base)) {
     wish.unbalanced = scene::resolve_solver(*base).tolerance;
   }
   wish.growth = base->geometry.dimension + 1.0;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "scene/changes.hpp"
+#include "scene/derived.hpp"
 #include "scene/reader.hpp"
 #include "scene/scene.hpp"
 #include "support/sample_scene.hpp"
@@ -179,6 +180,28 @@ to = 0.08
   // Of the stage that has begun nothing may change.
   EXPECT_THAT(changes("title=a", "stage.0.to=0.04"),
               ElementsAre(SceneChange{"stage.0.to", "0.05", "0.04", false}));
+}
+
+// What a stage to come is now to do would change the control of the whole run, whose state it is
+// of.
+TEST(SceneChanges, OfAStageToComeKeepTheControlOfTheRun) {
+  for (const char* model : {"von_mises", "mohr_coulomb"}) {
+    Scene before;
+    before.geometry.dimension = 2;
+    before.material.emplace_back().model = model;
+    before.stage.resize(2);
+    before.stage[0].hold = {"strut"};
+    Scene after = before;
+    after.stage[1].kh = 0.1;
+    ASSERT_NE(resolve_stiffness_ratio(after) * static_cast<int>(resolve_control(after)),
+              resolve_stiffness_ratio(before) * static_cast<int>(resolve_control(before)));
+    keep_methods(before, after);
+    EXPECT_EQ(resolve_control(after), resolve_control(before)) << model;
+    EXPECT_EQ(resolve_stiffness_ratio(after), resolve_stiffness_ratio(before)) << model;
+    for (const SceneChange& change : scene_changes(before, after, 0)) {
+      EXPECT_EQ(change.key, "stage.1.kh");
+    }
+  }
 }
 
 }  // namespace
