@@ -20,14 +20,14 @@ void for_each_point(const model::Model<Dim>& model, Visitor&& visit) {
 
 template <int Dim>
 constitutive::InterfaceResponse<Dim> response_at(const model::Interface<Dim>& interface,
-                                                 const constitutive::InterfaceLaw& law,
+                                                 const constitutive::InterfaceLaw& divided,
                                                  fpm::Index point, const fpm::Vector<Dim>& normal,
                                                  const fpm::Vector<Dim>& slip,
                                                  const fpm::Field<Dim>& displacement,
                                                  const fpm::Vector<Dim>& motion) {
   const fpm::Vector<Dim> gap = interface.faces.gap(point, displacement, motion);
   return constitutive::interface_response<Dim>(
-      law, interface.stiffness[point], normal,
+      interface.weakens_at(point) ? divided : interface.law, interface.stiffness[point], normal,
       fpm::Vector<Dim>(interface.initial_traction.row(point).transpose()), gap, slip);
 }
 
@@ -36,7 +36,7 @@ constitutive::InterfaceResponse<Dim> response_at(const model::Interface<Dim>& in
 template <int Dim>
 InterfaceForces<Dim>::InterfaceForces(const model::Model<Dim>& model)
     : model_(model), points_(model.interface_points()) {
-  for (const model::Interface<Dim>& interface : model.interfaces) laws_.push_back(interface.law);
+  for (const model::Interface<Dim>& interface : model.interfaces) divided_.push_back(interface.law);
   normal_.setZero(Dim, points_);
   slip_.setZero(Dim, points_);
   traction_.setZero(Dim, points_);
@@ -66,7 +66,7 @@ bool InterfaceForces<Dim>::move_plates(const model::State<Dim>& state,
     const Eigen::Index count = interface.faces.points.size();
     if (interface.plate) {
       const auto motion =
-          plate_motion<Dim>({interface, laws_[i], normal_.middleCols(first, count),
+          plate_motion<Dim>({interface, divided_[i], normal_.middleCols(first, count),
                              state.interface_slip.middleCols(first, count), displacement, load});
       if (!motion) return false;
       motion_[i] = *motion;
@@ -87,9 +87,11 @@ fpm::Vector<Dim> InterfaceForces<Dim>::motion_of(std::size_t interface, fpm::Ind
 
 template <int Dim>
 void InterfaceForces<Dim>::begin_step(const model::State<Dim>& state, double reduction) {
-  for (std::size_t i = 0; i < laws_.size(); ++i) {
+  for (std::size_t i = 0; i < divided_.size(); ++i) {
     const model::Interface<Dim>& interface = model_.interfaces[i];
-    if (interface.weakens) laws_[i] = constitutive::with_strength_over(interface.law, reduction);
+    divided_[i] = constitutive::with_strength_over(interface.law, reduction);
+    divided_[i].adhesion =
+        std::min(interface.divided_adhesion / reduction, interface.kept_adhesion);
   }
   for_each_point(model_, [&](const auto& interface, std::size_t, fpm::Index c, Eigen::Index k) {
     const fpm::Vector<Dim> normal = interface.faces.points.normal.row(c).transpose();
@@ -110,9 +112,9 @@ bool InterfaceForces<Dim>::add_force(const model::State<Dim>& state,
   if (!move_plates(state, displacement, load)) return false;
   rigid_force_.assign(model_.interfaces.size(), fpm::Vector<Dim>::Zero());
   for_each_point(model_, [&](const auto& interface, std::size_t i, fpm::Index c, Eigen::Index k) {
-    const auto response = response_at<Dim>(interface, laws_[i], c, fpm::Vector<Dim>(normal_.col(k)),
-                                           fpm::Vector<Dim>(state.interface_slip.col(k)),
-                                           displacement, motion_of(i, c, load));
+    const auto response = response_at<Dim>(
+        interface, divided_[i], c, fpm::Vector<Dim>(normal_.col(k)),
+        fpm::Vector<Dim>(state.interface_slip.col(k)), displacement, motion_of(i, c, load));
     slip_.col(k) = response.slip;
     traction_.col(k) = response.traction;
     interface.faces.add_force(c, response.traction, force);
@@ -128,9 +130,9 @@ bool InterfaceForces<Dim>::linearise(const model::State<Dim>& state,
                                      const fpm::Field<Dim>& displacement, double load) {
   if (!move_plates(state, displacement, load)) return false;
   for_each_point(model_, [&](const auto& interface, std::size_t i, fpm::Index c, Eigen::Index k) {
-    const auto response = response_at<Dim>(interface, laws_[i], c, fpm::Vector<Dim>(normal_.col(k)),
-                                           fpm::Vector<Dim>(state.interface_slip.col(k)),
-                                           displacement, motion_of(i, c, load));
+    const auto response = response_at<Dim>(
+        interface, divided_[i], c, fpm::Vector<Dim>(normal_.col(k)),
+        fpm::Vector<Dim>(state.interface_slip.col(k)), displacement, motion_of(i, c, load));
     Eigen::Map<fpm::Tensor<Dim>>(tangent_.col(k).data()) = response.tangent;
   });
   Eigen::Index first = 0;

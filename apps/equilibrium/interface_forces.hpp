@@ -72,7 +72,7 @@ class InterfaceForces {
   fpm::Vector<Dim> motion_of(std::size_t interface, fpm::Index point, double load) const;
 
   const model::Model<Dim>& model_;
-  std::vector<constitutive::InterfaceLaw> laws_;  // in the step
+  std::vector<constitutive::InterfaceLaw> divided_;  // laws in the step, of points that weaken
   Eigen::Index points_ = 0;
   Columns<Dim> normal_;         // of each point, out of the first body
   Columns<Dim> slip_;           // [m] of the latest forces

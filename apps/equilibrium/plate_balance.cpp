@@ -59,7 +59,8 @@ Balance<Dim> balance_at(const PlatePoints<Dim>& points, const Motion<Dim>& motio
     const fpm::Vector<Dim> gap = interface.faces.gap(
         static_cast<fpm::Index>(c), points.displacement, fpm::Vector<Dim>(modes * motion));
     const auto response = constitutive::interface_response<Dim>(
-        points.law, interface.stiffness[c], fpm::Vector<Dim>(points.normal.col(c)),
+        interface.weakens_at(static_cast<fpm::Index>(c)) ? points.divided : interface.law,
+        interface.stiffness[c], fpm::Vector<Dim>(points.normal.col(c)),
         fpm::Vector<Dim>(interface.initial_traction.row(c).transpose()), gap,
         fpm::Vector<Dim>(points.slip.col(c)));
     const double weight = interface.faces.points.weight[c];

@@ -10,7 +10,7 @@ namespace equilibrium {
 template <int Dim>
 struct PlatePoints {
   const model::Interface<Dim>& interface;
-  const constitutive::InterfaceLaw& law;  // its own, or that divided
+  const constitutive::InterfaceLaw& divided;  // its law where it is weakened
   Eigen::Ref<const Eigen::Matrix<double, Dim, Eigen::Dynamic>> normal;
   Eigen::Ref<const Eigen::Matrix<double, Dim, Eigen::Dynamic>> slip;  // [m] at the step's start
   const fpm::Field<Dim>& displacement;                                // [m] of the body

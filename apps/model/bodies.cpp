@@ -40,7 +40,7 @@ void part_into_bodies(const scene::Scene& scene, Model<Dim>& model) {
     return body;
   };
   model.particles.body = parted({});
-  note_thin_layers(scene, bodies_with(scene, model, {}, 1), model);
+  note_thin_layers(scene, bodies_with(scene, model, {}, 1), fewest_across, model);
   if constexpr (Dim == 2) join_thin_tips(scene, parted, model);
 }
 

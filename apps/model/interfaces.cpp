@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -45,13 +47,22 @@ constitutive::InterfaceLaw law_of(const scene::Contact& contact) {
   return law;
 }
 
+// The law of a tied face, and of its adhesion what is of materials whose strength is divided, and
+// what is of others.
+struct TiedLaw {
+  constitutive::InterfaceLaw law{};
+  double divided = std::numeric_limits<double>::infinity();  // [Pa]
+  double kept = std::numeric_limits<double>::infinity();     // [Pa]
+};
+
 // Clay that is tied bears no more along its face than its cohesion. Rows that end there would smear
 // the slip over a spacing instead, and a layer that is squeezed would bear more
 // (share/doc/decisions/interfaces.md). Slip along soil with friction dilates, which a face does
 // not; in finite strain slips would outgrow the spacing, and points keep their partners.
-constitutive::InterfaceLaw law_of_tied(const scene::Scene& scene, const Pair& materials,
-                                       std::span<const double> place) {
-  constitutive::InterfaceLaw law;
+TiedLaw law_of_tied(const scene::Scene& scene, const Pair& materials,
+                    std::span<const double> place) {
+  TiedLaw tied;
+  constitutive::InterfaceLaw& law = tied.law;
   const bool slips = scene.approximation.kinematics == scene::KinematicsKind::small_strain;
   for (const fpm::Index m : {materials.first, materials.second}) {
     const scene::Material& material = scene.material[static_cast<std::size_t>(m)];
@@ -62,11 +73,13 @@ constitutive::InterfaceLaw law_of_tied(const scene::Scene& scene, const Pair& ma
     const bool changes =
         std::isfinite(p.residual_strain) || !scene::model_of(material).is_cohesive();
     if (p.friction_angle > 0.0 || changes || !slips) continue;
-    law.adhesion = law.tied ? p.cohesion : std::min(law.adhesion, p.cohesion);
+    double& adhesion = scene::is_weakened(scene, material.name) ? tied.divided : tied.kept;
+    adhesion = std::min(adhesion, p.cohesion);
+    law.adhesion = std::min(tied.divided, tied.kept);
     law.tied = false;
     law.tension = true;
   }
-  return law;
+  return tied;
 }
 
 // The part of some faces that `chosen` holds.
@@ -109,6 +122,20 @@ fpm::Vector<Dim> initial_traction(const scene::Scene& scene, const Model<Dim>& m
 }
 
 template <int Dim>
+void mark_weakened(const scene::Scene& scene, const Model<Dim>& model,
+                   const fpm::CommonFaces<Dim>& faces, Interface<Dim>& interface) {
+  interface.divided_adhesion = interface.law.adhesion;
+  if (!scene::reduces_strength(scene)) return;
+  const auto is_weakened = [&](fpm::Index a) {
+    return scene::is_weakened(scene, material_of(scene, model, a).name);
+  };
+  for (std::size_t c = 0; c < faces.first.size(); ++c) {
+    const bool second = !faces.second.empty() && is_weakened(faces.second[c]);
+    interface.weakens.push_back(second || is_weakened(faces.first[c]) ? 1 : 0);
+  }
+}
+
+template <int Dim>
 Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
                             const fpm::CommonFaces<Dim>& faces, const scene::Contact& contact,
                             const constitutive::InterfaceLaw& law) {
@@ -121,12 +148,7 @@ Interface<Dim> interface_at(const scene::Scene& scene, const Model<Dim>& model,
   };
   interface.faces.first = operator_of(faces.first);
   if (!faces.second.empty()) interface.faces.second = operator_of(faces.second);
-  const auto is_weakened = [&](fpm::Index a) {
-    return scene::is_weakened(scene, material_of(scene, model, a).name);
-  };
-  interface.weakens =
-      scene::reduces_strength(scene) && (std::ranges::any_of(faces.first, is_weakened) ||
-                                         std::ranges::any_of(faces.second, is_weakened));
+  mark_weakened(scene, model, faces, interface);
   const Eigen::Index count = faces.points.weight.size();
   interface.stiffness.resize(count);
   interface.initial_traction.resize(count, Dim);
@@ -197,24 +219,32 @@ void add_between_materials(const scene::Scene& scene, Model<Dim>& model) {
   const auto law_at = [&](Eigen::Index c) {
     const scene::Interface rule = rule_of(pair_of(c));
     const fpm::Vector<Dim> place = faces.points.position.row(c).transpose();
-    return rule.kind == scene::InterfaceKind::contact
-               ? law_of(rule.contact)
-               : law_of_tied(scene, pair_of(c), {place.data(), Dim});
+    if (rule.kind != scene::InterfaceKind::contact) {
+      return law_of_tied(scene, pair_of(c), {place.data(), Dim});
+    }
+    TiedLaw contact{law_of(rule.contact)};
+    contact.divided = contact.law.adhesion;
+    return contact;
   };
   // What two materials bear along their faces is one law, unless it changes from place to place.
-  std::map<std::pair<Pair, double>, Eigen::Index> first_of;
-  std::vector<std::pair<Pair, double>> group(static_cast<std::size_t>(faces.points.weight.size()));
+  using Group = std::tuple<Pair, double, double>;
+  std::map<Group, Eigen::Index> first_of;
+  std::vector<Group> group;
   for (Eigen::Index c = 0; c < faces.points.weight.size(); ++c) {
-    group[static_cast<std::size_t>(c)] = {pair_of(c), law_at(c).adhesion};
-    first_of.try_emplace(group[static_cast<std::size_t>(c)], c);
+    const TiedLaw law = law_at(c);
+    group.emplace_back(pair_of(c), law.divided, law.kept);
+    first_of.try_emplace(group.back(), c);
   }
   for (const auto& entry : first_of) {
     const auto part = part_of<Dim>(
         faces, [&](Eigen::Index c) { return group[static_cast<std::size_t>(c)] == entry.first; });
-    const auto [one, other] = entry.first.first;
+    const auto [one, other] = std::get<Pair>(entry.first);
+    const TiedLaw law = law_at(entry.second);
     try {
       model.interfaces.push_back(
-          interface_at(scene, model, part, rule_of({one, other}).contact, law_at(entry.second)));
+          interface_at(scene, model, part, rule_of({one, other}).contact, law.law));
+      model.interfaces.back().divided_adhesion = law.divided;
+      model.interfaces.back().kept_adhesion = law.kept;
     } catch (const fpm::PoorNeighbourhood& poor) {
       throw fpm::PoorNeighbourhood(
           fmt::format("interface between \"{}\" and \"{}\": {}",

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -82,13 +83,20 @@ struct Interface {
   std::string support;              // whose the rigid body is; empty: a drive's, or none
   std::string of_drive;             // whose plate it is; empty: none
   std::optional<Plate<Dim>> plate;  // a rigid body that is not driven in every way
-  bool weakens = false;             // divided is its strength, too, when that of materials is
+  // Where strength is divided: of each point, whether its own is, too; empty: of none. Of tied clay
+  // the cohesion of the side that is weakened is, and that of another one is kept.
+  std::vector<char> weakens;
+  double divided_adhesion = 0.0;                                   // [Pa]
+  double kept_adhesion = std::numeric_limits<double>::infinity();  // [Pa]
 
   // Whether these points, not those of a finer rule, are the body's boundary to the consistency
   // correction, so that what they bear is what a constant stress asks of them.
   bool is_boundary = false;
 
   bool is_rigid() const { return faces.second.size() == 0; }
+  bool weakens_at(fpm::Index point) const {
+    return !weakens.empty() && weakens[static_cast<std::size_t>(point)] != 0;
+  }
 };
 
 /// A law whose strength is divided as a run goes on.

@@ -111,6 +111,8 @@ class Run {
     if (start.history.empty() && !scene_.stage.empty()) begin_stage();
     if (request_.check_only) return check(start);
     if (stepper_->finished() && stages_.is_last()) return say_finished(start, folder);
+    // What a stage to come is refused for is said before it is too late.
+    if (!scene_.interface.empty()) static_cast<void>(joined_in_later_stages(start));
     if (no_folder) std::rethrow_exception(no_folder);
 
     if (!folder) folder.emplace(request_.directory, system_);
@@ -157,6 +159,8 @@ class Run {
     }
     draw(parts);
     for (const std::string& note : joined_notes(scene_, model)) err_ << "warning: " << note << '\n';
+    for (const std::string& note : joined_in_later_stages(start))
+      err_ << "warning: " << note << '\n';
     for (const std::string& note : lateral_notes(scene_, model))
       err_ << "warning: " << note << '\n';
     for (const std::string& warning : start.warnings) err_ << "warning: " << warning << '\n';
@@ -164,6 +168,24 @@ class Run {
     for (const scene::SceneChange& change : start.changes)
       out_ << "changed: " << change.text() << '\n';
     return program::ExitCode::done;
+  }
+
+  /// What is not said of the ground as it is, of that which stages to come make of it.
+  /// @throws model::Refusal of a stage whose ground cannot be
+  std::vector<std::string> joined_in_later_stages(const RunStart<Dim>& start) const {
+    std::vector<std::string> notes;
+    if (!scene::changes_ground(scene_)) return notes;
+    std::vector<std::string> said = joined_notes(scene_, stages_.model());
+    const auto next = static_cast<std::size_t>(start.state.programme.stage) + 1;
+    for (std::size_t stage = next; stage < scene::stage_count(scene_); ++stage) {
+      const auto later = model::build_model<Dim>(scene::scene_of_stage(scene_, stage));
+      for (const std::string& note : joined_notes(scene_, later)) {
+        if (std::ranges::count(said, note) > 0) continue;
+        said.push_back(note);
+        notes.push_back(fmt::format("{}: {}", scene::stage_title(scene_, stage), note));
+      }
+    }
+    return notes;
   }
 
   void draw(const std::vector<model::MemoryPart>& parts) const {

@@ -156,6 +156,7 @@ class SolidDrawing {
   void add_ends(Tile end) {
     const double z = end.middle.z();
     end.middle.setConstant(std::numeric_limits<double>::infinity());  // in no range
+    end.particle = -1;
     for (std::size_t r = 0; r < scene_.region.size(); ++r) {
       const scene::Region& region = scene_.region[r];
       if (!region.present) continue;

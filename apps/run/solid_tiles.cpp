@@ -13,6 +13,7 @@
 #include "scene/drives.hpp"
 #include "scene/element_body.hpp"
 #include "scene/names.hpp"
+#include "scene/outline_faces.hpp"
 #include "scene/scene.hpp"
 
 namespace run {
@@ -120,13 +121,17 @@ void add_sides(const scene::Scene& scene, std::vector<Condition>& conditions) {
   }
 }
 
+// Whether it is what sides of the outline are on a face of the box, and so shown already.
+bool is_of_sides(const scene::Scene& scene, const scene::Support& support) {
+  if (scene.side.empty() || !support.side) return false;
+  const scene::OutlineFaces faces(scene, scene::outer_pieces(scene));
+  return support.name == faces.name_of_holders(faces.holders_of(*support.side), *support.side);
+}
+
 void add_supports(const scene::Scene& scene, const model::Model<3>& model,
                   std::vector<Condition>& conditions) {
   for (const scene::Support& support : scene.support) {
-    const bool is_of_side = std::ranges::any_of(scene.side, [&](const scene::OutlineSide& side) {
-      return support.name.starts_with(side.name);
-    });
-    if (is_of_side) continue;
+    if (is_of_sides(scene, support)) continue;
     std::string text = "held in";
     for (const scene::Axis axis : support.directions) text += fmt::format(" {}", name_of(axis));
     if (support.side) {
@@ -144,6 +149,7 @@ void add_supports(const scene::Scene& scene, const model::Model<3>& model,
     } else {
       const auto is_of = [&model, from = support.region_min,
                           to = support.region_max](const Tile& tile) {
+        if (tile.particle < 0) return false;
         const auto at = model.particles.position.row(tile.particle);
         for (int axis = 0; axis < 3; ++axis) {
           const auto i = static_cast<std::size_t>(axis);

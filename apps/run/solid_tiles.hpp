@@ -18,7 +18,7 @@ namespace run {
 struct Tile {
   Eigen::Vector3d middle, outward;
   std::array<Eigen::Vector3d, 2> edges;  // [m]
-  Eigen::Index particle = 0;
+  Eigen::Index particle = 0;             // -1: of none
   int side = -1, face = -1;              // as of model::SurfacePiece
   std::vector<Eigen::Vector3d> corners;  // [m] where they are known, in place of the edges'
 };

@@ -270,7 +270,7 @@ void check_reduction(const Scene& scene, tables::Diagnosis& diagnosis) {
     return;
   }
   // Faces by contact are divided, too, whatever is beside them.
-  if (!any && !has_contact(scene) && diagnosis.good({"drive.weakened", "material"})) {
+  if (!any && !has_weakened_contact(scene) && diagnosis.good({"drive.weakened", "material"})) {
     diagnosis.error("drive.weakened", "no material of them has a strength",
                     "what is divided is cohesion and tan(phi)");
   }

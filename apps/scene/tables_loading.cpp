@@ -179,7 +179,8 @@ SceneTable drive() {
       .key("weakened", &Drive::weakened,
            {.need = tables::Need::optional,
             .doc = "strength, and stages with a reduction: names of the materials whose strength "
-                   "is divided, and with it that of the faces by contact that they have.",
+                   "is divided, and with it that of the faces by contact that they have, and the "
+                   "cohesion at which tied clay slides.",
             .absent = "all"})
       .build();
 }

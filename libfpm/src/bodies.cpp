@@ -48,8 +48,9 @@ class Union {
 };
 
 // Cells of bodies that are thinner than `thickness` where the cell is, across the face to another.
-template <int Dim>
-std::vector<char> thin_cells(const Cells<Dim>& cells, Union& bodies, Index thickness) {
+// @param same  whether two cells are of one body
+template <int Dim, class Same>
+std::vector<char> thin_cells(const Cells<Dim>& cells, const Same& same, Index thickness) {
   std::vector<char> thin(static_cast<std::size_t>(cells.size()), 0);
   for (Index a = 0; a < cells.size(); ++a) {
     for (int i = 0; i < Dim; ++i) {
@@ -57,7 +58,7 @@ std::vector<char> thin_cells(const Cells<Dim>& cells, Union& bodies, Index thick
       bool ends = false;  // at another body
       for (const bool upper : {false, true}) {
         Index b = cells.beside(a, i, upper);
-        while (along < thickness && b >= 0 && bodies.find(b) == bodies.find(a)) {
+        while (along < thickness && b >= 0 && same(a, b)) {
           ++along;
           b = cells.beside(b, i, upper);
         }
@@ -125,13 +126,31 @@ std::vector<Index> bodies_of(const Cells<Dim>& cells, const std::vector<Index>& 
   };
   cells.for_each_pair([&](Index a, Index b, int /*axis*/) { unite(a, b); });
   for (const auto& [a, b] : meeting) unite(a, b);
-  const std::vector<char> thick = of_any_thick(bodies, thin_cells(cells, bodies, thickness));
+  const auto same = [&](Index a, Index b) { return bodies.find(a) == bodies.find(b); };
+  const std::vector<char> thick = of_any_thick(bodies, thin_cells(cells, same, thickness));
   cells.for_each_pair([&](Index a, Index b, int /*axis*/) {
     if (thick[static_cast<std::size_t>(a)] == 0 || thick[static_cast<std::size_t>(b)] == 0) {
       bodies.unite(a, b);
     }
   });
   return numbers(bodies, cells.size());
+}
+
+template <int Dim>
+std::vector<bool> thin_bodies(const Cells<Dim>& cells, const std::vector<Index>& body,
+                              Index thickness) {
+  require_size("bodies", static_cast<Eigen::Index>(body.size()), cells.size());
+  const auto of = [&](Index a) {
+    return static_cast<std::size_t>(body[static_cast<std::size_t>(a)]);
+  };
+  const auto same = [&](Index a, Index b) { return of(a) == of(b); };
+  const std::vector<char> thin = thin_cells(cells, same, thickness);
+  std::vector<bool> bodies;
+  for (Index a = 0; a < cells.size(); ++a) {
+    if (of(a) >= bodies.size()) bodies.resize(of(a) + 1, true);
+    if (thin[static_cast<std::size_t>(a)] == 0) bodies[of(a)] = false;
+  }
+  return bodies;
 }
 
 template <int Dim>
@@ -164,6 +183,8 @@ CommonFaces<Dim> outer_faces(const Cells<Dim>& cells, const Face& face) {
   template std::vector<Index> bodies_of<Dim>(const Cells<Dim>&, const std::vector<Index>&,    \
                                              const std::function<bool(Index, Index)>&, Index, \
                                              const std::vector<std::pair<Index, Index>>&);    \
+  template std::vector<bool> thin_bodies<Dim>(const Cells<Dim>&, const std::vector<Index>&,   \
+                                              Index);                                         \
   template CommonFaces<Dim> common_faces<Dim>(const Cells<Dim>&, const std::vector<Index>&);  \
   template CommonFaces<Dim> outer_faces<Dim>(const Cells<Dim>&, const Face&);
 FPM_INSTANTIATE(2)

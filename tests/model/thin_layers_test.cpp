@@ -94,6 +94,48 @@ TEST(ThinLayers, HaveNoFaceThatTheSceneCouldAskFor) {
   }
 }
 
+// Two thick bodies beside a thin layer that meets both are one through it: it is what is thin.
+TEST(ThinLayers, AreNamedAndNotTheThickThatTheyJoin) {
+  const auto ground = [](const std::string& more) {
+    return two_materials +
+           "[[material]]\nname = \"other\"\nmodel = \"elastic\"\n"
+           "youngs_modulus = 1e6\npoissons_ratio = 0.3\n" +
+           R"(
+[geometry]
+spacing = 0.1
+[[region]]
+material = "other"
+outline = [[0, 0], [2, 0], [2, 1], [0, 1]]
+[[region]]
+material = "seam"
+outline = [[0, 1], [1, 1], [1, 1.1], [0, 1.1]]
+[[region]]
+material = "block"
+outline = [[0, 1.1], [1, 1.1], [1, 1], [2, 1], [2, 2], [0, 2]]
+[[side]]
+name = "base"
+kind = "fixed"
+along = [[0, 0], [2, 0]]
+[[side]]
+name = "rest"
+kind = "free"
+along = [[2, 0], [2, 2], [0, 2], [0, 0]]
+)" + more;
+  };
+  const Model<2> model = model_of(ground(""));
+  EXPECT_TRUE(model.particles.body.empty());
+  ASSERT_EQ(model.thin_layers.size(), 2U);
+  for (const ThinLayer<2>& thin : model.thin_layers) EXPECT_EQ(thin.layer, 1);
+  try {
+    static_cast<void>(
+        model_of(ground("[[interface]]\nbetween = [\"block\", \"other\"]\nkind = \"contact\"\n")));
+    ADD_FAILURE() << "it is not refused";
+  } catch (const InterfaceRefused& refusal) {
+    EXPECT_THAT(refusal.found, AllOf(HasSubstr("are of one body with a layer less than three"),
+                                     HasSubstr("\"block\""), HasSubstr("\"other\"")));
+  }
+}
+
 TEST(ThinLayers, OfABoxAndOfPrismsAreSaidAsWell) {
   const std::string box = "[geometry]\nmin = [0.0, 0.0]\nmax = [1.0, 1.0]\nspacing = 0.1\n" +
                           two_materials + "region_min = [0.0, 0.0]\nregion_max = [1.0, 0.1]\n" +

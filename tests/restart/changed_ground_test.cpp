@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 
 #include "faulty_system.hpp"
 #include "record/checkpoint_name.hpp"
@@ -163,6 +164,56 @@ TEST(StagesThatChangeTheGround, AreGoneOnWithBitByBitWithRowsSearchedAnew) {
   const support::TemporaryFolder folder;
   ASSERT_EQ(fpm_run_in(folder / "run", searched_ground).code, program::ExitCode::done);
   EXPECT_GT(column_sum_after(folder / "run", "researched_rows", 0), 0.0);
+}
+
+// A lift of one row, put down in the second stage, has no rows for the face that the scene gives
+// it.
+TEST(StagesThatChangeTheGround, AreRefusedBeforeTheRunBeginsWhereOneToComeCannotBe) {
+  std::string text = R"([geometry]
+spacing = 0.1
+[gravity]
+acceleration = [0, -10]
+[[region]]
+name = "ground"
+material = "soil"
+outline = [[0, 0], [2, 0], [2, 1], [0, 1]]
+[[region]]
+name = "lift"
+material = "fill"
+outline = [[0, 1], [2, 1], [2, 1.1], [0, 1.1]]
+[[interface]]
+between = ["soil", "fill"]
+kind = "contact"
+[[side]]
+name = "base"
+kind = "fixed"
+along = [[0, 0], [2, 0]]
+[[side]]
+name = "rest"
+kind = "free"
+along = [[2, 0], [2, 1.1], [0, 1.1], [0, 0]]
+[[stage]]
+name = "shake"
+kh = 0.01
+steps = 1
+[[stage]]
+name = "fill"
+place = ["lift"]
+steps = 1
+)";
+  for (const char* name : {"soil", "fill"}) {
+    text += std::string("[[material]]\nname = \"") + name +
+            "\"\nmodel = \"elastic\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3\ndensity = 2e3\n";
+  }
+  const support::TemporaryFolder folder;
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--check"}, std::vector<std::string>{}}) {
+    const Outcome outcome = fpm_run_in(folder / "run", text, arguments);
+    EXPECT_EQ(outcome.code, program::ExitCode::input_refused);
+    EXPECT_THAT(outcome.err,
+                ::testing::HasSubstr("interface.0.kind: \"fill\" is less than three particles"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "run"));
+  }
 }
 
 }  // namespace

@@ -32,6 +32,13 @@ std::vector<Index> bodies_of(const std::vector<Index>& label,
                              const std::vector<std::pair<Index, Index>>& meeting,
                              const std::function<bool(Index, Index)>& joined);
 
+/// Of each body, whether it is so thin that `bodies_of` joins it to its neighbours.
+/// @param body  of each particle, numbered from 0
+/// @throws ShapeError if there is not one body per particle.
+template <int Dim>
+std::vector<bool> thin_bodies(const Cells<Dim>& cells, const std::vector<Index>& body,
+                              Index thickness);
+
 /// Points where two bodies meet, one per particle and face: more of them than particles would lock
 /// a body that flows.
 template <int Dim>
